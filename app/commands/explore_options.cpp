@@ -53,7 +53,7 @@ void add_explore_options(Command& command, ExploreOptions& options) {
     command
         .option("--context", options.context,
                 "GL context: glfw (a window), or egl if a headset is the only display")
-        .one_of({"glfw", "egl", "osmesa"});
+        .one_of({"glfw", "egl"});
     command.option("--stereo", options.stereo, "Stereo mode to start in")
         .one_of(stereo_mode_names());
     command.option("--quality", options.quality, "auto, fast, quality or paper")

@@ -23,6 +23,8 @@ namespace {
 constexpr float kWandLength = 1.2f;             // meters
 constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
 constexpr float kToolLine = 2.0f;               ///< [pixel]
+/// Depth of what no cell hides: the first of it hides what is drawn after it.
+constexpr double kOverCells = 1e-6;
 constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kBoxOnLight(0.25f, 0.28f, 0.32f, 0.8f);
 constexpr glm::vec4 kWandColor(1.0f, 0.77f, 0.36f, 0.9f);
@@ -157,14 +159,6 @@ std::optional<glm::vec4> Scene::cut_in(const interaction::Similarity& room_from_
 }
 
 /// Drawn over the cells, so that viewers who stand among them can read it with both eyes.
-void Scene::draw_panel(const render::View& view) {
-    if (!panel_)
-        return;
-    gl_.DepthRange(0.0, 0.0); // nearer than all else
-    panel_pass_.draw(view, panel_->quad);
-    gl_.DepthRange(0.0, 1.0);
-}
-
 /// Drawn over the cells, as distances are measured through them.
 void Scene::draw_tools(const render::View& view,
                        const interaction::Similarity& room_from_physical) {
@@ -176,7 +170,7 @@ void Scene::draw_tools(const render::View& view,
     std::vector<render::Line> lines;
     for (const interaction::ToolLine& line : tools_.lines)
         lines.push_back({in_room(line.from), in_room(line.to), line.color});
-    gl_.DepthRange(0.0, 0.0); // nearer than all else
+    gl_.DepthRange(kOverCells, kOverCells);
     line_pass_.draw(view, glm::mat4(1.0f), lines, kToolLine);
     gl_.DepthRange(0.0, 1.0);
     std::vector<render::ScreenQuad> quads;
@@ -249,7 +243,7 @@ std::size_t Scene::draw(std::span<const render::View> views,
         draw_among_cells(views, placement, room_from_physical, wand);
     draw_before_cells(views, placement);
     for (const render::View& view : views)
-        draw_over_cells(view, room_from_physical);
+        draw_over_cells(view, room_from_physical, wand);
     return done;
 }
 
@@ -326,8 +320,13 @@ void Scene::draw_guides(const render::View& view, const interaction::Similarity&
                         const std::optional<interaction::Pose>& wand) {
     if (!guides_.empty())
         line_pass_.draw(view, glm::mat4(1.0f), guides_);
-    if (wand)
+    if (wand && !points_at_panel())
         draw_ray(view, room_from_physical, *wand);
+}
+
+/// Whether the wand's ray ends on the panel: then it is before all that the panel is before.
+bool Scene::points_at_panel() const {
+    return panel_ && panel_->ray && !pointed_;
 }
 
 void Scene::draw_ray(const render::View& view, const interaction::Similarity& room_from_physical,
@@ -352,8 +351,16 @@ void Scene::draw_aids(const render::View& view, const interaction::Similarity& r
 }
 
 void Scene::draw_over_cells(const render::View& view,
-                            const interaction::Similarity& room_from_physical) {
-    draw_panel(view);
+                            const interaction::Similarity& room_from_physical,
+                            const std::optional<interaction::Pose>& wand) {
+    if (panel_) {
+        gl_.DepthRange(kOverCells, kOverCells);
+        panel_pass_.draw(view, panel_->quad);
+        gl_.DepthRange(0.0, 0.0); // before the panel
+        if (wand && points_at_panel())
+            draw_ray(view, room_from_physical, *wand);
+        gl_.DepthRange(0.0, 1.0);
+    }
     draw_tools(view, room_from_physical);
     if (mark_.point)
         draw_mark(view, room_from_physical);

@@ -159,13 +159,14 @@ class Scene {
                      const std::optional<interaction::Pose>& wand);
     render::Line wand_ray(const interaction::Similarity& room_from_physical,
                           const interaction::Pose& wand) const;
+    bool points_at_panel() const;
     void draw_over_cells(const render::View& view,
-                         const interaction::Similarity& room_from_physical);
+                         const interaction::Similarity& room_from_physical,
+                         const std::optional<interaction::Pose>& wand);
     glm::vec3 head_of(const render::View& view) const;
     void draw_mark(const render::View& view, const interaction::Similarity& room_from_physical);
     void draw_pointed(const render::View& view, const interaction::Similarity& room_from_physical);
     std::optional<glm::vec4> cut_in(const interaction::Similarity& room_from_physical) const;
-    void draw_panel(const render::View& view);
     void draw_tools(const render::View& view, const interaction::Similarity& room_from_physical);
     void draw_orientation(const render::View& view,
                           const interaction::Similarity& room_from_physical);

@@ -85,7 +85,7 @@ TEST_F(Installed, HasAManualPageAndCompletionsForEachCommand) {
     EXPECT_EQ(completed("isochron ver", 1), "verify\n");
     EXPECT_EQ(completed("isochron generate sp", 2), "sphere\n");
     EXPECT_EQ(completed("isochron build --app", 2), "--append\n");
-    EXPECT_EQ(completed("isochron explore --context os", 3), "osmesa\n");
+    EXPECT_EQ(completed("isochron replay --context os", 3), "osmesa\n");
     EXPECT_EQ(completed("isochron build --out v", 3), "\n"); // a file: the shell's own names
 }
 

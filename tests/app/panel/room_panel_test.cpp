@@ -77,6 +77,27 @@ TEST_P(RoomPanelTest, EachEyeSeesItsPartsWhereTheGeometryPutsThem) {
     EXPECT_GT(middle[0], middle[1] + 10) << "it stands before the screen";
 }
 
+TEST_P(RoomPanelTest, TheRayThatPointsAtItIsSeenBeforeIt) {
+    Session session(panel_config(kWindow), file_, *context_);
+    const glm::vec2 pointed(0.4f, 0.3f);
+    settle(session, without_volume(), pointed);
+    const Pose wand = *wand_at(session, pointed).pose;
+    const glm::dvec3 end(in_room(session, pointed * PanelInRoom::kPixels));
+    for (const stereo::Eye eye : {stereo::Eye::left, stereo::Eye::right}) {
+        const Image image = session.outputs().display().read_eye(eye);
+        const PinholeEye pinhole(session.outputs().display().window().viewports.front().screen,
+                                 *head_at_rest(0).devices.front().pose, eye,
+                                 session.state().eye_separation, {image.width, image.height});
+        for (const double part : {0.8, 0.9, 0.95}) { // over the panel for both eyes
+            const auto pixel = pinhole.pixel_of(glm::mix(glm::dvec3(wand.position), end, part));
+            ASSERT_TRUE(pixel);
+            const std::uint8_t* color =
+                image.at(static_cast<int>(pixel->x), static_cast<int>(pixel->y));
+            EXPECT_GT(color[0], color[2] + 60) << "orange, at " << part;
+        }
+    }
+}
+
 TEST_P(RoomPanelTest, StaysReadableWhateverSurfaceIsNearer) {
     for (const Footprint footprint : {Footprint::quad, Footprint::gaussian, Footprint::surface}) {
         Config config = panel_config(kWindow);

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "index/cells/cell_entries.cpp"
 #include <hwy/foreach_target.h>
 
-#include <hwy/highway.h>
+#include "index/system/compress_inl.h"
 
 #include <algorithm>
 #include <cassert>
@@ -14,8 +14,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 using Extremes = ChunkRanks::Extremes;
 
@@ -85,8 +83,8 @@ class Writer {
 
     HWY_INLINE void add(M chosen, V row, V column, V id) {
         const V key = hn::Or(hn::ShiftLeft<8>(row), column);
-        hn::CompressStore(key, chosen, kD, keys_ + count_);
-        count_ += static_cast<std::uint32_t>(hn::CompressStore(id, chosen, kD, ids_ + count_));
+        store_chosen(kD, key, chosen, keys_ + count_);
+        count_ += static_cast<std::uint32_t>(store_chosen(kD, id, chosen, ids_ + count_));
         const V none = hn::Set(kD, 0xff);
         first_column_ = hn::Min(first_column_, hn::IfThenElse(chosen, column, none));
         first_row_ = hn::Min(first_row_, hn::IfThenElse(chosen, row, none));

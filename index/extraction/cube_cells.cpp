@@ -76,10 +76,8 @@ PlaceInChunk* write_places(const CubeRows& rows, PlaceInChunk* out) {
     const auto write_row = [&](std::size_t row) HWY_ATTR {
         for (std::size_t x = 0; x < kChunkEdge; x += hn::Lanes(d)) {
             const auto first = static_cast<std::uint32_t>(row * kChunkEdge + x);
-            // LoadMaskBits reads eight bytes.
             const std::uint64_t part = rows[row] >> x & ((1u << hn::Lanes(d)) - 1);
-            const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&part));
-            hn::StoreU(hn::TruncateTo(half, hn::Compress(hn::Iota(d, first), mask)), half, out);
+            hn::StoreU(hn::TruncateTo(half, compress(d, hn::Iota(d, first), part)), half, out);
             out += hwy::PopCount(part);
         }
     };

@@ -57,6 +57,22 @@ class Candidates {
                 f(static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
     }
 
+    /// Calls `expect(brick)`, and `f(brick)` when the next `kAhead` candidates are expected, too:
+    /// that gives its data time to come from memory.
+    template <std::size_t kAhead, class Expect, class F>
+    HWY_INLINE void for_each_ahead(const Expect& expect, const F& f) const {
+        std::array<std::uint32_t, kAhead> waiting{};
+        std::size_t found = 0;
+        for_each([&](std::uint32_t brick) HWY_ATTR {
+            expect(brick);
+            if (found >= kAhead)
+                f(waiting[found % kAhead]);
+            waiting[found++ % kAhead] = brick;
+        });
+        for (std::size_t i = found - std::min(found, kAhead); i < found; ++i)
+            f(waiting[i % kAhead]);
+    }
+
   private:
     HWY_INLINE std::uint64_t whole_word(const std::uint8_t* low, const std::uint8_t* high) const {
         const hn::CappedTag<std::uint8_t, kWordBits> d;

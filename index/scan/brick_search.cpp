@@ -13,6 +13,8 @@
 #define HWY_TARGET_INCLUDE "index/scan/brick_search.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 
+#include <hwy/cache_control.h>
+
 #include "index/scan/brick_candidates_inl.h"
 #include "index/scan/vertex_bits_inl.h"
 
@@ -127,6 +129,16 @@ class BrickSearch {
             finish();
     }
 
+    /// Fetches the vertices of a brick that will be tested soon.
+    void expect(std::uint32_t brick) const {
+        const At at = place_of(brick);
+        for (const std::size_t row : shape_at(at).rows) {
+            hwy::Prefetch(at.vertex + row);
+            if constexpr (kCells[0] * sizeof(T) >= 32)
+                hwy::Prefetch(at.vertex + row + kCells[0]);
+        }
+    }
+
     /// Number of cells of the bricks so far.
     std::uint64_t tested() const { return tested_; }
 
@@ -144,16 +156,35 @@ class BrickSearch {
 
     std::size_t plane() const { return std::size_t{vertices_[0]} * vertices_[1]; }
 
+    /// Where a brick lies.
+    struct At {
+        std::array<std::uint32_t, 3> brick;
+        const T* vertex; ///< its first
+    };
+
+    At place_of(std::uint32_t brick) const {
+        const std::uint32_t row = brick / bricks_[0];
+        const std::array<std::uint32_t, 3> at{brick % bricks_[0], row % bricks_[1],
+                                              row / bricks_[1]};
+        return {at, stored_.data() + at[2] * kCells[2] * plane() +
+                        std::size_t{at[1] * kCells[1]} * vertices_[0] + at[0] * kCells[0]};
+    }
+
+    const BrickShape& shape_at(const At& at) const {
+        std::size_t borders = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            borders |= (at.brick[axis] + 1 == bricks_[axis] ? 1u : 0u) << axis;
+        return shapes_[borders];
+    }
+
     void add(std::uint32_t brick) {
         const std::size_t slot = batch_.size++;
-        const std::uint32_t row = brick / bricks_[0];
-        const std::uint32_t bx = brick % bricks_[0], by = row % bricks_[1], bz = row / bricks_[1];
-        const std::uint32_t x = bx * kCells[0], y = by * kCells[1], z = bz * kCells[2];
-        const T* s = stored_.data() + z * plane() + std::size_t{y} * vertices_[0] + x;
-        const BrickShape& shape =
-            shapes_[(bx + 1 == bricks_[0] ? 1u : 0u) | (by + 1 == bricks_[1] ? 2u : 0u) |
-                    (bz + 1 == bricks_[2] ? 4u : 0u)];
-        batch_.first[slot] = static_cast<CellId>((z * cells_[1] + y) * cells_[0] + x);
+        const At at = place_of(brick);
+        const T* const s = at.vertex;
+        const BrickShape& shape = shape_at(at);
+        batch_.first[slot] = static_cast<CellId>(
+            (at.brick[2] * kCells[2] * cells_[1] + at.brick[1] * kCells[1]) * cells_[0] +
+            at.brick[0] * kCells[0]);
         batch_.allowed[slot] = shape.cells;
         tested_ += shape.size[0] * shape.size[1] * shape.size[2];
         const auto left = static_cast<std::size_t>(stored_.data() + stored_.size() - s);
@@ -256,7 +287,8 @@ std::optional<std::uint64_t> search_step(const StepValues& values,
         return std::nullopt;
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
-        candidates.for_each([&](std::uint32_t brick) HWY_ATTR { search.test(brick); });
+        candidates.for_each_ahead<4>([&](std::uint32_t brick) HWY_ATTR { search.expect(brick); },
+                                     [&](std::uint32_t brick) HWY_ATTR { search.test(brick); });
         search.finish();
         return search.tested();
     });

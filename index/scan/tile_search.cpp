@@ -232,7 +232,7 @@ class TileSearch {
             const auto pair = hn::PromoteTo(d, hn::LoadU(half, bits + i));
             const auto number = hn::ShiftLeft<16>(hn::Iota(d, static_cast<std::uint32_t>(i)));
             const auto some = hn::Ne(pair, hn::Zero(d));
-            hn::StoreU(hn::Compress(hn::Or(pair, number), some), d, pairs.data() + count);
+            hn::StoreU(compress(d, hn::Or(pair, number), some), d, pairs.data() + count);
             count += hn::CountTrue(d, some);
         }
         return count;
@@ -275,18 +275,8 @@ std::uint64_t search_tiles(const StepValues& values, std::span<const std::uint8_
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         TileSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), tiles,
                              out);
-        // Some bricks wait until their tiles have come from memory.
-        constexpr std::size_t kWaiting = 16;
-        std::array<std::uint32_t, kWaiting> waiting{};
-        std::size_t found = 0;
-        candidates.for_each([&](std::uint32_t brick) HWY_ATTR {
-            search.expect(brick);
-            if (found >= kWaiting)
-                search.test(waiting[found % kWaiting]);
-            waiting[found++ % kWaiting] = brick;
-        });
-        for (std::size_t i = found - std::min(found, kWaiting); i < found; ++i)
-            search.test(waiting[i % kWaiting]);
+        candidates.for_each_ahead<16>([&](std::uint32_t brick) HWY_ATTR { search.expect(brick); },
+                                      [&](std::uint32_t brick) HWY_ATTR { search.test(brick); });
         search.finish();
         return search.tested();
     });

@@ -1,5 +1,6 @@
 // Finds the vertices at or above a cut, and writes cells, by bits, 64 in a word; compiled once for
 // each SIMD target.
+#include "index/system/compress_inl.h"
 #include "index/volume/grid.h"
 
 #include <hwy/highway.h>
@@ -114,10 +115,8 @@ template <class Cells>
 HWY_INLINE CellId* write_cells(CellId* at, std::uint16_t bits, Cells&& cells) {
     const hn::CappedTag<CellId, 16> d;
     for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-        // LoadMaskBits reads eight bytes.
         const std::uint64_t part = bits >> i & ((1u << hn::Lanes(d)) - 1);
-        const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&part));
-        hn::StoreU(hn::Compress(cells(i), mask), d, at);
+        hn::StoreU(compress(d, cells(i), part), d, at);
         at += hwy::PopCount(part);
     }
     return at;

@@ -79,8 +79,10 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
 }
 
 TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
-    if (noting_.description().find("llvmpipe") == std::string::npos)
-        GTEST_SKIP() << "another driver draws: " << noting_.description();
+    // zink, which draws by Vulkan on the same llvmpipe, compiles for itself.
+    const std::string driver = noting_.description();
+    if (driver.find("llvmpipe") == std::string::npos || driver.find("zink") != std::string::npos)
+        GTEST_SKIP() << "another driver draws: " << driver;
     MovingSphere series(6, 33); // unlike the small surface of the warm-up, of no power of two
     build_index(series, folder_.path() / "odd.isochron", {});
     const auto file = index::IndexFile::open(folder_.path() / "odd.isochron");

@@ -41,8 +41,8 @@ HWY_INLINE hn::Vec<D> compress(D d, hn::Vec<D> lanes, std::uint64_t bits) {
     const auto packed = hn::Set(numbers, static_cast<std::int32_t>(kChosenOfEight[bits]));
     const auto shift = hn::ShiftLeft<2>(hn::Iota(numbers, 0));
     const hn::RebindToUnsigned<D> words;
-    const auto number = hn::And(hn::Shr(hn::BitCast(words, packed), hn::BitCast(words, shift)),
-                                hn::Set(words, 7));
+    const auto number =
+        hn::And(hn::Shr(hn::BitCast(words, packed), hn::BitCast(words, shift)), hn::Set(words, 7));
     return hn::TableLookupLanes(lanes, hn::IndicesFromVec(d, number));
 }
 

@@ -79,10 +79,10 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
 }
 
 TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
-    // zink, which draws by Vulkan on the same llvmpipe, compiles for itself.
+    // Others compile where nobody can count it; zink, by Vulkan on the same llvmpipe, for itself.
     const std::string driver = noting_.description();
-    if (driver.find("llvmpipe") == std::string::npos || driver.find("zink") != std::string::npos)
-        GTEST_SKIP() << "another driver draws: " << driver;
+    const bool counted =
+        driver.find("llvmpipe") != std::string::npos && driver.find("zink") == std::string::npos;
     MovingSphere series(6, 33); // unlike the small surface of the warm-up, of no power of two
     build_index(series, folder_.path() / "odd.isochron", {});
     const auto file = index::IndexFile::open(folder_.path() / "odd.isochron");
@@ -95,7 +95,7 @@ TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
         Session session(config, file, noting_);
         session.warm_up();
         const int warm = test_support::compilations();
-        EXPECT_GT(warm, 0);
+        EXPECT_TRUE(warm > 0 || !counted);
         int number = 0;
         const auto expect_shown = [&](interaction::Commands commands) {
             EXPECT_TRUE(test_support::eventually([&] {
@@ -116,7 +116,7 @@ TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
         commands.coloring->bands = 5;
         commands.step = 3;
         expect_shown(commands);
-        return test_support::compilations() - warm;
+        return counted ? test_support::compilations() - warm : 0;
     };
     compiled_after_warm_up(render::Footprint::gaussian); // what is not of cells is kept for later
     for (const render::Footprint footprint :

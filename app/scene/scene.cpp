@@ -158,7 +158,6 @@ std::optional<glm::vec4> Scene::cut_in(const interaction::Similarity& room_from_
     return glm::vec4(glm::dvec4(normal, -glm::dot(normal, at)));
 }
 
-/// Drawn over the cells, so that viewers who stand among them can read it with both eyes.
 /// Drawn over the cells, as distances are measured through them.
 void Scene::draw_tools(const render::View& view,
                        const interaction::Similarity& room_from_physical) {
@@ -350,6 +349,8 @@ void Scene::draw_aids(const render::View& view, const interaction::Similarity& r
     gl_.Disable(GL_SCISSOR_TEST);
 }
 
+/// What no cell hides. The panel is drawn over them so that viewers who stand among them can read it
+/// with both eyes.
 void Scene::draw_over_cells(const render::View& view,
                             const interaction::Similarity& room_from_physical,
                             const std::optional<interaction::Pose>& wand) {

@@ -30,10 +30,7 @@ HWY_INLINE std::uint64_t same(const Extremes& a, const Extremes& b, std::size_t 
         const auto equal = [&](std::span<const std::uint8_t> x, std::span<const std::uint8_t> y) {
             return hn::Eq(hn::LoadU(d, x.data() + i + at), hn::LoadU(d, y.data() + i + at));
         };
-        std::uint64_t bits = 0;
-        hn::StoreMaskBits(d, hn::And(equal(a.low, b.low), equal(a.high, b.high)),
-                          reinterpret_cast<std::uint8_t*>(&bits));
-        word |= bits << at;
+        word |= bits_of(d, hn::And(equal(a.low, b.low), equal(a.high, b.high))) << at;
     }
     return word;
 }
@@ -43,12 +40,9 @@ HWY_INLINE std::uint64_t active(const Extremes& extremes, std::size_t i) {
     const Bytes d;
     std::uint64_t word = 0;
     for (std::size_t at = 0; at < kWordBits; at += hn::Lanes(d)) {
-        std::uint64_t bits = 0;
-        hn::StoreMaskBits(d,
-                          hn::Lt(hn::LoadU(d, extremes.low.data() + i + at),
-                                 hn::LoadU(d, extremes.high.data() + i + at)),
-                          reinterpret_cast<std::uint8_t*>(&bits));
-        word |= bits << at;
+        word |= bits_of(d, hn::Lt(hn::LoadU(d, extremes.low.data() + i + at),
+                                  hn::LoadU(d, extremes.high.data() + i + at)))
+                << at;
     }
     return word;
 }

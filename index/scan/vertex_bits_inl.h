@@ -24,19 +24,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kWordBits = 64;
-
-/// A mask as bits, one for every lane, at most 64.
-template <class D, class Mask>
-HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
-    std::uint64_t bits = 0;
-    hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
-    return bits;
-}
 
 /// Sides of up to 64 neighboring vertices, and whether one of them is NaN.
 struct VertexBits {

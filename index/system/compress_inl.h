@@ -1,4 +1,4 @@
-// Moves the chosen lanes of a vector to its front; compiled once for each SIMD target.
+// Masks as bits, and the lanes that a mask chooses, in order; compiled once for each SIMD target.
 #include <hwy/highway.h>
 
 #include <array>
@@ -18,6 +18,14 @@ namespace isochron::index::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// A mask as bits, one for every lane, at most 64.
+template <class D, class Mask>
+HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
+    std::uint64_t bits = 0;
+    hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+    return bits;
+}
+
 #if HWY_TARGET == HWY_AVX2
 
 // Highway's own Compress has its tables in local variables, which g++ 12 copies to the stack in each
@@ -33,19 +41,6 @@ constexpr std::array<std::uint32_t, 256> kChosenOfEight = [] {
     return chosen;
 }();
 
-/// @param bits of the chosen lanes, of 32 bits each @return these lanes in order, and any after them
-template <class D>
-HWY_INLINE hn::Vec<D> compress(D d, hn::Vec<D> lanes, std::uint64_t bits) {
-    static_assert(hn::MaxLanes(d) == 8 && sizeof(hn::TFromD<D>) == 4);
-    const hn::RebindToSigned<D> numbers;
-    const auto packed = hn::Set(numbers, static_cast<std::int32_t>(kChosenOfEight[bits]));
-    const auto shift = hn::ShiftLeft<2>(hn::Iota(numbers, 0));
-    const hn::RebindToUnsigned<D> words;
-    const auto number =
-        hn::And(hn::Shr(hn::BitCast(words, packed), hn::BitCast(words, shift)), hn::Set(words, 7));
-    return hn::TableLookupLanes(lanes, hn::IndicesFromVec(d, number));
-}
-
 /// The same for lanes of 16 bits, as numbers of bytes.
 constexpr std::array<std::array<std::uint8_t, 16>, 256> kBytesOfEight = [] {
     std::array<std::array<std::uint8_t, 16>, 256> chosen{};
@@ -56,24 +51,41 @@ constexpr std::array<std::array<std::uint8_t, 16>, 256> kBytesOfEight = [] {
     return chosen;
 }();
 
+#endif
+
+/// @param bits of the chosen lanes, of 32 bits each @return these lanes in order, and any after them
 template <class D>
-HWY_INLINE std::uint64_t bits_of_lanes(D d, hn::Mask<D> chosen) {
-    std::uint64_t bits = 0;
-    hn::StoreMaskBits(d, chosen, reinterpret_cast<std::uint8_t*>(&bits));
-    return bits;
+HWY_INLINE hn::Vec<D> compress(D d, hn::Vec<D> lanes, std::uint64_t bits) {
+#if HWY_TARGET == HWY_AVX2
+    static_assert(hn::MaxLanes(d) == 8 && sizeof(hn::TFromD<D>) == 4);
+    const hn::RebindToUnsigned<D> words;
+    const auto packed = hn::Set(words, kChosenOfEight[bits]);
+    const auto shift = hn::ShiftLeft<2>(hn::Iota(words, 0));
+    const auto number = hn::And(hn::Shr(packed, shift), hn::Set(words, 7));
+    return hn::TableLookupLanes(lanes, hn::IndicesFromVec(d, number));
+#else
+    // LoadMaskBits reads eight bytes.
+    return hn::Compress(lanes, hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&bits)));
+#endif
 }
 
 template <class D>
 HWY_INLINE hn::Vec<D> compress(D d, hn::Vec<D> lanes, hn::Mask<D> chosen) {
-    return compress(d, lanes, bits_of_lanes(d, chosen));
+#if HWY_TARGET == HWY_AVX2
+    return compress(d, lanes, bits_of(d, chosen));
+#else
+    (void)d;
+    return hn::Compress(lanes, chosen);
+#endif
 }
 
 /// Stores the chosen lanes, of 16 bits each, in order, and any after them up to a vector.
 /// @return how many were chosen
 template <class D>
 HWY_INLINE std::size_t store_chosen(D d, hn::Vec<D> lanes, hn::Mask<D> chosen, std::uint16_t* to) {
+#if HWY_TARGET == HWY_AVX2
     static_assert(hn::MaxLanes(d) == 16 && sizeof(hn::TFromD<D>) == 2);
-    const std::uint64_t bits = bits_of_lanes(d, chosen);
+    const std::uint64_t bits = bits_of(d, chosen);
     const hn::Half<D> half;
     const hn::Repartition<std::uint8_t, hn::Half<D>> bytes;
     const auto store = [&](hn::Vec<hn::Half<D>> eight, std::uint64_t of_eight, std::uint16_t* at)
@@ -85,30 +97,10 @@ HWY_INLINE std::size_t store_chosen(D d, hn::Vec<D> lanes, hn::Mask<D> chosen, s
     store(hn::LowerHalf(half, lanes), bits & 255, to);
     store(hn::UpperHalf(half, lanes), bits >> 8, to + hwy::PopCount(bits & 255));
     return hwy::PopCount(bits);
-}
-
 #else
-
-/// Stores the chosen lanes, of 16 bits each, in order, and any after them up to a vector.
-/// @return how many were chosen
-template <class D>
-HWY_INLINE std::size_t store_chosen(D d, hn::Vec<D> lanes, hn::Mask<D> chosen, std::uint16_t* to) {
     return hn::CompressStore(lanes, chosen, d, to);
-}
-
-template <class D>
-HWY_INLINE hn::Vec<D> compress(D, hn::Vec<D> lanes, hn::Mask<D> chosen) {
-    return hn::Compress(lanes, chosen);
-}
-
-/// @param bits of the chosen lanes, of 32 bits each @return these lanes in order, and any after them
-template <class D>
-HWY_INLINE hn::Vec<D> compress(D d, hn::Vec<D> lanes, std::uint64_t bits) {
-    // LoadMaskBits reads eight bytes.
-    return hn::Compress(lanes, hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&bits)));
-}
-
 #endif
+}
 
 } // namespace isochron::index::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -29,6 +29,11 @@ class SessionDetail : public SessionTest {
         config.still_budget_ms = 10'000;
         return config;
     }
+    /// As a session extracts, unless it is told otherwise.
+    index::Extract extract() const {
+        const render::Gl gl(context_->loader());
+        return index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    }
     /// A head at rest, or one that sways too slowly to be moving.
     FrameReport frame(Session& session, bool sways, const interaction::Commands& commands = {}) {
         interaction::InputState input = head_at_rest(frame_ / 60.0);

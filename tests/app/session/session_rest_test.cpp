@@ -50,13 +50,11 @@ index::ExtractionPtr with_cells(const index::Extract& extract, std::uint64_t mos
 TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
     Config config = config_with(1e-6);
     config.still_budget_ms = 1e-6; // a piece in each frame
-    const render::Gl gl(context_->loader());
     const auto second_picture = [&](bool in_the_midst) {
         std::atomic<bool> wait = true, found = false;
-        const index::Extract real =
-            index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
-        const index::Extract extract = [&](const index::SurfacesQuery& query,
-                                           std::stop_token stop) -> index::ExtractionPtr {
+        const index::Extract real = extract();
+        const index::Extract controlled = [&](const index::SurfacesQuery& query,
+                                              std::stop_token stop) -> index::ExtractionPtr {
             while (query.detail.at_rest && wait && !stop.stop_requested())
                 std::this_thread::yield();
             if (!query.detail.at_rest)
@@ -65,7 +63,7 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
             found = set != nullptr || found;
             return set;
         };
-        Session session(config, large_, *context_, extract);
+        Session session(config, large_, *context_, controlled);
         FrameReport report = first_frame(session, false);
         const auto made = [&] {
             return report.in_slices && report.cells > 0 && report.footprint == *report.in_slices;
@@ -183,13 +181,11 @@ TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
 }
 
 TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpectedToFit) {
-    const render::Gl gl(context_->loader());
-    const index::Extract real =
-        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
-    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+    const index::Extract real = extract();
+    const index::Extract controlled = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         return with_cells(real, query.detail.at_rest ? 0 : DetailChoice::kFewest, query, stop);
     };
-    Session session(config_with(20), large_, *context_, extract);
+    Session session(config_with(20), large_, *context_, controlled);
     session.share_frames(std::make_unique<KnownTimes>()); // of 14 ms for all
     FrameReport report = first_frame(session, false);
     std::uint64_t last = 0, far = 0; // cells that were drawn
@@ -208,9 +204,7 @@ TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpect
 TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
     Config config = config_with(1e-6);
     config.still_budget_ms = 2;
-    const render::Gl gl(context_->loader());
-    const index::Extract real =
-        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    const index::Extract real = extract();
     std::atomic<bool> all_found = false;
     Session session(config, large_, *context_,
                     [&](const index::SurfacesQuery& query, std::stop_token stop) {
@@ -239,14 +233,12 @@ TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheS
 }
 
 TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
-    const render::Gl gl(context_->loader());
-    const index::Extract real =
-        index::extract_from(large_, std::nullopt, render::CellBuffers::wanted_shading(gl));
+    const index::Extract real = extract();
     constexpr std::uint64_t kMany = 3 * kFew / 2;
     std::atomic<bool> stalls = false, hold = false, held = false, rest_waits = true;
     std::atomic<std::uint64_t> late = 0; // cells
     // One that has just been found when it is no longer wanted cannot be stopped.
-    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+    const index::Extract controlled = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         while (query.detail.at_rest && late > 0 && rest_waits && !stop.stop_requested())
             std::this_thread::yield();
         if (query.detail.at_rest || query.detail.most_cells >= kMany || !hold)
@@ -257,7 +249,7 @@ TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
         late = set->cells();
         return set;
     };
-    Session session(config_with(4), large_, *context_, extract);
+    Session session(config_with(4), large_, *context_, controlled);
     const auto let_go = [&] {
         hold = false;
         hold.notify_all();

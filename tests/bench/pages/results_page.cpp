@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace isochron::bench {
@@ -170,16 +172,15 @@ std::string series_table(std::span<const Row> rows, std::span<const ErrorDetail>
 std::string results_page(const Results& results, const ResultPaths& paths) {
     const Header& header = results.header;
     std::string command = paths.index;
-    if (!paths.render.empty())
-        command += " --render " + paths.render;
-    if (!paths.artifacts.empty())
-        command += " --artifacts " + paths.artifacts;
-    if (!paths.scale.empty())
-        command += " --scale " + paths.scale;
-    if (!paths.gpu.empty())
-        command += " --gpu " + paths.gpu;
-    if (!paths.agreement.empty())
-        command += " --agreement " + paths.agreement;
+    const std::initializer_list<std::pair<const char*, const std::string&>> options{
+        {" --render ", paths.render},
+        {" --artifacts ", paths.artifacts},
+        {" --scale ", paths.scale},
+        {" --gpu ", paths.gpu},
+        {" --agreement ", paths.agreement}};
+    for (const auto& [option, path] : options)
+        if (!path.empty())
+            command += option + path;
     std::string text = fmt::format("# The index, measured\n\nMade from `{}` by `./run bench "
                                    "results {}`; not to be edited. "
                                    "Measured on {} with commit {}, {}, on {}, {} threads.\n\n",

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 // Highway's guard: the file is read again for every target.
 #if defined(ISOCHRON_INDEX_BRICK_CANDIDATES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -57,17 +58,17 @@ class Candidates {
                 f(static_cast<std::uint32_t>(first + hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
     }
 
-    /// Calls `expect(brick)`, and `f(brick)` when the next `kAhead` candidates are expected, too:
-    /// that gives its data time to come from memory.
+    /// Calls `expect(brick)`, and `f` with what it returned when the next `kAhead` candidates are
+    /// expected, too: that gives a brick's data time to come from memory.
     template <std::size_t kAhead, class Expect, class F>
     HWY_INLINE void for_each_ahead(const Expect& expect, const F& f) const {
-        std::array<std::uint32_t, kAhead> waiting{};
+        std::array<std::invoke_result_t<const Expect&, std::uint32_t>, kAhead> waiting{};
         std::size_t found = 0;
         for_each([&](std::uint32_t brick) HWY_ATTR {
-            expect(brick);
+            const auto expected = expect(brick);
             if (found >= kAhead)
                 f(waiting[found % kAhead]);
-            waiting[found++ % kAhead] = brick;
+            waiting[found++ % kAhead] = expected;
         });
         for (std::size_t i = found - std::min(found, kAhead); i < found; ++i)
             f(waiting[i % kAhead]);

@@ -123,20 +123,27 @@ class BrickSearch {
         }
     }
 
-    void test(std::uint32_t brick) {
+    /// A brick, and where it lies.
+    struct At {
+        std::array<std::uint32_t, 3> brick;
+        const T* vertex; ///< its first
+    };
+
+    void test(const At& brick) {
         add(brick);
         if (batch_.size == kBatch)
             finish();
     }
 
     /// Fetches the vertices of a brick that will be tested soon.
-    void expect(std::uint32_t brick) const {
+    At expect(std::uint32_t brick) const {
         const At at = place_of(brick);
         for (const std::size_t row : shape_at(at).rows) {
             hwy::Prefetch(at.vertex + row);
             if constexpr (kCells[0] * sizeof(T) >= 32)
                 hwy::Prefetch(at.vertex + row + kCells[0]);
         }
+        return at;
     }
 
     /// Number of cells of the bricks so far.
@@ -156,12 +163,6 @@ class BrickSearch {
 
     std::size_t plane() const { return std::size_t{vertices_[0]} * vertices_[1]; }
 
-    /// Where a brick lies.
-    struct At {
-        std::array<std::uint32_t, 3> brick;
-        const T* vertex; ///< its first
-    };
-
     At place_of(std::uint32_t brick) const {
         const std::uint32_t row = brick / bricks_[0];
         const std::array<std::uint32_t, 3> at{brick % bricks_[0], row % bricks_[1],
@@ -177,9 +178,8 @@ class BrickSearch {
         return shapes_[borders];
     }
 
-    void add(std::uint32_t brick) {
+    void add(const At& at) {
         const std::size_t slot = batch_.size++;
-        const At at = place_of(brick);
         const T* const s = at.vertex;
         const BrickShape& shape = shape_at(at);
         batch_.first[slot] = static_cast<CellId>(
@@ -287,8 +287,9 @@ std::optional<std::uint64_t> search_step(const StepValues& values,
         return std::nullopt;
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
-        candidates.for_each_ahead<4>([&](std::uint32_t brick) HWY_ATTR { search.expect(brick); },
-                                     [&](std::uint32_t brick) HWY_ATTR { search.test(brick); });
+        candidates.for_each_ahead<4>([&](std::uint32_t brick)
+                                         HWY_ATTR { return search.expect(brick); },
+                                     [&](const auto& brick) HWY_ATTR { search.test(brick); });
         search.finish();
         return search.tested();
     });

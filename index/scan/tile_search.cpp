@@ -98,10 +98,11 @@ class TileSearch {
             finish();
     }
 
-    /// Fetches a tile that will be tested soon.
-    void expect(std::uint32_t brick) const {
+    /// Fetches a tile that will be tested soon. @return its brick
+    std::uint32_t expect(std::uint32_t brick) const {
         for (std::size_t line = 0; line < kTileBytes; line += 64)
             hwy::Prefetch(tiles_ + std::size_t{brick} * kTileBytes + line);
+        return brick;
     }
 
     /// Number of cells of the bricks so far.
@@ -275,7 +276,8 @@ std::uint64_t search_tiles(const StepValues& values, std::span<const std::uint8_
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         TileSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), tiles,
                              out);
-        candidates.for_each_ahead<16>([&](std::uint32_t brick) HWY_ATTR { search.expect(brick); },
+        candidates.for_each_ahead<16>([&](std::uint32_t brick)
+                                          HWY_ATTR { return search.expect(brick); },
                                       [&](std::uint32_t brick) HWY_ATTR { search.test(brick); });
         search.finish();
         return search.tested();

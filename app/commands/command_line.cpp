@@ -80,6 +80,7 @@ Option& Option::between(T low, T high) {
 template Option& Option::between(int, int);
 template Option& Option::between(unsigned, unsigned);
 template Option& Option::between(std::size_t, std::size_t);
+template Option& Option::between(double, double);
 
 Option& Option::one_of(const std::vector<std::string>& names) {
     return accepted_by(

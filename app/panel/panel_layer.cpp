@@ -25,7 +25,7 @@ namespace {
 using namespace interaction;
 
 /// Keys that ImGui's text fields and sliders understand, and our names of them.
-constexpr std::pair<ImGuiKey_, Key> kKeys[]{
+constexpr std::pair<int, Key> kKeys[]{
     {ImGuiKey_Tab, Key::tab},
     {ImGuiKey_LeftArrow, Key::left},
     {ImGuiKey_RightArrow, Key::right},

@@ -48,7 +48,9 @@ void add_font(ImFontAtlas& fonts, float pixels) {
     const std::string file = index::read_text(kFontFile, kMostBytes);
     void* owned = ImGui::MemAlloc(file.size());
     std::memcpy(owned, file.data(), file.size());
-    fonts.AddFontFromMemoryTTF(owned, static_cast<int>(file.size()), pixels, nullptr, kGlyphs);
+    ImFontConfig config;
+    config.OversampleH = 3; // whatever the version's own choice is
+    fonts.AddFontFromMemoryTTF(owned, static_cast<int>(file.size()), pixels, &config, kGlyphs);
 }
 
 render::GlyphAtlas room_font(float pixels) {

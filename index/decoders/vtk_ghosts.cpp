@@ -30,9 +30,9 @@ std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t 
         for (std::size_t i = 0; i < tuples; ++i) {
             const double flag = flags->GetTuple1(static_cast<vtkIdType>(i)); // of any type
             constexpr double kMost = 255;
-            hidden[i] |= levels
-                             ? flag != 0
-                             : flag > 0 && flag <= kMost && (static_cast<int>(flag) & hiding) != 0;
+            if (levels ? flag != 0
+                       : flag > 0 && flag <= kMost && (static_cast<int>(flag) & hiding) != 0)
+                hidden[i] = 1;
         }
     }
     return hidden;

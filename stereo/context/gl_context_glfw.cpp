@@ -43,7 +43,7 @@ class GlfwLibrary {
         glfw_complaint().clear();
         glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
         if (!glfwInit())
-            throw NoDisplay(fmt::format("no display to open a window on ({}); `isochron replay` "
+            throw NoDisplay(fmt::format("no display to open a window on, see DISPLAY ({}); `isochron replay` "
                                         "draws pictures of a recording without one",
                                         glfw_complaint()));
         watch_display();

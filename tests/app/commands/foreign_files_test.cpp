@@ -26,12 +26,19 @@ TEST_F(ForeignFiles, ThatAreDamagedCostOneLine) {
     int files = 0;
     for (const auto& entry : fs::directory_iterator(kData / "damaged")) {
         const ChildResult result = build(entry.path().string());
+        ++files;
+#ifdef ISOCHRON_NETCDF_SKIPS_HEAPS // netCDF 4.9.3 reads nothing of the damaged part
+        if (entry.path().filename() == "global_heap.nc") {
+            EXPECT_EQ(result.status, 0) << result.err;
+            fs::remove(folder.path() / "a.isochron");
+            continue;
+        }
+#endif
         expect_failure(result, 1, entry.path().string() + ": ");
         // In our words: neither a library's places nor a container's.
         for (const char* dump : {"ERROR:", "In /", "vtk", "std::", "vector::", "0x"})
             EXPECT_THAT(result.err.substr(result.err.find(": ", 20)), Not(HasSubstr(dump)));
         EXPECT_EQ(folder.names(), before);
-        ++files;
     }
     EXPECT_EQ(files, 8);
 }

@@ -10,6 +10,25 @@ import zarr
 
 from manifest import done, expect, field, folder, path, refuse
 
+# zarr 3 writes version 2 where it is asked to.
+VERSION_2 = dict(zarr_format=2) if int(zarr.__version__.split(".")[0]) >= 3 else {}
+
+
+def group_of(where):
+    zarr.open_group(path(where), mode="w", **VERSION_2)
+
+
+def array_of(where, shape, dtype, chunks=None, compressor=numcodecs.Blosc(), fill_value=0, **how):
+    return zarr.create(store=path(where), shape=shape, dtype=dtype, chunks=chunks or shape, compressor=compressor,
+                       fill_value=fill_value, **VERSION_2, **how)
+
+
+def save(where, values, chunks=None, **how):
+    array = array_of(where, values.shape, values.dtype, chunks, **how)
+    array[...] = values
+    return array
+
+
 for name, dtype, how in [("f4", "<f4", {}), ("be", ">i2", dict(compressor=numcodecs.Zlib())),
                          ("u1", "u1", dict(compressor=numcodecs.Zstd())), ("lz4", "<f8", dict(compressor=numcodecs.LZ4())),
                          ("bz2", "<i4", dict(compressor=numcodecs.BZ2())), ("gzip", "<u2", dict(compressor=numcodecs.GZip())),
@@ -18,15 +37,16 @@ for name, dtype, how in [("f4", "<f4", {}), ("be", ">i2", dict(compressor=numcod
                          ("nested", "<i8", dict(dimension_separator="/")),
                          ("blosc_zstd", "<f4", dict(compressor=numcodecs.Blosc("zstd", shuffle=2)))]:
     values = field(5, 6, 7, dtype="i2" if dtype == "<i8" else dtype).astype(dtype)
-    zarr.save_array(path(f"{name}.zarr"), values, chunks=(2, 4, 3), **how)
+    save(f"{name}.zarr", values, (2, 4, 3), **how)
     expect(f"{name}.zarr", zarr.open(path(f"{name}.zarr"), mode="r")[...])
 
 # Groups, missing chunks, a zip file.
-group = zarr.open_group(path("group.zarr"), mode="w")
+group_of("group.zarr")
+group_of("group.zarr/deep")
 a, b = field(3, 4, 5), field(7, 3, 4, 5)
-group.create_dataset("a", data=a)
-group.create_group("deep").create_dataset("b", data=b, chunks=(3, 2, 2, 5))
-holes = group.create_dataset("holes", shape=(4, 4, 4), chunks=(2, 2, 2), dtype="f4", fill_value=9)
+save("group.zarr/a", a)
+save("group.zarr/deep/b", b, (3, 2, 2, 5))
+holes = array_of("group.zarr/holes", (4, 4, 4), "f4", (2, 2, 2), fill_value=9)
 holes[0:2, 0:2, 0:2] = 1
 refuse("group.zarr", "choose one with --array: a (f32, 3 x 4 x 5), deep/b (f32, 7 x 3 x 4 x 5), holes (f32, 4 x 4 x 4)")
 expect("group.zarr", a, array="a")
@@ -143,7 +163,7 @@ multiscales = [dict(axes=[dict(name="t", type="time", unit="second"), dict(name=
                     coordinateTransformations=[dict(type="scale", scale=[2, 1, 1, 1, 1])])]
 omero = dict(channels=[dict(label="dapi"), dict(label="gfp")])
 where = dict(spacing=(0.25, 0.5, 2), origin=(30, 20, 10), times=[2, 3, 4])
-zarr.save_array(path("ome4.zarr/0"), image, chunks=(1, 1, 2, 5, 6), dimension_separator="/")
+save("ome4.zarr/0", image, (1, 1, 2, 5, 6), dimension_separator="/")
 write("ome4.zarr/.zgroup", dict(zarr_format=2))
 write("ome4.zarr/.zattrs", dict(multiscales=multiscales, omero=omero))
 version_3("ome5.zarr/0", image, (1, 2, 4, 4, 4), ["little"])
@@ -160,14 +180,16 @@ for name in ("xarray.zarr", "stretched.zarr"):
     places = dict(time=[0.0, 6], z=[0.0, 10, 20], y=[5.0, 4, 3, 2], x=[0.0, 0.5, 1, 1.5, 2])
     if name == "stretched.zarr":
         places["x"] = [0.0, 1, 3, 6, 10]
-    group = zarr.open_group(path(name), mode="w")
+    group_of(name)
+    group_of(f"{name}/out")
     for short, data, fill in (("t", packed, -999), ("u", moving, 1e20)):
-        array = group.create_dataset(f"out/{short}", data=data, chunks=(1, 3, 4, 5), fill_value=fill)
-        array.attrs["_ARRAY_DIMENSIONS"] = list(places)
-    group["out/t"].attrs.update(scale_factor=0.5, add_offset=10.0)
+        attributes = dict(_ARRAY_DIMENSIONS=list(places))
+        if short == "t":
+            attributes.update(scale_factor=0.5, add_offset=10.0)
+        save(f"{name}/out/{short}", data, (1, 3, 4, 5), fill_value=fill).attrs.update(attributes)
     for axis, at in places.items():
-        axis = group.create_dataset(f"out/{axis}", data=np.array(at), fill_value=None)
-        axis.attrs.update(_ARRAY_DIMENSIONS=[axis.basename], units="hours" if axis.basename == "time" else "m")
+        save(f"{name}/out/{axis}", np.array(at), fill_value=None).attrs.update(
+            _ARRAY_DIMENSIONS=[axis], units="hours" if axis == "time" else "m")
     zarr.consolidate_metadata(path(name))
     x = places["x"]
     where = dict(times=[0, 6], spacing=(x[-1] / 4, 1, 10), origin=(0, 5, 0), direction=[[1, 0, 0], [0, -1, 0], [0, 0, 1]],
@@ -186,7 +208,7 @@ for name, key, text, message in [
         ("empty", ".zgroup", dict(zarr_format=2), "holds no array of three dimensions")]:
     write(f"{name}.zarr/{key}", text)
     refuse(f"{name}.zarr", message)
-zarr.save_array(path("cut.zarr"), values, chunks=(5, 6, 7))
+save("cut.zarr", values)
 with open(path("cut.zarr/0.0.0"), "r+b") as f:
     f.truncate(60)
 refuse("cut.zarr", "damaged: blosc cannot decode it", reads=True)

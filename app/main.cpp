@@ -1,5 +1,5 @@
 // The program and its subcommands.
-#include "app/commands/subcommands.h"
+#include "app/command_line/subcommands.h"
 #include "commit.h"
 
 #include <string>

@@ -9,7 +9,7 @@
 //         headset->end_frame(&pictures, false);
 #pragma once
 
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 #include "render/gl/render_target.h"
 #include "render/gl/view.h"
 #include "stereo/context/gl_context.h"

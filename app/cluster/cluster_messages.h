@@ -5,8 +5,8 @@
 #pragma once
 
 #include "app/cluster/cell_agreement.h"
-#include "app/frame/draw_meter.h"
 #include "app/frame/frame_log.h"
+#include "app/quality/draw_meter.h"
 #include "interaction/recording/recording.h"
 
 #include <cstddef>

@@ -1,13 +1,13 @@
 // `isochron change`: cells that become active, and cells that become inactive, from one query to
 // another.
-#include "app/commands/file_patterns.h"
+#include "app/command_line/subcommands.h"
 #include "app/commands/id_file.h"
-#include "app/commands/open_index.h"
-#include "app/commands/subcommands.h"
+#include "app/indexing/file_patterns.h"
+#include "app/indexing/open_index.h"
 #include "app/text.h"
 #include "index/error.h"
-#include "index/extraction/cell_change.h"
 #include "index/extraction/extractor.h"
+#include "index/search/cell_change.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,10 @@
 // `isochron config`: configurations from other programs' files, and what a configuration may hold.
-#include "app/commands/file_patterns.h"
-#include "app/commands/subcommands.h"
+#include "app/command_line/subcommands.h"
 #include "app/config/check_config.h"
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
 #include "app/config/toml_reader.h"
+#include "app/indexing/file_patterns.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>

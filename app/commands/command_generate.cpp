@@ -1,8 +1,8 @@
 // `isochron generate`: makes the demo series.
-#include "app/commands/cancel.h"
-#include "app/commands/progress_bar.h"
-#include "app/commands/subcommands.h"
+#include "app/command_line/cancel.h"
+#include "app/command_line/subcommands.h"
 #include "app/generate/demo_series.h"
+#include "app/indexing/progress_bar.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 // `isochron info`: what an index holds, or what files of values are.
-#include "app/commands/build_sources.h"
-#include "app/commands/file_patterns.h"
-#include "app/commands/index_report.h"
-#include "app/commands/open_index.h"
-#include "app/commands/series_report.h"
-#include "app/commands/subcommands.h"
+#include "app/command_line/subcommands.h"
+#include "app/indexing/build_sources.h"
+#include "app/indexing/file_patterns.h"
+#include "app/indexing/index_report.h"
+#include "app/indexing/open_index.h"
+#include "app/indexing/series_report.h"
 
 #include "index/file/index_series.h"
 

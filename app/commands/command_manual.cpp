@@ -1,8 +1,8 @@
 // `isochron manual` and `isochron completion`: manual pages and shell completions, made from the
 // program's help.
-#include "app/commands/manual_pages.h"
-#include "app/commands/shell_completion.h"
-#include "app/commands/subcommands.h"
+#include "app/command_line/manual_pages.h"
+#include "app/command_line/shell_completion.h"
+#include "app/command_line/subcommands.h"
 #include "app/version.h"
 #include "index/system/new_file.h"
 

@@ -1,14 +1,14 @@
 // `isochron query`: the active cells of one isovalue at one step, and the time to find them.
-#include "app/commands/file_patterns.h"
+#include "app/command_line/subcommands.h"
 #include "app/commands/id_file.h"
-#include "app/commands/open_index.h"
 #include "app/commands/process_usage.h"
-#include "app/commands/subcommands.h"
+#include "app/indexing/file_patterns.h"
+#include "app/indexing/open_index.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
-#include "index/extraction/layer_search.h"
-#include "index/formats/time_unit.h"
+#include "index/search/layer_search.h"
+#include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // `isochron reproduce`: draws a picture again from the note inside it, and compares the two.
-#include "app/commands/kept_session.h"
-#include "app/commands/open_index.h"
-#include "app/commands/replay_source.h"
-#include "app/commands/subcommands.h"
+#include "app/command_line/subcommands.h"
+#include "app/explore/kept_session.h"
+#include "app/explore/replay_source.h"
+#include "app/indexing/open_index.h"
 #include "app/output/picture_parts.h"
 #include "app/session/replay.h"
 #include "app/version.h"

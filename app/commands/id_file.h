@@ -1,7 +1,7 @@
 // Files of cell ids: little-endian, no header.
 #pragma once
 
-#include "index/extraction/cell_set.h"
+#include "index/surface/cell_set.h"
 #include "index/volume/grid.h"
 
 #include <filesystem>

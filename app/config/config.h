@@ -8,9 +8,9 @@
 #include "app/config/first_placement.h"
 #include "app/config/openxr_config.h"
 #include "app/config/panel_config.h"
-#include "interaction/comfort.h"
-#include "interaction/motion_gate.h"
-#include "render/cells/cell_pass.h"
+#include "interaction/controls/motion_gate.h"
+#include "interaction/navigation/comfort.h"
+#include "render/drawing/cell_pass.h"
 #include "stereo/context/gl_context.h"
 #include "stereo/installation.h"
 

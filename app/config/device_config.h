@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/config/toml_reader.h"
-#include "interaction/comfort.h"
-#include "interaction/desktop_emulation.h"
+#include "interaction/controls/desktop_emulation.h"
+#include "interaction/navigation/comfort.h"
 #include "interaction/trackers/dtrack_input.h"
 #include "interaction/trackers/osc_input.h"
 #include "interaction/trackers/vrpn_input.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/config/config.h"
-#include "interaction/composite_input.h"
+#include "interaction/input/composite_input.h"
 
 #include <string>
 #include <vector>

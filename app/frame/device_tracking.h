@@ -1,7 +1,7 @@
 // How well each device was tracked in a frame: for the panel and the report.
 #pragma once
 
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 #include "app/frame/explorer_state.h"
 
 #include "interaction/command_fields.h"
-#include "interaction/navigation.h"
+#include "interaction/navigation/navigation.h"
 #include "render/passes/color_map.h"
 
 #include <glm/geometric.hpp>

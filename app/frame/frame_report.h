@@ -3,10 +3,11 @@
 
 #include "app/frame/device_tracking.h"
 #include "app/frame/milliseconds.h"
-#include "app/frame/quality_controller.h"
+#include "app/frame/quality_reason.h"
 #include "index/volume/query.h"
-#include "interaction/comfort.h"
-#include "interaction/motion_gate.h"
+#include "interaction/controls/motion_gate.h"
+#include "interaction/navigation/comfort.h"
+#include "render/cells/footprints.h"
 #include "render/cells/upload_count.h"
 
 #include <cstdint>

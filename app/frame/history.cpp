@@ -1,8 +1,8 @@
 // Undo and redo.
 #include "app/frame/history.h"
 
-#include "interaction/actions.h"
-#include "interaction/navigation.h"
+#include "interaction/input/actions.h"
+#include "interaction/navigation/navigation.h"
 
 #include "interaction/command_fields.h"
 

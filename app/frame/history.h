@@ -6,7 +6,7 @@
 #pragma once
 
 #include "app/frame/explorer_state.h"
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 
 #include <cstdint>
 #include <deque>

@@ -1,7 +1,7 @@
 // Late latching: the viewers' heads right before drawing, newer than at the frame's begin.
 #pragma once
 
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 #include "stereo/installation.h"
 
 #include <functional>

@@ -9,11 +9,11 @@
 
 #include "app/config/config.h"
 #include "app/frame/background_work.h"
-#include "app/frame/draw_cost.h"
 #include "app/output/displays.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/picture_note.h"
 #include "app/output/room_view.h"
+#include "app/quality/draw_cost.h"
 #include "render/gl/frames_in_flight.h"
 #include "stereo/headset_display.h"
 #include "stereo/windows.h"

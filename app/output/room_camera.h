@@ -1,8 +1,8 @@
 // A camera that circles a room, moved by mouse while a key is held.
 #pragma once
 
+#include "interaction/input/window_event.h"
 #include "interaction/pose.h"
-#include "interaction/window_event.h"
 #include "stereo/installation.h"
 
 #include <optional>

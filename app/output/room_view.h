@@ -3,7 +3,7 @@
 
 #include "app/output/room_camera.h"
 #include "app/scene/shown_panel.h"
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/solid_pass.h"

@@ -10,9 +10,9 @@
 #include "app/panel/panel_words.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
-#include "index/formats/time_unit.h"
-#include "interaction/axis_views.h"
-#include "interaction/navigation.h"
+#include "index/volume/time_unit.h"
+#include "interaction/navigation/axis_views.h"
+#include "interaction/navigation/navigation.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

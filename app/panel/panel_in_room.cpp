@@ -1,7 +1,7 @@
 // From the wand's ray to the panel's mouse, and from its clicks to commands.
 #include "app/panel/panel_in_room.h"
 
-#include "interaction/device_reading.h"
+#include "interaction/input/device_reading.h"
 
 #include <utility>
 

@@ -10,7 +10,7 @@
 #include "app/config/panel_config.h"
 #include "app/panel/panel_layer.h"
 #include "app/scene/shown_panel.h"
-#include "interaction/panel_pointer.h"
+#include "interaction/controls/panel_pointer.h"
 #include "render/passes/panel_picture.h"
 
 #include <optional>

@@ -3,8 +3,8 @@
 
 #include "app/panel/file_window.h"
 #include "app/panel/panel.h"
+#include "interaction/input/window_event.h"
 #include "interaction/pose.h"
-#include "interaction/window_event.h"
 #include "render/gl/gl_objects.h"
 
 #include <glm/vec2.hpp>

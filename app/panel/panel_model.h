@@ -5,8 +5,8 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "index/file/read_use.h"
-#include "interaction/actions.h"
 #include "interaction/control_context.h"
+#include "interaction/input/actions.h"
 
 #include <array>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #include "app/panel/panel_tools.h"
 
 #include "app/panel/panel_words.h"
-#include "interaction/clip_tool.h"
-#include "interaction/tool_table.h"
+#include "interaction/tools/clip_tool.h"
+#include "interaction/tools/tool_table.h"
 
 #include <imgui.h>
 

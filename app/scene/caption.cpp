@@ -4,7 +4,7 @@
 #include "app/scene/legend.h"
 #include "app/scene/mark.h"
 #include "app/text.h"
-#include "index/formats/time_unit.h"
+#include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

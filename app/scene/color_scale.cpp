@@ -1,9 +1,9 @@
 // The color scale of the surfaces.
 #include "app/scene/color_scale.h"
 
-#include "index/extraction/cell_colors.h"
 #include "index/file/color_source.h"
-#include "index/formats/time_unit.h"
+#include "index/surface/cell_colors.h"
+#include "index/volume/time_unit.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "app/scene/ticks.h"
 #include "app/text.h"
-#include "index/formats/time_unit.h"
+#include "index/volume/time_unit.h"
 #include "render/gl/srgb.h"
 
 #include <fmt/format.h>

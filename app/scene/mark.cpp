@@ -3,7 +3,7 @@
 
 #include "app/scene/legend.h"
 #include "app/text.h"
-#include "index/formats/time_unit.h"
+#include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "app/config/first_placement.h"
 #include "app/scene/legend.h"
 #include "app/text.h"
-#include "interaction/navigation.h"
+#include "interaction/navigation/navigation.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "app/scene/look.h"
 #include "app/scene/mark.h"
 #include "app/scene/orientation.h"
-#include "interaction/navigation.h"
+#include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
 #include "render/gl/shader.h"
 #include "render/gl/viewport.h"

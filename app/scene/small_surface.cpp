@@ -2,7 +2,7 @@
 #include "app/scene/small_surface.h"
 
 #include "index/extraction/brick_values.h"
-#include "index/extraction/mesh_maker.h"
+#include "index/surface/mesh_maker.h"
 
 #include <array>
 #include <cstddef>

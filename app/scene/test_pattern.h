@@ -1,7 +1,7 @@
 // The test pattern, with which a lab checks its eyes, walls and trackers.
 #pragma once
 
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 #include "render/gl/view.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/text_pass.h"

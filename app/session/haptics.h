@@ -2,7 +2,7 @@
 #pragma once
 
 #include "interaction/commands.h"
-#include "interaction/device_reading.h"
+#include "interaction/input/device_reading.h"
 
 #include <vector>
 

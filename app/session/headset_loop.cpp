@@ -1,7 +1,7 @@
 // A headset's part in the live loop.
 #include "app/session/headset_loop.h"
 
-#include "interaction/composite_input.h"
+#include "interaction/input/composite_input.h"
 
 #include <fmt/format.h>
 

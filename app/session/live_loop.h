@@ -17,8 +17,8 @@
 #include "app/session/session.h"
 #include "app/session/session_keeper.h"
 #include "index/file/index_watch.h"
-#include "interaction/composite_input.h"
-#include "interaction/desktop_emulation.h"
+#include "interaction/controls/desktop_emulation.h"
+#include "interaction/input/composite_input.h"
 #include "interaction/recording/recording.h"
 
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include "app/frame/late_latch.h"
 #include "app/output/outputs.h"
 #include "app/scene/test_pattern.h"
-#include "interaction/controls.h"
+#include "interaction/controls/controls.h"
 
 #include <memory>
 #include <span>

@@ -5,9 +5,9 @@
 #include "app/frame/explorer_state.h"
 #include "index/extraction/extraction.h"
 #include "index/file/index_file.h"
-#include "interaction/device_reading.h"
+#include "interaction/input/device_reading.h"
+#include "interaction/input/tracked_input.h"
 #include "interaction/pointed.h"
-#include "interaction/tracked_input.h"
 
 #include <memory>
 #include <mutex>

@@ -2,9 +2,9 @@
 #include "app/session/session.h"
 
 #include "app/session/start_state.h"
-#include "interaction/device_reading.h"
-#include "interaction/navigator.h"
-#include "interaction/tool_table.h"
+#include "interaction/input/device_reading.h"
+#include "interaction/navigation/navigator.h"
+#include "interaction/tools/tool_table.h"
 
 #include <utility>
 

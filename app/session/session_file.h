@@ -6,7 +6,7 @@
 #pragma once
 
 #include "app/frame/explorer_state.h"
-#include "interaction/desktop_emulation.h"
+#include "interaction/controls/desktop_emulation.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
 // A session's panels: their contents, their commands and their places.
 #include "app/session/session.h"
 
-#include "interaction/navigation.h"
-#include "interaction/room_panel.h"
+#include "interaction/controls/room_panel.h"
+#include "interaction/navigation/navigation.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 #include "app/session/start_state.h"
 
 #include "index/error.h"
-#include "index/extraction/index_search.h"
+#include "index/search/index_search.h"
 
 #include <optional>
 #include <vector>

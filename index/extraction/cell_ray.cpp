@@ -2,7 +2,7 @@
 // along the ray.
 #include "index/extraction/cell_ray.h"
 
-#include "index/extraction/detail_regions.h"
+#include "index/detail/detail_regions.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

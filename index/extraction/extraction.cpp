@@ -1,8 +1,8 @@
 // Searches for every surface, copies the bricks that the cells need, and colors the cells.
 #include "index/extraction/extraction.h"
 
+#include "index/detail/detail_search.h"
 #include "index/error.h"
-#include "index/extraction/detail_search.h"
 #include "index/extraction/surface_colors.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // The result of one request: the active cells of its surfaces and the volume bricks around them.
 #pragma once
 
-#include "index/extraction/index_search.h"
 #include "index/extraction/surroundings.h"
 #include "index/extraction/volume_bricks.h"
+#include "index/search/index_search.h"
 
 #include <chrono>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Computes the color coordinates of an extraction's cells.
 #include "index/extraction/surface_colors.h"
 
-#include "index/extraction/cell_colors.h"
+#include "index/surface/cell_colors.h"
 
 #include <algorithm>
 #include <span>

@@ -1,8 +1,8 @@
 // Computes the color coordinates of an extraction's cells.
 #pragma once
 
-#include "index/extraction/first_crossing.h"
-#include "index/extraction/layer_search.h"
+#include "index/search/first_crossing.h"
+#include "index/search/layer_search.h"
 
 #include <cstdint>
 #include <memory>

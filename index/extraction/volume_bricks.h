@@ -2,8 +2,8 @@
 #pragma once
 
 #include "index/extraction/brick_values.h"
-#include "index/extraction/cell_set.h"
-#include "index/file/chunk_store.h"
+#include "index/file/chunks/chunk_store.h"
+#include "index/surface/cell_set.h"
 #include "index/volume/step_values.h"
 
 #include <array>

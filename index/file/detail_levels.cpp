@@ -2,7 +2,7 @@
 // sums of integers do not depend on the order, and rows of three planes come first.
 #include "index/file/detail_levels.h"
 
-#include "index/file/chunk_grid.h"
+#include "index/file/chunks/chunk_grid.h"
 
 #include <algorithm>
 #include <cassert>

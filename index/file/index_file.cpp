@@ -2,7 +2,7 @@
 #include "index/file/index_file.h"
 
 #include "index/file/detail_levels.h"
-#include "index/file/step_levels.h"
+#include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"
 #include "index/volume/chunking.h"

@@ -1,7 +1,7 @@
 // An index as a series from which another index can be built; also an index of file version 2.
 #pragma once
 
-#include "index/file/index_contents.h"
+#include "index/file/sections/index_contents.h"
 #include "index/volume/volume_series.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
 // Earlier states of an index: hashes, a damaged newer header, and the room that a state leaves.
 #include "index/error.h"
-#include "index/file/file_layout.h"
 #include "index/file/index_file.h"
-#include "index/file/series_content.h"
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/series_content.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include "index/file/step_source.h"
 
 #include "index/error.h"
-#include "index/file/file_layout.h"
-#include "index/file/metadata.h"
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/metadata.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Reads the steps of an index that refers to its sources instead of carrying a copy.
 #pragma once
 
-#include "index/file/index_contents.h"
+#include "index/file/sections/index_contents.h"
 
 #include <memory>
 #include <mutex>

@@ -4,10 +4,11 @@
 // https://visit-sphinx-github-user-manual.readthedocs.io/en/develop/data_into_visit/BOVFormat.html
 #include "index/error.h"
 #include "index/formats/data_parts.h"
-#include "index/formats/joined_blocks.h"
 #include "index/formats/readers.h"
+#include "index/formats/series/joined_blocks.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/lower_case.h"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/formats/readers.h"
 #include "index/formats/text_header.h"
+#include "index/lower_case.h"
 #include "index/system/input_file.h"
 
 #include <fmt/format.h>

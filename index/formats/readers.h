@@ -1,7 +1,7 @@
 // The formats that can be read: one function for each, in a separate file.
 #pragma once
 
-#include "index/formats/file_series.h"
+#include "index/formats/series/file_series.h"
 
 namespace isochron::index {
 

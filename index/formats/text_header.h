@@ -11,7 +11,6 @@
 namespace isochron::index {
 
 std::string_view trimmed(std::string_view text);
-std::string lower_case(std::string_view text);
 std::vector<std::string> words_of(std::string_view text);
 
 /// The line at a place, without its end; moves the place behind it.

@@ -4,6 +4,7 @@
 #include "index/progress.h"
 #include "index/thi/interval_tree.h"
 #include "index/volume/step_values.h"
+#include "index/volume/tree_options.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,13 +14,6 @@
 #include <vector>
 
 namespace isochron::index {
-
-struct ThiOptions {
-    std::uint32_t lattice = 64; ///< SpanSpaceSize L: the lattice has L x L elements; 1 to 4096
-    std::uint32_t max_variation =
-        2; ///< most distinct lattice elements of a cell that counts as constant; 1 to 64
-    bool operator==(const ThiOptions&) const = default;
-};
 
 /// The entries of a THI tree before they are sorted into lists. Other structures that merge cells
 /// over time as the paper does can share them.

@@ -26,7 +26,7 @@ struct Query {
 /// Most isosurfaces that are shown together.
 constexpr std::size_t kMostSurfaces = 8;
 
-/// The quantity of the cells' color coordinates (index/extraction/cell_colors.h).
+/// The quantity of the cells' color coordinates (index/surface/cell_colors.h).
 enum class CellColoring : std::uint8_t {
     none,
     value,         ///< an array to color by, on the surface
@@ -42,7 +42,7 @@ struct DetailQuery {
     bool at_rest = false; ///< for a picture at rest: a renderer holds it beside one for motion
     /// Parts of a level in which wishes are given: they order the regions that share one level.
     static constexpr int kPartsOfLevel = 4;
-    /// Finest useful level of each region (index/extraction/detail_regions.h), in parts of a level,
+    /// Finest useful level of each region (index/detail/detail_regions.h), in parts of a level,
     /// which are rounded down. Below 0 it is still level 0 that is used, but the region gives way
     /// later than others when there are too many cells. Empty: 0 everywhere.
     std::vector<std::int8_t> wished;

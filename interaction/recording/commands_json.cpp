@@ -2,7 +2,7 @@
 #include "interaction/recording/commands_json.h"
 
 #include "interaction/command_fields.h"
-#include "interaction/navigation.h"
+#include "interaction/navigation/navigation.h"
 #include "interaction/recording/json_values.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "interaction/commands.h"
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 
 #include <array>
 #include <string>

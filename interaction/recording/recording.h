@@ -2,8 +2,8 @@
 #pragma once
 
 #include "interaction/error.h"
+#include "interaction/input/tracked_input.h"
 #include "interaction/recording/recorded_frame.h"
-#include "interaction/tracked_input.h"
 
 #include <filesystem>
 #include <iosfwd>

@@ -2,7 +2,7 @@
 #include "interaction/recording/recording_json.h"
 
 #include "interaction/error.h"
-#include "interaction/navigation.h"
+#include "interaction/navigation/navigation.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/json_values.h"
 

@@ -6,7 +6,7 @@
 //         use(filter.last()->pose);
 #pragma once
 
-#include "interaction/tracked_input.h"
+#include "interaction/input/tracked_input.h"
 
 namespace isochron::interaction {
 

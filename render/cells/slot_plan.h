@@ -34,7 +34,7 @@ struct Slots {
     /// By slot, the third word of an index::CellPoint; empty if only the GPU has them.
     std::vector<std::uint32_t> planes;
     /// Size of the largest cell [voxels] where places are those of mixed levels of detail
-    /// (index/extraction/detail_regions.h); else 0.
+    /// (index/detail/detail_regions.h); else 0.
     std::uint32_t largest = 0;
 };
 

@@ -15,6 +15,7 @@ namespace isochron::render {
 
 struct ShaderSource {
     std::string_view name; ///< file name; the extension (.vert, .frag, .comp) says the stage
+    std::string_view path; ///< the file below render/shaders: `cells/cell.vert`
     std::string_view text; ///< GLSL 4.50 core
 };
 

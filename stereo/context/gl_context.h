@@ -1,7 +1,7 @@
 // A GL 4.5 core context and its window, if it has one; chosen by name, without fallback.
 #pragma once
 
-#include "interaction/window_event.h"
+#include "interaction/input/window_event.h"
 #include "render/gl/gl.h"
 #include "stereo/context/native_gl.h"
 

@@ -43,9 +43,10 @@ class GlfwLibrary {
         glfw_complaint().clear();
         glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
         if (!glfwInit())
-            throw NoDisplay(fmt::format("no display to open a window on, see DISPLAY ({}); `isochron replay` "
-                                        "draws pictures of a recording without one",
-                                        glfw_complaint()));
+            throw NoDisplay(
+                fmt::format("no display to open a window on, see DISPLAY ({}); `isochron replay` "
+                            "draws pictures of a recording without one",
+                            glfw_complaint()));
         watch_display();
     }
     ~GlfwLibrary() { glfwTerminate(); }

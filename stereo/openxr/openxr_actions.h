@@ -1,7 +1,7 @@
 // The actions of a headset wearer's hands, and their bindings to controllers.
 #pragma once
 
-#include "interaction/actions.h"
+#include "interaction/input/actions.h"
 #include "interaction/pose.h"
 #include "stereo/openxr/openxr_instance.h"
 

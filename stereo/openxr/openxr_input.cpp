@@ -1,7 +1,7 @@
 // Locates head and hands, and reads the hands' buttons.
 #include "stereo/openxr/openxr_input.h"
 
-#include "interaction/dead_zone.h"
+#include "interaction/input/dead_zone.h"
 #include "stereo/openxr/openxr_error.h"
 #include "stereo/openxr/openxr_poses.h"
 

@@ -1,5 +1,5 @@
 // `isochron-bench results`: writes the page of results.
-#include "app/commands/command_line.h"
+#include "app/command_line/command_line.h"
 #include "index/error.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/pages/results_page.h"

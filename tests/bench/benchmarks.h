@@ -1,7 +1,7 @@
 // The benchmarks as subcommands of `isochron-bench`.
 #pragma once
 
-#include "app/commands/command_line.h"
+#include "app/command_line/command_line.h"
 
 namespace isochron::bench {
 

@@ -5,8 +5,8 @@
 
 #include "index/decoders/decoders.h"
 #include "index/decoders/reader_service.h"
-#include "index/decoders/tiff_metadata.h"
-#include "index/decoders/zarr_store.h"
+#include "index/decoders/tiff/tiff_metadata.h"
+#include "index/decoders/zarr/zarr_store.h"
 #include "index/error.h"
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"
-#include "index/extraction/cell_change.h"
 #include "index/extraction/extraction.h"
-#include "index/extraction/index_search.h"
-#include "index/extraction/layer_search.h"
 #include "index/file/color_source.h"
+#include "index/search/cell_change.h"
+#include "index/search/index_search.h"
+#include "index/search/layer_search.h"
 #include "tests/support/index_repair.h"
 
 #include <algorithm>

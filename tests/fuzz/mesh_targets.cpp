@@ -4,11 +4,11 @@
 #include "tests/fuzz/targets.h"
 
 #include "index/decoders/reader_service.h"
-#include "index/decoders/vtk_ghosts.h"
-#include "index/decoders/vtk_numbers.h"
-#include "index/decoders/vtk_resample.h"
-#include "index/decoders/vtk_session.h"
-#include "index/decoders/xml_markup.h"
+#include "index/decoders/vtk/vtk_ghosts.h"
+#include "index/decoders/vtk/vtk_numbers.h"
+#include "index/decoders/vtk/vtk_resample.h"
+#include "index/decoders/vtk/vtk_session.h"
+#include "index/decoders/vtk/xml_markup.h"
 #include "index/error.h"
 
 #include <vtkAMRBox.h>

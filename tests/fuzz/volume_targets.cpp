@@ -3,10 +3,10 @@
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"
-#include "index/formats/file_series.h"
 #include "index/formats/readers.h"
-#include "index/formats/time_unit.h"
+#include "index/formats/series/file_series.h"
 #include "index/reader/reader_messages.h"
+#include "index/volume/time_unit.h"
 
 #include <algorithm>
 #include <array>

@@ -2,40 +2,40 @@
 // parameters are what the example takes for granted; none of them is ever called.
 //
 // A new example needs a few lines here; house_tests says which one is missing.
-#include "app/commands/cluster_job.h"
-#include "app/commands/command_line.h"
-#include "app/frame/draw_meter.h"
-#include "app/frame/frame_quality.h"
+#include "app/command_line/command_line.h"
+#include "app/explore/cluster_job.h"
 #include "app/frame/history.h"
-#include "app/frame/quality_controller.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/movie_file.h"
 #include "app/output/outputs.h"
 #include "app/panel/panel_in_room.h"
+#include "app/quality/draw_meter.h"
+#include "app/quality/frame_quality.h"
+#include "app/quality/quality_controller.h"
 #include "app/scene/scene.h"
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
 #include "app/session/session_file.h"
-#include "index/build/level_choice.h"
-#include "index/extraction/cell_joiner.h"
+#include "index/detail/cell_joiner.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
-#include "index/formats/series_writer.h"
+#include "index/formats/series/series_writer.h"
+#include "index/indexing/level_choice.h"
 #include "index/reader/reader_messages.h"
 #include "index/scan/bricks.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 #include "index/volume/order_key.h"
 #include "interaction/command_fields.h"
-#include "interaction/desktop_emulation.h"
+#include "interaction/controls/desktop_emulation.h"
+#include "interaction/controls/motion_gate.h"
+#include "interaction/controls/panel_pointer.h"
 #include "interaction/enum_names.h"
-#include "interaction/motion_gate.h"
-#include "interaction/panel_pointer.h"
-#include "interaction/tool.h"
+#include "interaction/tools/tool.h"
 #include "interaction/trackers/pose_filter.h"
 #include "render/cells/cell_buffers.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/gl.h"
 #include "render/gl/gpu_timer.h"
 #include "render/gl/render_target.h"
@@ -83,11 +83,11 @@ namespace {
 
 void level_choice_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
                           const LevelChooser& other) {
-#include "index/build/level_choice.example"
+#include "index/indexing/level_choice.example"
 }
 
 void cell_joiner_example(JoinedCells cells, const std::stop_token& stop, std::size_t most) {
-#include "index/extraction/cell_joiner.example"
+#include "index/detail/cell_joiner.example"
 }
 
 void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 wand,
@@ -103,7 +103,7 @@ void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32
 void series_writer_example(const std::filesystem::path& dir, const SeriesInfo& info,
                            std::size_t steps, const std::vector<float>& (*values_of)(std::size_t),
                            double (*time_of)(std::size_t)) {
-#include "index/formats/series_writer.example"
+#include "index/formats/series/series_writer.example"
 }
 
 void reader_messages_example() {
@@ -144,12 +144,12 @@ namespace {
 
 void panel_pointer_example(PanelPointer& pointer, const InputState& input,
                            const TouchedPanel& panel) {
-#include "interaction/panel_pointer.example"
+#include "interaction/controls/panel_pointer.example"
 }
 
 void tool_example(Tool& tool, std::span<const ToolHand> hands, const ToolContext& now,
                   Commands& commands) {
-#include "interaction/tool.example"
+#include "interaction/tools/tool.example"
 }
 
 void pose_filter_example(Seconds now, const Pose& pose) {
@@ -233,18 +233,18 @@ namespace isochron::app {
 namespace {
 
 void cluster_job_example(const std::string& hash) {
-#include "app/commands/cluster_job.example"
+#include "app/explore/cluster_job.example"
 }
 
 void run_verify(const std::filesystem::path&) {}
-#include "app/commands/command_line.example"
+#include "app/command_line/command_line.example"
 
 void frame_quality_example(FrameQuality& quality, FrameLog& log, const ExplorerState& state,
                            bool changed, const render::FootprintSet& footprints,
                            const render::FootprintSet& possible, FrameReport& report,
                            std::span<const render::View> views, const DrawLoad& of_cell,
                            Milliseconds processor_time) {
-#include "app/frame/frame_quality.example"
+#include "app/quality/frame_quality.example"
 }
 
 void table_schema_example(void (*read_placement)(TomlReader&, PlacementOptions&),
@@ -253,7 +253,7 @@ void table_schema_example(void (*read_placement)(TomlReader&, PlacementOptions&)
 }
 
 void quality_controller_example(DrawMeter& meter, const interaction::MotionGate& gate) {
-#include "app/frame/quality_controller.example"
+#include "app/quality/quality_controller.example"
 }
 
 void kept_pictures_example(const render::Gl& gl, const stereo::Windows& windows,

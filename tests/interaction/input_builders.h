@@ -1,9 +1,9 @@
 // Short functions for window events, device states and seeds in tests.
 #pragma once
 
-#include "interaction/actions.h"
-#include "interaction/tracked_input.h"
-#include "interaction/window_event.h"
+#include "interaction/input/actions.h"
+#include "interaction/input/tracked_input.h"
+#include "interaction/input/window_event.h"
 
 #include <random>
 

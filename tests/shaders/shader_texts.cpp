@@ -6,7 +6,7 @@
 // fills FOLDER with one file for each text, numbered: 07.cell.vert.
 #include "app/panel/panel_layer.h"
 #include "render/cells/cell_compute.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/shader.h"
 #include "render/passes/background_pass.h"
 #include "render/passes/line_pass.h"
@@ -154,10 +154,10 @@ Text with_names(const std::string& given_text) {
         std::size_t number = 0, file = 0;
         if (line.starts_with(kLine) &&
             std::sscanf(line.c_str(), "#line %zu %zu", &number, &file) == 2) {
-            const std::string name(render::shader_files().at(file).name);
+            const render::ShaderSource& source = render::shader_files().at(file);
             if (result.file.empty())
-                result.file = name;
-            line = fmt::format("#line {} \"render/shaders/{}\"", number, name);
+                result.file = source.name;
+            line = fmt::format("#line {} \"render/shaders/{}\"", number, source.path);
         }
         result.text += line + '\n';
         if (line.starts_with(kVersion))
@@ -186,7 +186,7 @@ void write_all(const std::filesystem::path& folder) {
         if (!file.name.ends_with(".glsl") && !found.contains(std::string(file.name)))
             throw render::Error(fmt::format("render/shaders/{}: used by no pass that "
                                             "tests/shaders/shader_texts.cpp makes",
-                                            file.name));
+                                            file.path));
 }
 
 } // namespace

@@ -1,11 +1,11 @@
 // An index of a step of any size, whose bytes are computed when they are read.
 #pragma once
 
-#include "index/file/chunk_grid.h"
-#include "index/file/chunk_table.h"
+#include "index/file/chunks/chunk_grid.h"
+#include "index/file/chunks/chunk_table.h"
 #include "index/file/detail_levels.h"
-#include "index/file/file_layout.h"
-#include "index/file/metadata.h"
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/metadata.h"
 #include "index/system/byte_source.h"
 
 #include <algorithm>

@@ -4,11 +4,11 @@
 #include "index/cells/cell_table_head.h"
 #include "index/cells/cell_unit.h"
 #include "index/error.h"
-#include "index/file/chunk_grid.h"
-#include "index/file/chunk_table.h"
+#include "index/file/chunks/chunk_grid.h"
+#include "index/file/chunks/chunk_table.h"
 #include "index/file/detail_levels.h"
-#include "index/file/file_layout.h"
-#include "index/file/metadata.h"
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/metadata.h"
 
 #include <fmt/format.h>
 

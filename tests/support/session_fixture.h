@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/session/session.h"
-#include "index/build/index_build.h"
+#include "index/indexing/index_build.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 

@@ -1,5 +1,5 @@
 // The commands as a user runs them: their output, their exit status, and the files that they leave.
-#include "app/commands/open_index.h"
+#include "app/indexing/open_index.h"
 #include "index/error.h"
 #include "interaction/recording/recording.h"
 #include "tests/app/commands/command_line.h"

@@ -179,7 +179,7 @@ TEST_P(HeadsetUnderValidation, TheCoreValidationLayerFindsNothing) {
     EXPECT_EQ(logged("violation"), std::vector<json>());
     EXPECT_THAT(result.err, HasSubstr("Core Validation output type: text"));
     std::istringstream findings(folder_.read("validation.txt")); // written with the first finding
-    for (std::string line; std::getline(findings, line);) // 1.1 says when it begins and ends
+    for (std::string line; std::getline(findings, line);)        // 1.1 says when it begins and ends
         EXPECT_THAT(line, HasSubstr("[VALID_DEBUG "));
 }
 

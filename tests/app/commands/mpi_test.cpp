@@ -175,13 +175,13 @@ ChildResult struck_job(TestFolder& folder, const std::string& signal) {
         std::ranges::generate(noise, [&] { return static_cast<char>(random()); });
         folder.write("n" + std::to_string(step) + ".raw", noise);
     }
-    return run_child("/usr/bin/env",
-                     {"ASAN_OPTIONS=detect_leaks=0", "mpirun", "--allow-run-as-root",
-                      "--oversubscribe", "-n", "2", "/bin/sh", "-c",
-                      // One command for both: mpirun 5.0.7 crashes if there are several.
-                      "if [ $OMPI_COMM_WORLD_RANK = 0 ]; then exec " + build + "; fi; " +
-                          when_under_way},
-                     folder.path());
+    return run_child(
+        "/usr/bin/env",
+        {"ASAN_OPTIONS=detect_leaks=0", "mpirun", "--allow-run-as-root", "--oversubscribe", "-n",
+         "2", "/bin/sh", "-c",
+         // One command for both: mpirun 5.0.7 crashes if there are several.
+         "if [ $OMPI_COMM_WORLD_RANK = 0 ]; then exec " + build + "; fi; " + when_under_way},
+        folder.path());
 }
 
 std::vector<std::string> lines_of_ours(const ChildResult& result) {

@@ -1,6 +1,6 @@
 // What `info` says of files of values, and paths within files.
-#include "app/commands/build_arguments.h"
-#include "app/commands/file_patterns.h"
+#include "app/indexing/build_arguments.h"
+#include "app/indexing/file_patterns.h"
 
 #include "index/error.h"
 #include "tests/support/child_process.h"

@@ -1,7 +1,7 @@
 // Undo and redo: any change can be undone exactly, and a drag is one step.
 #include "app/frame/history.h"
-#include "interaction/actions.h"
-#include "interaction/navigation.h"
+#include "interaction/input/actions.h"
+#include "interaction/navigation/navigation.h"
 
 #include "interaction/command_fields.h"
 #include "tests/interaction/recording/random_commands.h"

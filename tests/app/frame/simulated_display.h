@@ -1,7 +1,7 @@
 // A display without GL: a test sets the cost of footprints, which becomes known some frames later.
 #pragma once
 
-#include "app/frame/quality_controller.h"
+#include "app/quality/quality_controller.h"
 
 #include <algorithm>
 #include <deque>

@@ -1,9 +1,9 @@
 // The panel in the room, as a desktop's window shows it: beside the data.
 #include "tests/support/session_fixture.h"
 
-#include "interaction/actions.h"
-#include "interaction/navigation.h"
-#include "interaction/room_panel.h"
+#include "interaction/controls/room_panel.h"
+#include "interaction/input/actions.h"
+#include "interaction/navigation/navigation.h"
 #include "stereo/screen.h"
 
 #include <gtest/gtest.h>

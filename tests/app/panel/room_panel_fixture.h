@@ -3,7 +3,7 @@
 
 #include "tests/support/session_fixture.h"
 
-#include "interaction/room_panel.h"
+#include "interaction/controls/room_panel.h"
 
 namespace isochron::app {
 

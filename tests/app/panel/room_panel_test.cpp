@@ -6,8 +6,8 @@
 
 #include "app/scene/font.h"
 #include "app/session/replay.h"
-#include "interaction/actions.h"
-#include "interaction/navigation.h"
+#include "interaction/input/actions.h"
+#include "interaction/navigation/navigation.h"
 
 #include <gmock/gmock.h>
 

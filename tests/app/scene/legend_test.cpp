@@ -3,7 +3,7 @@
 #include "app/scene/legend.h"
 #include "app/scene/ticks.h"
 
-#include "index/extraction/cell_colors.h"
+#include "index/surface/cell_colors.h"
 #include "render/gl/srgb.h"
 #include "tests/support/gl_test.h"
 

@@ -1,7 +1,7 @@
 // The scale bar shows the right length at the data's center.
 #include "app/scene/orientation.h"
 
-#include "interaction/navigation.h"
+#include "interaction/navigation/navigation.h"
 #include "stereo/screen.h"
 #include "tests/support/test_seed.h"
 

@@ -1,7 +1,7 @@
 // The haptic pulses of hands.
 #include "app/session/haptics.h"
 
-#include "interaction/actions.h"
+#include "interaction/input/actions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "tests/support/test_seed.h"
 
 #include "index/volume/sample.h"
-#include "interaction/actions.h"
-#include "interaction/desktop_emulation.h"
+#include "interaction/controls/desktop_emulation.h"
+#include "interaction/input/actions.h"
 #include "stereo/screen.h"
 
 #include <glm/gtc/matrix_transform.hpp>

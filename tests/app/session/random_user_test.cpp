@@ -6,7 +6,7 @@
 #include "tests/support/test_seed.h"
 
 #include "app/session/replay.h"
-#include "interaction/desktop_emulation.h"
+#include "interaction/controls/desktop_emulation.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gmock/gmock.h>

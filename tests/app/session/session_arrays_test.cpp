@@ -1,7 +1,7 @@
 // Switching between the arrays of an index: the pictures, the isovalues, and what replays do.
 #include "app/session/replay.h"
 #include "index/error.h"
-#include "interaction/actions.h"
+#include "interaction/input/actions.h"
 #include "tests/support/nearness_series.h"
 #include "tests/support/session_fixture.h"
 

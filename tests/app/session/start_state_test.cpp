@@ -1,6 +1,6 @@
 // The surfaces at the first look: there is something to see in the step that is shown.
 #include "app/session/start_state.h"
-#include "index/build/index_build.h"
+#include "index/indexing/index_build.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_seed.h"

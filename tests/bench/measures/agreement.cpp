@@ -2,7 +2,7 @@
 #include "tests/bench/measures/agreement.h"
 
 #include "index/extraction/extraction.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/driver.h"
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"

@@ -2,8 +2,8 @@
 #include "tests/bench/measures/artifacts.h"
 
 #include "index/error.h"
-#include "index/extraction/id_sort.h"
 #include "index/scan/scan.h"
+#include "index/search/id_sort.h"
 #include "render/gl/render_target.h"
 #include "tests/bench/measures/render_camera.h"
 #include "tests/bench/measures/render_measure.h"

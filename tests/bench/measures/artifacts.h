@@ -4,7 +4,7 @@
 
 #include "index/file/index_file.h"
 #include "index/thi/thi_tree.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/image.h"
 #include "tests/bench/pages/rows.h"
 #include "tests/bench/rivals/span_normals.h"

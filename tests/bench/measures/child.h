@@ -1,7 +1,7 @@
 // Runs work in a child process, for settings that a process can make only once.
 #pragma once
 
-#include "app/commands/cancel.h"
+#include "app/command_line/cancel.h"
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // The series that the benchmark generates.
 #include "tests/bench/measures/data_sets.h"
 
-#include "index/build/index_build.h"
+#include "index/indexing/index_build.h"
 #include <cassert>
 #include <cstring>
 

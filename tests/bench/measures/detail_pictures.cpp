@@ -1,10 +1,10 @@
 // Draws sets of levels of detail beside all cells.
 #include "tests/bench/measures/detail_pictures.h"
 
-#include "app/frame/detail_choice.h"
+#include "app/quality/detail_choice.h"
 #include "index/extraction/extraction.h"
 #include "render/cells/cell_buffers.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/driver.h"
 #include "render/gl/render_target.h"
 #include "tests/bench/measures/render_camera.h"
@@ -20,7 +20,7 @@ namespace isochron::bench {
 namespace {
 
 constexpr int kDraws = 9, kEyes = 2, kOff = 8;
-constexpr double kShare = 0.75; ///< of the budget, as app/frame/frame_quality.cpp has it
+constexpr double kShare = 0.75; ///< of the budget, as app/quality/frame_quality.cpp has it
 constexpr std::uint64_t kAll = 100'000'000;
 
 template <class Work>

@@ -1,8 +1,8 @@
 // Measures all structures on one series.
 #include "tests/bench/measures/measure.h"
 
-#include "index/extraction/id_sort.h"
 #include "index/scan/scan.h"
+#include "index/search/id_sort.h"
 #include "tests/bench/measures/errors.h"
 #include "tests/bench/measures/isovalues.h"
 #include "tests/bench/measures/timing.h"

@@ -1,9 +1,9 @@
 // The tiers of an index, as structures for the benchmark.
 #include "index/cells/unit_builder.h"
-#include "index/extraction/cell_change.h"
-#include "index/file/tiers.h"
+#include "index/file/sections/tiers.h"
 #include "index/scan/brick_tiles.h"
 #include "index/scan/bricks.h"
+#include "index/search/cell_change.h"
 #include "index/system/huge_pages.h"
 #include "index/volume/chunking.h"
 #include "tests/bench/measures/stopwatch.h"

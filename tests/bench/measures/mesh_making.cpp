@@ -1,7 +1,7 @@
 #include "tests/bench/measures/mesh_making.h"
 
 #include "index/error.h"
-#include "index/extraction/mesh_parts.h"
+#include "index/surface/mesh_parts.h"
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/rivals/flying_edges.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "stereo/context/gl_context.h"
 #include "tests/bench/pages/render_rows.h"
 

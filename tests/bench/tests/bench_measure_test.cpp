@@ -6,8 +6,8 @@
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/pages/rows.h"
 
-#include "index/build/index_build.h"
 #include "index/error.h"
+#include "index/indexing/index_build.h"
 #include "index/scan/scan.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_folder.h"

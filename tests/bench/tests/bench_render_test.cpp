@@ -1,7 +1,7 @@
 // What the rendering benchmark draws and measures is what it says.
 #include "index/error.h"
 #include "index/extraction/extractor.h"
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/bench/measures/child.h"
 #include "tests/bench/measures/data_sets.h"

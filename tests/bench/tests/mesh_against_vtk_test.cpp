@@ -1,6 +1,6 @@
 // The mesh of a cell set is that of VTK's flying edges: the same cut edges, the same polygons.
-#include "index/extraction/mesh_parts.h"
 #include "index/scan/scan.h"
+#include "index/surface/mesh_parts.h"
 #include "tests/bench/rivals/flying_edges.h"
 #include "tests/support/test_field.h"
 

@@ -1,6 +1,6 @@
 // Prints the ids of the cells through which an isosurface of the first step passes, one a line.
-#include <index/extraction/index_search.h>
 #include <index/file/index_file.h>
+#include <index/search/index_search.h>
 
 #include <cstdio>
 #include <cstdlib>

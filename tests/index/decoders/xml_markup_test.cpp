@@ -1,5 +1,5 @@
 // The depth of XML elements, whatever comments, values and quotes contain.
-#include "index/decoders/xml_markup.h"
+#include "index/decoders/vtk/xml_markup.h"
 
 #include "tests/support/reader_fixtures.h"
 

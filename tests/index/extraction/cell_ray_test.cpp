@@ -1,7 +1,7 @@
 // Picking: the first place where a ray meets a surface, compared with a test of every cell.
 #include "index/extraction/cell_ray.h"
 
-#include "index/build/index_build.h"
+#include "index/indexing/index_build.h"
 #include "index/volume/sample.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"

@@ -1,8 +1,8 @@
 // Extractions: the cells of every surface, and all of the volume that they need.
-#include "index/build/index_build.h"
 #include "index/error.h"
-#include "index/extraction/cell_colors.h"
 #include "index/extraction/extractor.h"
+#include "index/indexing/index_build.h"
+#include "index/surface/cell_colors.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"
 #include "tests/support/test_folder.h"

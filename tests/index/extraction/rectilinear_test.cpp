@@ -1,10 +1,10 @@
 // Rectilinear grids: normals, planes, meshes, picking and samples where vertices are uneven, each
 // against its definition.
-#include "index/build/index_build.h"
 #include "index/extraction/cell_ray.h"
-#include "index/extraction/mesh_parts.h"
 #include "index/extraction/value_in_index.h"
+#include "index/indexing/index_build.h"
 #include "index/scan/scan.h"
+#include "index/surface/mesh_parts.h"
 #include "index/volume/sample.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"

@@ -1,8 +1,8 @@
 // Levels of detail agree with their definition, and with searches at them.
-#include "index/build/index_build.h"
 #include "index/error.h"
-#include "index/extraction/layer_search.h"
 #include "index/file/detail_levels.h"
+#include "index/indexing/index_build.h"
+#include "index/search/layer_search.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,8 +1,8 @@
 // Damage that checksums do not show, at every depth of the file: refused in one line, or harmless.
-#include "index/build/index_build.h"
 #include "index/error.h"
-#include "index/extraction/cell_change.h"
-#include "index/extraction/layer_search.h"
+#include "index/indexing/index_build.h"
+#include "index/search/cell_change.h"
+#include "index/search/layer_search.h"
 #include "tests/support/index_repair.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"

@@ -1,8 +1,8 @@
 // The index file: it is read as it was written, and damage is reported.
-#include "index/build/index_build.h"
 #include "index/error.h"
-#include "index/file/file_layout.h"
-#include "index/file/metadata.h"
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/metadata.h"
+#include "index/indexing/index_build.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,7 +1,7 @@
 // Indices of file version 2 are refused in one line, and `build` reads them.
-#include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
+#include "index/indexing/index_build.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 

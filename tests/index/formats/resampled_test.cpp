@@ -1,5 +1,5 @@
 // Grids that become regular ones: by how many vertices, and what the note says of the error.
-#include "index/formats/resampled_series.h"
+#include "index/formats/series/resampled_series.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <fmt/format.h>

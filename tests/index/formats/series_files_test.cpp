@@ -1,6 +1,6 @@
 // Series of raw files and .pvd files: order, times, and files that do not match.
-#include "index/formats/natural_order.h"
-#include "index/formats/series_writer.h"
+#include "index/formats/series/natural_order.h"
+#include "index/formats/series/series_writer.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gmock/gmock.h>

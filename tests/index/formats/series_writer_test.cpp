@@ -1,5 +1,5 @@
 // The writer of .pvd series: when files appear, and that they are always the same.
-#include "index/formats/series_writer.h"
+#include "index/formats/series/series_writer.h"
 
 #include "index/error.h"
 #include "tests/support/reader_fixtures.h"

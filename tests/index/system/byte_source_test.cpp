@@ -1,8 +1,8 @@
 // A file that gets shorter, fails or is slow: one error line of its reader, and never a signal.
-#include "index/build/index_build.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
+#include "index/indexing/index_build.h"
 #include "index/system/parallel.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"

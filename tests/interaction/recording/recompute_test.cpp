@@ -1,8 +1,8 @@
 // A whole session through emulation and controls: every command can be recomputed from its
 // recording.
-#include "interaction/controls.h"
-#include "interaction/desktop_emulation.h"
-#include "interaction/motion_gate.h"
+#include "interaction/controls/controls.h"
+#include "interaction/controls/desktop_emulation.h"
+#include "interaction/controls/motion_gate.h"
 
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/recording/recording_in.h"

@@ -1,7 +1,7 @@
 // Calibration, compared with poses that were computed by hand.
 #include "interaction/trackers/calibration.h"
 
-#include "tests/interaction/control_desk.h"
+#include "tests/interaction/controls/control_desk.h"
 #include "tests/support/test_seed.h"
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "interaction/trackers/dtrack_input.h"
 #include "interaction/trackers/dtrack_protocol.h"
 
-#include "tests/interaction/control_desk.h"
+#include "tests/interaction/controls/control_desk.h"
 #include "tests/support/test_seed.h"
 #include "tests/support/tracker_packets.h"
 

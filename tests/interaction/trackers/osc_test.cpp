@@ -1,7 +1,7 @@
 // Open Sound Control over loopback: addresses, types, bundles, garbage.
 #include "interaction/trackers/osc_input.h"
 
-#include "tests/interaction/control_desk.h"
+#include "tests/interaction/controls/control_desk.h"
 #include "tests/support/test_seed.h"
 #include "tests/support/tracker_packets.h"
 

@@ -1,11 +1,11 @@
 // One device over time: prediction, buttons that never stay pressed, time stamps, several sources.
-#include "interaction/composite_input.h"
-#include "interaction/motion_gate.h"
+#include "interaction/controls/motion_gate.h"
+#include "interaction/input/composite_input.h"
 #include "interaction/trackers/device_clock.h"
 #include "interaction/trackers/frame_sequence.h"
 #include "interaction/trackers/tracked_device.h"
 
-#include "tests/interaction/control_desk.h"
+#include "tests/interaction/controls/control_desk.h"
 #include "tests/support/test_seed.h"
 
 #include <cmath>

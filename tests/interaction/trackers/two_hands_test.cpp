@@ -2,7 +2,7 @@
 // sent, for the time of their measurement.
 #include "interaction/trackers/dtrack_input.h"
 
-#include "tests/interaction/control_desk.h"
+#include "tests/interaction/controls/control_desk.h"
 #include "tests/support/tracker_packets.h"
 
 #include <gmock/gmock.h>

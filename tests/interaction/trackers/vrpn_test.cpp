@@ -1,7 +1,7 @@
 // VRPN with its own servers, in this process and over loopback.
 #include "interaction/trackers/vrpn_input.h"
 
-#include "tests/interaction/control_desk.h"
+#include "tests/interaction/controls/control_desk.h"
 
 #include <vrpn_Analog.h>
 #include <vrpn_Button.h>

@@ -1,6 +1,6 @@
 // Uploads of cell sets: only differences, within the budget, never half a set, and every stream of
 // sets makes progress.
-#include "index/extraction/cell_colors.h"
+#include "index/surface/cell_colors.h"
 #include "tests/render/cells/cell_upload.h"
 
 #include <algorithm>

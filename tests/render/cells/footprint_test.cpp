@@ -1,5 +1,5 @@
 // The pixels that a single cell covers, compared with the paper's conic and with rays.
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/outline_oracle.h"
 #include "tests/render/cells/random_views.h"

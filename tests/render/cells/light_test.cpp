@@ -1,6 +1,6 @@
 // Light: samples and blending average linear light, and surfaces send out no more light than they
 // get.
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/driver.h"
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"

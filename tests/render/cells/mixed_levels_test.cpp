@@ -1,7 +1,7 @@
 // Cells of mixed levels of detail: placed and sized by their positions, and without holes.
-#include "index/build/index_build.h"
-#include "index/extraction/detail_regions.h"
-#include "render/cells/cell_pass.h"
+#include "index/detail/detail_regions.h"
+#include "index/indexing/index_build.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/extractions.h"
 #include "tests/support/gl_test.h"
@@ -255,7 +255,7 @@ TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
 }
 
 /// Where a level gives way to the next one, a voxel of the coarser one is at most 1.2 pixels (with
-/// the hysteresis of app/frame/detail_choice.cpp): no outline moves by more than a pixel, though
+/// the hysteresis of app/quality/detail_choice.cpp): no outline moves by more than a pixel, though
 /// the coarser level has flatter bumps.
 TEST_P(MixedLevels, WhereALevelGivesWayNoOutlineMovesByMoreThanAPixel) {
     const index::TestField bumpy(

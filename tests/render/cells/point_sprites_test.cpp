@@ -1,7 +1,7 @@
 // Points and quads show the same, and points are used only where they are valid.
 #include "render/cells/point_sprites.h"
 
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/outline_oracle.h"
 #include "tests/render/cells/random_views.h"

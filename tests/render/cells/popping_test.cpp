@@ -1,6 +1,6 @@
 // The change of a ShellSplatting picture when the order of its cells changes: the surface must not
 // pop when an eye crosses from one case of the traversal to the next.
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/image_compare.h"

@@ -1,7 +1,7 @@
 // Surfaces drawn for measurements: depth and normal of every pixel, in floats.
 #pragma once
 
-#include "render/cells/cell_pass.h"
+#include "render/drawing/cell_pass.h"
 #include "tests/render/cells/extractions.h"
 #include "tests/render/cells/vertex_field.h"
 #include "tests/support/gl_test.h"

@@ -1,7 +1,7 @@
 // The wearer's head and hands as devices.
 #include "tests/support/played_fixture.h"
 
-#include "interaction/actions.h"
+#include "interaction/input/actions.h"
 
 namespace isochron::stereo {
 namespace {

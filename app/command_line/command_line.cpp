@@ -1,0 +1,395 @@
+// The command line, through CLI11; the only source that includes it.
+#include "app/command_line/command_line.h"
+
+#include "app/command_line/cancel.h"
+#include "app/config/toml_reader.h"
+#include "app/text.h"
+#include "app/version.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+/// `, did you mean NEAR?` as the end of a message; empty if `near` is empty.
+std::string meant(const std::string& near) {
+    return near.empty() ? near : fmt::format(", did you mean {}?", near);
+}
+
+} // namespace
+
+Option& Option::required() {
+    option_->required();
+    return *this;
+}
+
+Option& Option::type_name(const std::string& name) {
+    option_->type_name(name);
+    return *this;
+}
+
+Option& Option::group(const std::string& heading) {
+    option_->group(heading);
+    return *this;
+}
+
+Option& Option::needs(const Option& other) {
+    option_->needs(other.option_);
+    return *this;
+}
+
+Option& Option::values(int count) {
+    option_->expected(count);
+    return *this;
+}
+
+Option& Option::repeatable() {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Option& Option::comma_separated() {
+    option_->delimiter(',');
+    return *this;
+}
+
+Option& Option::shows_default() {
+    option_->capture_default_str();
+    return *this;
+}
+
+template <class T>
+Option& Option::between(T low, T high) {
+    option_->check(CLI::Range(low, high));
+    return *this;
+}
+template Option& Option::between(int, int);
+template Option& Option::between(unsigned, unsigned);
+template Option& Option::between(std::size_t, std::size_t);
+template Option& Option::between(double, double);
+
+Option& Option::one_of(const std::vector<std::string>& names) {
+    return accepted_by(
+        [names](const std::string& text) {
+            if (std::ranges::find(names, text) != names.end())
+                return std::string();
+            return fmt::format("expected one of {}, got {}{}", fmt::join(names, ", "), text,
+                               meant(nearest_word(text, names)));
+        },
+        fmt::format("{{{}}}", fmt::join(names, ",")));
+}
+
+Option& Option::positive() {
+    return accepted_by(
+        [](const std::string& text) {
+            double value = 0;
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+            return good ? std::string() : fmt::format("expected a positive number, got {}", text);
+        },
+        "");
+}
+
+Option& Option::existing_file() {
+    option_->check(CLI::ExistingFile);
+    return *this;
+}
+
+Option& Option::existing_folder() {
+    option_->check(CLI::ExistingDirectory);
+    return *this;
+}
+
+Option& Option::accepted_by(std::function<std::string(const std::string&)> complaint,
+                            const std::string& form) {
+    option_->check(CLI::Validator(
+        [complaint = std::move(complaint)](const std::string& text) { return complaint(text); },
+        form));
+    return *this;
+}
+
+bool Option::given() const {
+    return option_->count() > 0;
+}
+
+Command Command::subcommand(const std::string& name, const std::string& description) {
+    return Command(*app_->add_subcommand(name, description));
+}
+
+void Command::require_subcommand() {
+    app_->require_subcommand(1);
+}
+
+template <class T>
+Option Command::option(const std::string& names, T& value, const std::string& help) {
+    return Option(*app_->add_option(names, value, help));
+}
+// One line for each type of value that options have.
+template Option Command::option(const std::string&, std::filesystem::path&, const std::string&);
+template Option Command::option(const std::string&, std::string&, const std::string&);
+template Option Command::option(const std::string&, int&, const std::string&);
+template Option Command::option(const std::string&, long&, const std::string&);
+template Option Command::option(const std::string&, unsigned&, const std::string&);
+template Option Command::option(const std::string&, std::size_t&, const std::string&);
+template Option Command::option(const std::string&, float&, const std::string&);
+template Option Command::option(const std::string&, double&, const std::string&);
+template Option Command::option(const std::string&, std::optional<std::string>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<long>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<unsigned>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<std::size_t>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<std::filesystem::path>&,
+                                const std::string&);
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<int>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<unsigned>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<float>&, const std::string&);
+template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
+
+Option Command::flag(const std::string& names, bool& value, const std::string& help) {
+    return Option(*app_->add_flag(names, value, help));
+}
+
+void Command::footer(const std::string& text) {
+    app_->footer(text);
+}
+
+void Command::on_run(std::function<void()> run) {
+    app_->callback(std::move(run));
+}
+
+namespace {
+
+/// The words of "{a,b,c}" in CLI11's description of a value; empty if it lists none.
+std::vector<std::string> listed_words(const std::string& shown) {
+    std::vector<std::string> words;
+    const std::size_t begin = shown.find('{');
+    const std::size_t end = shown.find('}', begin);
+    if (begin == std::string::npos || end == std::string::npos)
+        return words;
+    std::istringstream list(shown.substr(begin + 1, end - begin - 1));
+    for (std::string word; std::getline(list, word, ',');)
+        words.push_back(word);
+    return words;
+}
+
+OptionReference reference_of(const CLI::Option& option) {
+    OptionReference reference;
+    for (const std::string& name : option.get_snames())
+        reference.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        reference.names.push_back("--" + name);
+    if (reference.names.empty())
+        reference.value = option.get_name();
+    else if (option.get_expected_max() > 0)
+        reference.value = option.get_type_name();
+    reference.words = listed_words(option.get_type_name());
+    reference.help = option.get_description();
+    reference.heading = reference.names.empty() ? "Arguments" : option.get_group();
+    reference.required = option.get_required();
+    return reference;
+}
+
+CommandReference reference_of(const CLI::App& app) {
+    CommandReference reference{app.get_name(), app.get_description(), app.get_footer(), {}, {}};
+    for (const CLI::Option* option : app.get_options())
+        if (!option->get_group().empty())
+            reference.options.push_back(reference_of(*option));
+    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; }))
+        reference.commands.push_back(reference_of(*below));
+    return reference;
+}
+
+} // namespace
+
+CommandReference Command::reference() const {
+    return reference_of(*app_);
+}
+
+namespace {
+
+int fail(const char* program, const std::string& what, int status) {
+    std::fprintf(stderr, "%s: %s\n", program, one_line(what).c_str());
+    return status;
+}
+
+/// The command that opens a file, by its suffix.
+std::string_view command_for(const std::filesystem::path& file) {
+    const std::string suffix = file.extension().string();
+    if (suffix == ".isochron")
+        return "explore";
+    if (suffix == ".jsonl")
+        return "replay";
+    return suffix == ".png" || suffix == ".exr" ? "reproduce" : "build";
+}
+
+/// What the user may have meant by a word that is no command.
+std::string mistaken(const std::string& word, const std::vector<std::string>& names) {
+    std::error_code error;
+    if (std::filesystem::exists(word, error))
+        return fmt::format("{0}: a file, not a command; did you mean `isochron {1} {0}`?", word,
+                           command_for(word));
+    const std::string near = nearest_word(word, names);
+    return fmt::format("{}: unknown{}", word,
+                       near.empty() ? fmt::format(", expected {}", fmt::join(names, ", "))
+                                    : meant(near));
+}
+
+/// The message about arguments that the command does not know.
+std::string unexpected(const CLI::App& command) {
+    const std::vector<std::string> unknown = command.remaining();
+    const auto option = std::ranges::find_if(
+        unknown, [](const std::string& each) { return each.starts_with('-'); });
+    if (option == unknown.end())
+        return fmt::format("{}: one argument too many", fmt::join(unknown, " "));
+    std::vector<std::string> names;
+    for (const CLI::Option* known : command.get_options())
+        for (const std::string& name : known->get_lnames())
+            names.push_back("--" + name);
+    const std::string word = option->substr(0, option->find('='));
+    return fmt::format("{}: unknown option{}", word, meant(nearest_word(word, names)));
+}
+
+/// The parser's complaint in one line, with the command whose help explains more.
+std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+    const CLI::App* command = &program;
+    std::string name = program.get_name();
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+        name += " " + command->get_name();
+    }
+    std::string what = error.what();
+    // For an unknown command CLI11 says only that a command is missing.
+    const std::vector<std::string> unknown = command->remaining();
+    const auto known = command->get_subcommands([](const CLI::App*) { return true; });
+    const bool is_option = !unknown.empty() && unknown.front().starts_with('-');
+    if (!known.empty() && !is_option) {
+        std::vector<std::string> names;
+        for (const CLI::App* candidate : known)
+            names.push_back(candidate->get_name());
+        what = unknown.empty() ? fmt::format("{}, expected {}", what, fmt::join(names, ", "))
+                               : mistaken(unknown.front(), names);
+    } else if (!unknown.empty()) {
+        what = unexpected(*command);
+    } else if (const std::string_view wrong = "Could not convert: "; what.starts_with(wrong)) {
+        // CLI11 says `--name = text`; only numbers are converted, so only they can fail this way.
+        what.erase(0, wrong.size());
+        if (const std::size_t equals = what.find(" = "); equals != std::string::npos)
+            what.replace(equals, 3, ": expected a number, got ");
+    }
+    return fmt::format("{} (see {} --help)", what, name);
+}
+
+/// Flags that had another spelling up to version 0.1, and their spelling now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kOldFlags{{
+    {"--colour", "--color"},
+    {"--colour-component", "--color-component"},
+    {"--colour-unit", "--color-unit"},
+}};
+
+/// Whether a word in the place of a command is data to explore, maybe with a path within.
+bool is_data(const CLI::App& program, const std::string& word) {
+    const std::string file = word.substr(0, word.find(":/"));
+    const std::string_view command = command_for(file);
+    std::error_code error;
+    const auto known = program.get_subcommands([](const CLI::App*) { return true; });
+    const auto is_command = [&](std::string_view name) {
+        return std::ranges::any_of(known,
+                                   [&](const CLI::App* each) { return each->get_name() == name; });
+    };
+    return !is_command(word) && is_command("explore") &&
+           (command == "explore" || command == "build") && std::filesystem::exists(file, error);
+}
+
+/// The arguments in today's spelling, last first, as the parser wants them. `isochron DATA` is
+/// `isochron explore DATA`.
+std::vector<std::string> arguments_from(const CLI::App& program, int argc,
+                                        const char* const* argv) {
+    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    for (std::string& argument : arguments) {
+        const std::size_t end = std::min(argument.find('='), argument.size());
+        for (const auto& [old, now] : kOldFlags)
+            if (std::string_view(argument).substr(0, end) == old) {
+                argument.replace(0, end, now);
+                break;
+            }
+    }
+    if (!arguments.empty() && is_data(program, arguments.front()))
+        arguments.insert(arguments.begin(), "explore");
+    std::ranges::reverse(arguments);
+    return arguments;
+}
+
+} // namespace
+
+namespace {
+
+/// Errors of the commands pass through; those of the parser become an exit status.
+int parse_and_run(const ProgramText& text,
+                  std::initializer_list<void (*)(Command& program)> commands, int argc,
+                  const char* const* argv) {
+    CLI::App program{text.description, text.name};
+    program.set_version_flag("--version",
+                             fmt::format("{} {}{}", text.name, kVersion,
+                                         text.version_details ? text.version_details() : ""));
+    program.require_subcommand(1);
+    program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
+    Command root(program);
+    for (const auto add : commands)
+        add(root);
+    try {
+        program.parse(arguments_from(program, argc, argv));
+    } catch (const CLI::Success& request) {
+        return program.exit(request);
+    } catch (const CLI::ParseError& error) {
+        return fail(text.name, complaint(program, error), 2);
+    }
+    return 0;
+}
+
+} // namespace
+
+int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
+                int argc, const char* const* argv) {
+    int status = 0;
+    try {
+        status = parse_and_run(text, commands, argc, argv);
+    } catch (const Canceled& canceled) {
+        return fail(text.name, canceled.what(), canceled.status);
+    } catch (const ReportedElsewhere&) {
+        return 0;
+    } catch (const UsageError& error) {
+        return fail(text.name, error.what(), 2);
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "%s: there is not enough memory\n", text.name);
+        return 1;
+    } catch (const std::filesystem::filesystem_error& error) {
+        const std::string path = error.path1().empty() ? "." : error.path1().string();
+        return fail(text.name, fmt::format("{}: {}", path, error.code().message()), 1);
+    } catch (const std::exception& error) {
+        return fail(text.name, error.what(), 1);
+    }
+    // Output that did not arrive, for example on a full disk behind a redirection, is an error.
+    if (std::fflush(stdout) != 0)
+        return fail(text.name, "the output cannot be written", 1);
+    return status;
+}
+
+} // namespace isochron::app

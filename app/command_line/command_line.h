@@ -1,0 +1,116 @@
+// Subcommands and their options; only command_line.cpp includes the parser's library.
+//
+//     void add_verify(Command& program) {
+//         auto path = std::make_shared<std::filesystem::path>();
+//         Command command = program.subcommand("verify", "Compare every checksum of an index.");
+//         command.option("file", *path, "Index").required().type_name("NAME.isochron");
+//         command.on_run([path] { run_verify(*path); });
+//     }
+#pragma once
+
+#include "app/command_line/command_reference.h"
+
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
+
+namespace isochron::app {
+
+/// Thrown by a command for wrong usage that the parser cannot see: exit status 2.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Thrown by the other processes of a job when rank 0 reports an error: they print nothing and
+/// leave the exit status to rank 0.
+class ReportedElsewhere {};
+
+/// One option of a command, or one positional argument. Setters return the option.
+class Option {
+  public:
+    explicit Option(CLI::Option& option) : option_(&option) {}
+
+    Option& required();
+    /// What help shows for the value, such as FILE.
+    Option& type_name(const std::string& name);
+    /// The heading under which help lists the option.
+    Option& group(const std::string& heading);
+    /// Refused if `other` is not given.
+    Option& needs(const Option& other);
+    /// Takes exactly `count` values.
+    Option& values(int count);
+    /// Takes one value each time that it is given, and may be given several times.
+    Option& repeatable();
+    /// Takes several values with commas between them.
+    Option& comma_separated();
+    /// Help shows the value that the variable has now.
+    Option& shows_default();
+    /// Refuses values outside [low, high]. T: int, unsigned or std::size_t.
+    template <class T>
+    Option& between(T low, T high);
+    Option& one_of(const std::vector<std::string>& names);
+    /// Accepts finite numbers above zero.
+    Option& positive();
+    Option& existing_file();
+    Option& existing_folder();
+    /// `complaint` returns what is wrong with a value, empty if nothing is; `form` is how help
+    /// describes the accepted values.
+    Option& accepted_by(std::function<std::string(const std::string&)> complaint,
+                        const std::string& form);
+
+    /// Whether the user gave it; known once the command runs.
+    bool given() const;
+
+  private:
+    CLI::Option* option_;
+};
+
+/// The program or one of its subcommands. A handle: copies name the same command.
+class Command {
+  public:
+    explicit Command(CLI::App& app) : app_(&app) {}
+
+    Command subcommand(const std::string& name, const std::string& description);
+    /// The user must name one of the subcommands.
+    void require_subcommand();
+    /// `names` is `--long`, `-s,--long`, or a word for a positional argument. `value` must live
+    /// until the command has run. Its type says what is parsed: a path, a string, a number, a
+    /// std::optional of one, or a std::vector of them.
+    template <class T>
+    Option option(const std::string& names, T& value, const std::string& help);
+    Option flag(const std::string& names, bool& value, const std::string& help);
+    /// Text below the options in the command's help.
+    void footer(const std::string& text);
+    void on_run(std::function<void()> run);
+    /// Its options, and its subcommands added so far.
+    CommandReference reference() const;
+
+  private:
+    CLI::App* app_;
+};
+
+/// What a program says of itself.
+struct ProgramText {
+    const char* name;
+    const char* description;
+    std::string (
+        *version_details)(); ///< what --version prints behind name and version; may be null
+};
+
+/// Parses the arguments, runs the one subcommand that they name, and turns errors into one line.
+/// Returns the exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted.
+int run_program(const ProgramText& program,
+                std::initializer_list<void (*)(Command& program)> commands, int argc,
+                const char* const* argv);
+
+} // namespace isochron::app

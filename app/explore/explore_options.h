@@ -1,0 +1,34 @@
+// The command line options of `explore`.
+#pragma once
+
+#include "app/indexing/build_arguments.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+struct ExploreOptions {
+    BuildArguments sources;          ///< what was given: an index, or files of values
+    std::optional<std::string> data; ///< the index that is shown
+    std::string data_name;           ///< what the user knows it by
+    std::string config = "desktop";
+    std::optional<std::string> check_config, context, stereo, quality, footprint, shape;
+    std::optional<std::string> record, report;
+    std::optional<double> isovalue, seconds;
+    std::optional<std::uint32_t> step;
+    std::vector<int> size;
+    std::string screenshots = ".";
+    std::optional<std::string> session;
+    bool force = false, resume = false, follow = false;
+    bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
+    bool verbose = false;
+};
+
+/// Adds the options of `explore`, and the text below them in `--help`.
+/// @param options live until the command has run
+void add_explore_options(Command& command, ExploreOptions& options);
+
+} // namespace isochron::app

@@ -1,0 +1,187 @@
+// How a session of `explore` begins.
+#include "app/explore/explore_start.h"
+
+#include "app/config/check_config.h"
+#include "app/config/shipped_configs.h"
+#include "app/config/tracker_setup.h"
+#include "app/explore/drawing_options.h"
+#include "app/indexing/file_patterns.h"
+#include "app/indexing/open_index.h"
+#include "app/output/room_view.h"
+#include "app/session/recording_file.h"
+#include "app/session/start_state.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/file/color_source.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+/// Number of the array to begin with. What an index was made for is its first.
+std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file) {
+    const auto& arrays = options.sources.arrays;
+    const bool made_before = options.data_name == *options.data;
+    return made_before && !arrays.empty() ? array_number(file, arrays.front()) : 0;
+}
+
+/// The step that the options ask for.
+std::uint32_t first_step(const ExploreOptions& options, std::size_t steps) {
+    return options.step.value_or(options.follow ? static_cast<std::uint32_t>(steps) - 1 : 0);
+}
+
+/// Refuses to overwrite an existing recording, which only --force allows.
+void refuse_to_replace(const std::string& recording) {
+    for (const std::string& name : {recording, recording + ".part"})
+        if (std::filesystem::exists(name))
+            throw index::Error(fmt::format("{}: exists already{}; --force replaces it", name,
+                                           name == recording
+                                               ? ""
+                                               : ", a recording that was cut short and can be "
+                                                 "replayed"));
+}
+
+} // namespace
+
+Config configure(const ExploreOptions& options) {
+    Config config = read_config(options.config);
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (options.quality)
+        config.quality = quality_mode_from_name(*options.quality);
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    set_shape(config, options.shape);
+    if (!options.size.empty() && !options.emulate)
+        for (stereo::Window& window : config.installation.windows) {
+            window.size = {options.size[0], options.size[1]};
+            window.fullscreen = false;
+        }
+    config.openxr.enabled = config.openxr.enabled && !options.emulate;
+    config.openxr.verbose = options.verbose;
+    const bool in_headset =
+        config.openxr.enabled && config.context == stereo::ContextKind::egl; // shows without window
+    if (config.context != stereo::ContextKind::glfw && !in_headset)
+        throw UsageError(
+            fmt::format("explore needs a window: --context glfw, not {} (egl only with a headset, "
+                        "[openxr] enabled = true); `isochron replay` draws pictures without one",
+                        stereo::name_of(config.context)));
+    stereo::OpenXrOptions& openxr = config.openxr.options;
+    openxr.windowless = in_headset;
+    openxr.near_plane = config.installation.near_plane;
+    openxr.far_plane = config.installation.far_plane;
+    openxr.local_in_room.position = config.installation.viewers.front().position;
+    return config;
+}
+
+void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps) {
+    if (options.step && *options.step >= steps)
+        throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
+    if (options.isovalue && !std::isfinite(*options.isovalue))
+        throw UsageError(
+            fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
+    if (options.isovalue)
+        warn_beyond(*options.isovalue, file.array(first_array(options, file)));
+}
+
+ExplorerState first_look(const Session& session, const ExploreOptions& options,
+                         const Config& config,
+                         const std::shared_ptr<const index::IndexFile>& file) {
+    ExplorerState state = session.state();
+    const std::size_t steps = file->info().steps(), number = first_array(options, *file);
+    if (number > 0)
+        state.apply(session.way_to_array(number), steps);
+    if (const std::uint32_t step = first_step(options, steps); step > state.step)
+        state.isosurfaces = first_surfaces(config, array_of(file, number), step);
+    return state;
+}
+
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
+    state.set_isovalue(options.isovalue.value_or(state.isovalue()));
+    state.steps = static_cast<std::uint32_t>(steps);
+    state.follow = state.follow || options.follow;
+    state.step = options.step || options.follow ? first_step(options, steps) : state.step;
+    state.panel = state.panel && !options.no_panel;
+    if (options.stereo)
+        state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
+    return state;
+}
+
+void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    index::make_folder(options.screenshots);
+    if (!job.leads())
+        return;
+    std::vector<fs::path> inputs{*options.data};
+    if (*options.data != options.data_name) // it is the index of these
+        inputs = expand_patterns(options.sources.files);
+    for (const auto& out : {options.record, options.report, options.session})
+        if (out)
+            refuse_input_as_output(inputs, *out);
+    if (options.record && !options.force)
+        refuse_to_replace(*options.record);
+    if (options.record && fs::exists(*options.record, ignored))
+        read_recording(*options.record); // only a recording may be overwritten
+    if (options.session && fs::path(*options.session).has_parent_path())
+        index::make_folder(fs::path(*options.session).parent_path());
+    for (const auto& out : {options.record, options.report, options.session})
+        if (out)
+            index::NewFile{*out};
+}
+
+stereo::Windows open_windows(const ExploreOptions& options, const Config& config,
+                             const ClusterJob& job, const stereo::Headset* headset) {
+    const std::string title =
+        fmt::format("Isochron: {}", options.test_pattern        ? "test pattern"
+                                    : options.data_name.empty() ? "open data"
+                                                                : options.data_name);
+    const stereo::Installation& installation = config.installation;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title, .vsync = config.vsync};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return stereo::open_room(config.context, installation, room);
+    }
+    const stereo::StereoMode start = options.stereo
+                                         ? *stereo::stereo_mode_from_name(*options.stereo)
+                                         : installation.windows.front().stereo;
+    // A headset paces the frames, so the window that mirrors it must not wait for its own display.
+    return stereo::open_windows(
+        config.context, installation,
+        {.title = title,
+         .vsync = config.vsync && !headset,
+         .stereo = headset ? stereo::StereoMode::mono : start,
+         .api = headset ? headset->context_api() : stereo::ContextApi::native,
+         .console = job.leads() ? config.panel.console : std::nullopt,
+         .rank = job.rank(),
+         .ranks = job.size()});
+}
+
+void warn_of_colors(const Config& config, const index::IndexFile& file) {
+    const std::string& wanted = config.coloring.array;
+    if (wanted.empty())
+        return;
+    const std::vector<std::string> there = index::color_source_names(file);
+    if (std::ranges::find(there, wanted) == there.end())
+        fmt::print(stderr, "isochron: warning: {}: no array {} to color by, there {}\n",
+                   file.name(), wanted,
+                   there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", ")));
+}
+
+void warn(const Config& config) {
+    for (const ConfigProblem& problem : problems_of(config))
+        fmt::print(stderr, "isochron: {}\n", line_of(problem, config));
+    for (const std::string& warning : device_warnings(config))
+        fmt::print(stderr, "isochron: warning: {}\n", one_line(warning));
+}
+
+} // namespace isochron::app

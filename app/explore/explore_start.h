@@ -1,0 +1,44 @@
+// How a session of `explore` begins: its configuration, checks, windows.
+#pragma once
+
+#include "app/explore/cluster_job.h"
+#include "app/explore/explore_options.h"
+#include "app/session/session.h"
+#include "index/file/index_file.h"
+#include "stereo/windows.h"
+
+#include <cstddef>
+
+namespace isochron::app {
+
+/// The configuration with what the command line says. @throws UsageError
+Config configure(const ExploreOptions& options);
+
+/// Warns of what is wrong with a configuration, or missing for it.
+void warn(const Config& config);
+
+/// Warns if the data lack the array that the configuration colors by.
+void warn_of_colors(const Config& config, const index::IndexFile& file);
+
+/// @param steps of the whole series, of which the file may have the first only
+/// @throws UsageError when the session cannot start as it was asked to
+void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps);
+
+/// Checks the paths of outputs, so that a wrong one does not show, or destroy a file, only at the
+/// end of the session.
+void check_outputs(const ExploreOptions& options, const ClusterJob& job);
+
+/// The session's state as the options ask for it: showing the array that they name, if any, with
+/// first surfaces that suit the step that they name.
+/// @throws index::Error when the index lacks the array
+ExplorerState first_look(const Session& session, const ExploreOptions& options,
+                         const Config& config, const std::shared_ptr<const index::IndexFile>& file);
+
+/// The state to begin with. @param steps that the data have now
+ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps);
+
+/// @param headset mirrored by the first window; it paces the frames, not that window's display
+stereo::Windows open_windows(const ExploreOptions& options, const Config& config,
+                             const ClusterJob& job, const stereo::Headset* headset);
+
+} // namespace isochron::app

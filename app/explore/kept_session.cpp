@@ -1,0 +1,88 @@
+// Saving and resuming of the session of `explore`.
+#include "app/explore/kept_session.h"
+
+#include "app/version.h"
+#include "interaction/error.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+
+namespace isochron::app {
+
+std::string data_hash_of(const index::IndexFile& file) {
+    return fmt::format("{:016x}", file.content_hash());
+}
+
+namespace {
+
+/// Whether the data have this hash, or had it when they had fewer steps.
+bool is_held(const index::IndexFile& file, std::string_view hash) {
+    std::uint64_t number = 0;
+    const char* const end = hash.data() + hash.size();
+    const auto read = std::from_chars(hash.data(), end, number, 16);
+    return read.ptr == end && read.ec == std::errc() && file.has_had(number);
+}
+
+} // namespace
+
+std::string held_hash(const index::IndexFile& file, const std::string& hash) {
+    return is_held(file, hash) ? hash : data_hash_of(file);
+}
+
+std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
+                                          const index::IndexFile& file) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::exists(path, error))
+        return path;
+    // NAME-HASH.isochron-session
+    constexpr std::size_t kHash = 16;
+    const std::string stem = path.stem().string();
+    const std::string start = stem.substr(0, stem.size() - kHash);
+    fs::path newest = path;
+    fs::file_time_type newest_time;
+    for (fs::directory_iterator entry(path.parent_path(), error);
+         !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        const std::string name = entry->path().stem().string();
+        if (entry->path().extension() != path.extension() || name.size() != stem.size() ||
+            !name.starts_with(start) || !is_held(file, std::string_view(name).substr(start.size())))
+            continue;
+        std::error_code unknown;
+        const fs::file_time_type time = fs::last_write_time(entry->path(), unknown);
+        if (newest == path || time > newest_time) {
+            newest = entry->path();
+            newest_time = time;
+        }
+    }
+    return newest;
+}
+
+std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
+                                            bool resume) {
+    const bool there = path && std::filesystem::exists(*path);
+    if (resume && !there)
+        throw interaction::Error(fmt::format("--resume: no session on these data is kept{}",
+                                             path ? " in " + path->string() : ""));
+    if (resume)
+        return read_session(*path);
+    if (there)
+        fmt::print(stderr, "isochron: --resume goes on with the session in {}\n", path->string());
+    return std::nullopt;
+}
+
+void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& path,
+                  const std::string& data, const index::IndexFile& file, const Session& session,
+                  const std::optional<SavedSession>& earlier) {
+    if (earlier)
+        live.stand(earlier->head);
+    if (path)
+        live.keep_session(*path,
+                          {std::string(kProgram), std::filesystem::absolute(data).string(),
+                           data_hash_of(file), session.state().as_commands(), live.standing(),
+                           session.left_arrays()},
+                          earlier.has_value());
+}
+
+} // namespace isochron::app

@@ -1,0 +1,38 @@
+// What a live session is given to work with: its options, its recording's header, its movies.
+#pragma once
+
+#include "app/explore/explore_options.h"
+#include "app/frame/background_work.h"
+#include "app/session/live_loop.h"
+#include "app/session/movie_maker.h"
+#include "app/session/user_memory.h"
+
+#include <filesystem>
+#include <string>
+
+namespace isochron::app {
+
+/// Why data cannot be shown at all, in one line; empty: they can. Files of values can be shown if
+/// they can be opened without options.
+std::string why_not_open(const std::filesystem::path& data);
+/// Why this session cannot show other data; empty: it can.
+std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data);
+
+/// The options of the live loop: when it ends, and whether it emulates an installation.
+LiveOptions live_options(const ExploreOptions& options);
+
+/// The header of a recording that begins now. @param path of the data
+interaction::RecordingHeader header_of(const Session& session, const Config& config,
+                                       const index::IndexFile& file, const std::string& path);
+
+/// Options for movies that the panel asks for: they are drawn as this session draws.
+MovieOrders movie_orders(const ExploreOptions& options, interaction::RecordingHeader header);
+
+/// Remembers the data as recently opened, and shows the introduction if the user is new.
+/// @param data their name; empty: they are not remembered
+/// @param memory outlives the session's frames
+/// @param writing writes to `memory` in the background
+void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
+           const std::optional<std::string>& data);
+
+} // namespace isochron::app

@@ -1,0 +1,146 @@
+// The options that all replaying commands share.
+#include "app/explore/replay_source.h"
+
+#include "app/explore/drawing_options.h"
+#include "app/explore/kept_session.h"
+#include "app/indexing/open_index.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace isochron::app {
+
+namespace fs = std::filesystem;
+
+void add_replay_source(Command& command, ReplaySource& source) {
+    command.option("recording", source.recording, "Recording made by `explore --record`")
+        .required();
+    command.option("--data", source.data,
+                   "Index to use instead of the recorded one (a relative path is tried from the "
+                   "recording's folder, too)");
+    command.flag("--any-data", source.any_data,
+                 "Accept data that differ from the recorded ones (another hash)");
+    command
+        .option("--size", source.size,
+                "Size in pixels of each window's pictures, or of the room with --emulate (default: "
+                "as recorded)")
+        .values(2)
+        .between(16, 16384);
+    command
+        .option("--samples", source.samples, "Samples per pixel (default: as configured, else 4)")
+        .between(1, 64);
+    command.flag("--emulate", source.emulate,
+                 "Show the room from outside instead, with the picture on every wall");
+    command.option("--stereo", source.stereo, "Stereo mode instead of the recorded one")
+        .one_of(stereo_mode_names());
+    command.option("--quality", source.quality, "Quality mode instead of the recorded one")
+        .one_of(interaction::all_names<interaction::QualityMode>());
+    command
+        .option("--footprint", source.footprint,
+                "Footprint of settled pictures, instead of the configured one: auto (the best; "
+                "with --live the best within the frame budget), gaussian, mesh or surface")
+        .one_of(settled_footprint_names());
+    command.flag(
+        "--ray", source.ray,
+        "Show the wand's ray and what is under the cursor; pictures leave them out otherwise");
+    command.flag("--caption", source.caption,
+                 "Add isovalue, time, axes and a scale bar to the pictures");
+    add_shape_option(command, source.shape);
+    command.option(
+        "--config", source.config,
+        "Configuration to use instead of the recorded one: a TOML file or a shipped name");
+    command
+        .option("--context", source.context,
+                "GL context: egl (default), osmesa, glfw (default with --live)")
+        .one_of({"glfw", "egl", "osmesa"});
+}
+
+Config config_of(const ReplaySource& options, const interaction::RecordingHeader& header) {
+    Config config =
+        options.config ? read_config(*options.config)
+                       : parse_config(header.configuration, options.recording + " (configuration)");
+    // A recording made in a window replays without one unless a window is asked for.
+    config.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
+    if (options.context)
+        config.context = *stereo::context_kind_from_name(*options.context);
+    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
+        config.installation.windows.front().size = {header.window[0], header.window[1]};
+    if (options.footprint)
+        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+    set_shape(config, options.shape);
+    config.picture_samples = options.samples.value_or(config.picture_samples);
+    config.picture_ray = config.picture_ray || options.ray;
+    config.picture_caption = config.picture_caption || options.caption;
+    for (stereo::Window& window : config.installation.windows) {
+        if (!options.size.empty() && !options.emulate)
+            window.size = {options.size[0], options.size[1]};
+        window.fullscreen = false; // a replay must not take over the displays
+    }
+    return config;
+}
+
+std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
+                                                const interaction::RecordingHeader& header,
+                                                const Config& config) {
+    std::string path = options.data.value_or(header.data);
+    std::error_code ignored;
+    if (!options.data && !fs::exists(path, ignored)) {
+        // A relative path refers to the folder where the session was started; try the recording's
+        // folder too.
+        path = (fs::path(options.recording).parent_path() / header.data).string();
+        if (!fs::exists(path, ignored))
+            throw interaction::Error(
+                fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
+                            options.recording, header.data));
+    }
+    auto file = open_index_to_show(path, config.cache_bytes());
+    if (!options.any_data && !other_data(header, *file).empty())
+        throw interaction::Error(
+            fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
+                        "(--any-data replays all the same)",
+                        options.recording, header.data_hash, path, data_hash_of(*file)));
+    return file;
+}
+
+std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file) {
+    // A recording without a hash, such as a demonstration, is not bound to one data set. Data may
+    // have grown since they were recorded on.
+    if (header.data_hash.empty() || held_hash(file, header.data_hash) == header.data_hash)
+        return {};
+    return header.data_hash;
+}
+
+std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header) {
+    return fs::path(options.data.value_or(header.data)).filename().string();
+}
+
+stereo::Windows windows_of(const ReplaySource& options, const Config& config,
+                           const interaction::RecordingHeader& header, const ClusterJob& job) {
+    const std::string title = "Isochron: " + options.recording;
+    if (options.emulate) {
+        stereo::ContextOptions room{.title = title};
+        if (!options.size.empty())
+            room.size = {options.size[0], options.size[1]};
+        return open_room(config.context, config.installation, room);
+    }
+    const std::string mode = options.stereo.value_or(header.start.stereo.value_or(""));
+    return open_windows(config.context, config.installation,
+                        {.title = title,
+                         .vsync = config.vsync,
+                         .stereo = stereo::stereo_mode_from_name(mode).value_or(
+                             config.installation.windows.front().stereo),
+                         .rank = job.rank(),
+                         .ranks = job.size()});
+}
+
+ReplayOptions replay_options(const ReplaySource& options) {
+    ReplayOptions replay;
+    if (options.stereo)
+        replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
+    if (options.quality)
+        replay.quality = quality_mode_from_name(*options.quality);
+    return replay;
+}
+
+} // namespace isochron::app

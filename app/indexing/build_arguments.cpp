@@ -1,0 +1,282 @@
+// The command line of `isochron build`, turned into the options of the index library.
+#include "app/indexing/build_arguments.h"
+
+#include "app/indexing/file_patterns.h"
+#include "index/file/index_file.h"
+#include "index/formats/series/resampled_series.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sstream>
+
+namespace isochron::app {
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string names_of(const index::TierSet& tiers) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (tiers.has(static_cast<index::Tier>(i)))
+            names.push_back(index::kTierNames[i]);
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ","));
+}
+
+glm::dvec3 vector_of(const std::vector<double>& numbers) {
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// Takes what the user left open from how files were read before.
+void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
+    const auto take = [](auto& of, const auto& held_one) {
+        if (!of)
+            of = held_one;
+    };
+    take(read.allow_surplus, held.allow_surplus);
+    take(read.extra_axis_is_time, held.extra_axis_is_time);
+    take(read.times_from_names, held.times_from_names);
+    take(read.resample, held.resample);
+    take(read.dims, held.dims);
+    take(read.type, held.type);
+    take(read.big_endian, held.big_endian);
+    take(read.header_bytes, held.header_bytes);
+    take(read.spacing, held.spacing);
+    take(read.origin, held.origin);
+    take(read.time_step, held.time_step);
+    take(read.length_unit, held.length_unit);
+    take(read.time_unit, held.time_unit);
+    take(read.value_unit, held.value_unit);
+}
+
+} // namespace
+
+BuildArguments with_path_within(BuildArguments arguments) {
+    const bool several = arguments.all_arrays || arguments.arrays.size() > 1;
+    if (arguments.all_arrays && !arguments.arrays.empty())
+        throw UsageError("--all-arrays and --array: expected one of them");
+    if (several && arguments.read.component)
+        throw UsageError("--component: with several arrays add it to a name: --array "
+                         "velocity.magnitude");
+    if (several && arguments.read.value_unit)
+        throw UsageError("--value-unit: expected for one array only");
+    if (!arguments.arrays.empty())
+        arguments.read.array = arguments.arrays.front();
+    const auto path = take_path_within(arguments.files);
+    if (path && arguments.read.array)
+        throw UsageError(fmt::format("--array {} and {} in the name of a file: expected one",
+                                     *arguments.read.array, *path));
+    if (path)
+        arguments.read.array = path;
+    return arguments;
+}
+
+index::ReadOptions read_options(const BuildArguments& arguments) {
+    index::ReadOptions read = arguments.read;
+    if (!arguments.dims.empty())
+        read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
+    if (!arguments.resample.empty())
+        read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
+    if (arguments.resample_by_cell)
+        read.resample = index::kBySmallestCell;
+    if (!arguments.type.empty())
+        read.type = index::value_type_from_name(arguments.type);
+    if (!arguments.spacing.empty())
+        read.spacing = vector_of(arguments.spacing);
+    if (!arguments.origin.empty())
+        read.origin = vector_of(arguments.origin);
+    return read;
+}
+
+index::ReadOptions color_options(const BuildArguments& arguments) {
+    index::ReadOptions read = read_options(arguments);
+    read.array = arguments.color;
+    read.component = arguments.color_component;
+    read.value_unit = arguments.color_unit;
+    return read;
+}
+
+index::TierSet tiers_of(const std::string& list) {
+    index::TierSet tiers;
+    if (list == "none")
+        return tiers;
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');) {
+        const auto tier = index::tier_from_name(name);
+        if (!tier)
+            throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
+                                         fmt::join(index::kTierNames, ",")));
+        tiers = tiers.with(*tier);
+    }
+    return tiers;
+}
+
+index::Referral referral_to(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+    index::Referral referral{.files = {}, .options = read_options(arguments)};
+    const fs::path folder = fs::absolute(arguments.out).parent_path();
+    for (const fs::path& file : files)
+        referral.files.push_back(fs::absolute(file).lexically_relative(folder));
+    return referral;
+}
+
+BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held) {
+    const index::Metadata& known = held.metadata();
+    index::BuildOptions& build = arguments.build;
+    if (arguments.tiers.empty())
+        build.plan = held.plan();
+    if (held.plan().tiers.has(index::Tier::tree) && !build.with_tree) {
+        build.with_tree = true;
+        build.tree = held.tree_options();
+    }
+    if (arguments.codec.empty())
+        build.codec = held.codec();
+    arguments.refer = arguments.refer || held.referral();
+    if (!arguments.read.array && held.arrays() > 1) {
+        for (std::size_t number = 0; number < held.arrays(); ++number) {
+            const index::Metadata& one = held.array(number).metadata();
+            arguments.arrays.push_back(one.chosen_array.value_or(one.info.array) +
+                                       (one.chosen_component ? "." + *one.chosen_component : ""));
+        }
+        arguments.all_arrays = false;
+        arguments.read.array = arguments.arrays.front();
+    } else if (!arguments.read.array) {
+        arguments.read.array = known.chosen_array;
+        arguments.read.component = known.chosen_component;
+    }
+    if (known.reading)
+        fill_in(arguments.read, *known.reading);
+    else if (held.referral()) // an index of an older program
+        fill_in(arguments.read, held.referral()->options);
+    if (!arguments.color && held.color()) {
+        arguments.color = held.color()->chosen_array.value_or(held.color()->array);
+        arguments.color_component = held.color()->chosen_component;
+    }
+    return arguments;
+}
+
+std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOptions& options) {
+    for (std::size_t number = 0; number < held.arrays(); ++number) {
+        const index::TierSet has = held.array(number).plan().tiers;
+        index::TierSet wanted = options.tiers.value_or(has);
+        if (options.with_tree)
+            wanted = wanted.with(index::Tier::tree);
+        if (wanted != has)
+            return fmt::format("tiers {} instead of {}", names_of(wanted), names_of(has));
+    }
+    if (options.codec != held.codec())
+        return fmt::format("codec {} instead of {}",
+                           index::kCodecNames[static_cast<std::size_t>(options.codec)],
+                           index::kCodecNames[static_cast<std::size_t>(held.codec())]);
+    if (options.referral.has_value() != held.referral().has_value())
+        return "it refers to its files from now on";
+    if (options.with_tree)
+        return "the paper's tree spans all steps";
+    return {};
+}
+
+void add_reading_options(Command& command, BuildArguments& arguments) {
+    index::ReadOptions& read = arguments.read;
+    command
+        .option("--array", arguments.arrays,
+                "Array to read, if the files hold several. Given several times, each becomes an "
+                "array of the index; a component may stand behind its name: velocity.magnitude. "
+                "u,v,w is the vector of three arrays")
+        .repeatable()
+        .type_name("NAME")
+        .group("Reading");
+    command
+        .flag("--all-arrays", arguments.all_arrays,
+              "Read every array that has the same shape as the first, of vectors the magnitude")
+        .group("Reading");
+    command
+        .option(
+            "--component", read.component,
+            "Component of a vector array: a number from 0, or `magnitude`; or what is computed: "
+            "`gradient` (its length) of a scalar, `vorticity` (its length) or `q-criterion` of a "
+            "vector")
+        .group("Reading");
+    command
+        .flag("--allow-surplus", read.allow_surplus,
+              "Accept files with more data than their header says")
+        .group("Reading");
+    command
+        .flag("--extra-axis-is-time", read.extra_axis_is_time,
+              "Read the axis that is not x, y or z as time, even if the file says otherwise or "
+              "leaves it open")
+        .group("Reading");
+    command
+        .option("--resample", arguments.resample,
+                "Interpolate a rectilinear, curvilinear or unstructured grid onto a regular grid "
+                "of this many vertices")
+        .values(3)
+        .type_name("NX NY NZ")
+        .between(2u, 65537u)
+        .group("Reading");
+    command
+        .flag("--resample-by-cell", arguments.resample_by_cell,
+              "The same, with the smallest cell's size as the distance between vertices")
+        .group("Reading");
+    command
+        .flag("--times-from-names", read.times_from_names,
+              "Take the time of each file from the last number in its name: 30 of t_0030.vti")
+        .group("Reading");
+    command
+        .option("--spacing", arguments.spacing,
+                "Distance between vertices along each axis, in length units "
+                "(default: as the files say, else 1 1 1)")
+        .values(3)
+        .type_name("SX SY SZ")
+        .positive()
+        .group("Reading");
+    command
+        .option("--origin", arguments.origin,
+                "Position of the first vertex, in length units "
+                "(default: as the files say, else 0 0 0)")
+        .values(3)
+        .type_name("OX OY OZ")
+        .group("Reading");
+    command
+        .option("--time-step", read.time_step,
+                "Physical time between steps, in time units (default: as the files say, "
+                "else 1)")
+        .positive()
+        .group("Reading");
+    command.option("--length-unit", read.length_unit, "Unit of positions, such as mm")
+        .group("Reading");
+    command.option("--time-unit", read.time_unit, "Unit of times, such as s").group("Reading");
+    command.option("--value-unit", read.value_unit, "Unit of the values, such as K")
+        .group("Reading");
+
+    const char* colors = "Colors";
+    const Option color =
+        command.option("--color", arguments.color, "A second array, to color the surfaces by")
+            .group(colors);
+    command
+        .option("--color-component", arguments.color_component,
+                "Component of the second array, as `--component` has it")
+        .needs(color)
+        .group(colors);
+    command.option("--color-unit", arguments.color_unit, "Unit of the second array's values")
+        .needs(color)
+        .group(colors);
+
+    const char* raw = "Headerless raw files";
+    command.option("--dims", arguments.dims, "Vertices along each axis, x fastest")
+        .values(3)
+        .type_name("NX NY NZ")
+        .between(2u, 65537u)
+        .group(raw);
+    command
+        .option("--type", arguments.type,
+                "Type of the stored values of raw files; others are\nconverted to it, so that "
+                "files of several types make\na series")
+        .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
+        .group(raw);
+    command.flag("--big-endian", read.big_endian, "Big-endian values (default: little-endian)")
+        .group(raw);
+    command.option("--header-bytes", read.header_bytes, "Bytes to skip at the start of each file")
+        .shows_default()
+        .group(raw);
+}
+
+} // namespace isochron::app

@@ -1,0 +1,197 @@
+// Opening of sources, and options from arguments.
+#include "app/indexing/build_sources.h"
+
+#include "app/indexing/open_index.h"
+#include "index/error.h"
+#include "index/file/index_series.h"
+#include "index/indexing/appended_series.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <functional>
+#include <string_view>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using SeriesPtr = std::unique_ptr<index::VolumeSeries>;
+using Open = std::function<SeriesPtr(const index::ReadOptions&)>;
+
+/// What may stand behind a vector's name, or behind a scalar's what is computed of it.
+bool is_component(std::string_view word) {
+    constexpr std::array<std::string_view, 4> kComputed{"magnitude", "gradient", "vorticity",
+                                                        "q-criterion"};
+    return std::ranges::find(kComputed, word) != kComputed.end() ||
+           (!word.empty() && std::ranges::all_of(word, [](unsigned char digit) {
+               return std::isdigit(digit) != 0;
+           }));
+}
+
+/// @param name of an array, or of an array and a component
+ArraySource open_called(const Open& open, index::ReadOptions options, const std::string& name) {
+    options.array = name;
+    const std::size_t dot = name.rfind('.');
+    const bool may_be_two = !options.component && dot != name.npos && dot > 0 &&
+                            is_component(std::string_view(name).substr(dot + 1));
+    try {
+        SeriesPtr series = open(options);
+        return {std::move(series), options.array, options.component};
+    } catch (const index::Error&) {
+        if (!may_be_two)
+            throw;
+    }
+    options.array = name.substr(0, dot);
+    options.component = name.substr(dot + 1);
+    SeriesPtr series = open(options);
+    return {std::move(series), options.array, options.component};
+}
+
+/// The name in an entry of `SeriesInfo::arrays`, `u (f32 x 3)`; of a vector, its magnitude.
+std::string name_in(const std::string& offered) {
+    const std::size_t end = offered.rfind(" (");
+    const bool vector = end != offered.npos && offered.find(" x ", end) < offered.find(',', end);
+    return offered.substr(0, end) + (vector ? ".magnitude" : "");
+}
+
+/// Opens every array that goes with the first.
+void open_all(const Open& open, const index::ReadOptions& options,
+              const std::vector<std::string>& names, BuildSources& sources) {
+    for (const std::string& name : names) {
+        try {
+            ArraySource source = open_called(open, options, name);
+            const index::SeriesInfo& info = source.series->info();
+            if (!sources.volume) {
+                sources.volume = std::move(source.series);
+                sources.array = source.array;
+                sources.component = source.component;
+            } else if (info.grid != sources.volume->info().grid ||
+                       info.times != sources.volume->info().times) {
+                throw index::Error(fmt::format("its shape or its times are not those of {}",
+                                               sources.volume->info().array));
+            } else {
+                sources.further.push_back(std::move(source));
+            }
+        } catch (const index::Error& error) {
+            sources.notes.push_back(fmt::format("array {} is left out: {}", name, error.what()));
+        }
+    }
+    if (!sources.volume)
+        throw index::Error(sources.notes.empty() ? "no array can be read" : sources.notes.front());
+}
+
+void open_arrays(const Open& open, const BuildArguments& arguments, BuildSources& sources) {
+    const index::ReadOptions options = read_options(arguments);
+    if (arguments.all_arrays) {
+        index::ReadOptions any = options;
+        any.any_array = true;
+        SeriesPtr first = open(any);
+        std::vector<std::string> names;
+        for (const std::string& offered : first->info().arrays)
+            if (const std::string name = name_in(offered);
+                std::ranges::find(names, name) == names.end())
+                names.push_back(name);
+        if (!names.empty())
+            return open_all(open, options, names, sources);
+        sources.volume = std::move(first); // files with one array that has no name
+        return;
+    }
+    if (!options.array) {
+        sources.volume = open(options);
+        sources.component = options.component;
+        return;
+    }
+    ArraySource first = open_called(open, options, *options.array);
+    sources.volume = std::move(first.series);
+    sources.array = first.array;
+    sources.component = first.component;
+    for (std::size_t i = 1; i < arguments.arrays.size(); ++i)
+        sources.further.push_back(open_called(open, options, arguments.arrays[i]));
+}
+
+bool is_among(const BuildSources& sources, const std::optional<std::string>& name) {
+    return name && std::ranges::any_of(sources.further, [&](const ArraySource& source) {
+               return source.series->info().array == *name;
+           });
+}
+
+} // namespace
+
+BuildSources open_sources(const std::vector<std::filesystem::path>& files,
+                          const BuildArguments& arguments) {
+    BuildSources sources;
+    // An index is a series too: of an older file version it becomes one of this.
+    if (files.size() != 1 || !index::is_index(files.front())) {
+        const Open open = [&files](const index::ReadOptions& options) {
+            return index::open_series(files, options);
+        };
+        open_arrays(open, arguments, sources);
+        if (arguments.color && (arguments.color_component || !is_among(sources, arguments.color)))
+            sources.colors = open(color_options(arguments));
+        return sources;
+    }
+    if (arguments.refer)
+        throw UsageError("--refer: an index has no files of values to refer to");
+    const std::filesystem::path& index = files.front();
+    BuildArguments given = arguments;
+    given.all_arrays = false; // all are taken unless some are named
+    if (const auto all = index::arrays_of_index(index); !given.read.array && all.size() > 1) {
+        given.arrays = all;
+        given.read.array = all.front();
+    }
+    open_arrays(
+        [&index](const index::ReadOptions& options) {
+            return index::open_index_series(index, options);
+        },
+        given, sources);
+    index::ReadOptions of_colors = color_options(arguments);
+    if (!of_colors.array)
+        of_colors.array = index::color_of_index(index);
+    if (of_colors.array && !is_among(sources, of_colors.array))
+        sources.colors = index::open_index_series(index, of_colors);
+    return sources;
+}
+
+void append_sources(BuildSources& sources, const std::shared_ptr<const index::IndexFile>& held,
+                    const std::string& name) {
+    if (sources.further.size() + 1 != held->arrays()) {
+        std::vector<std::string> given{sources.volume->info().array}, has;
+        for (const ArraySource& source : sources.further)
+            given.push_back(source.series->info().array);
+        has = array_names(*held);
+        throw index::Error(fmt::format("{}: cannot be appended to: it holds the arrays {}, given "
+                                       "are {}",
+                                       name, fmt::join(has, ", "), fmt::join(given, ", ")));
+    }
+    sources.volume = index::append_to(held, name, std::move(sources.volume));
+    sources.colors = index::append_colors_to(held, name, std::move(sources.colors));
+    for (std::size_t i = 0; i < sources.further.size(); ++i)
+        sources.further[i].series = index::append_to(index::array_of(held, i + 1), name,
+                                                     std::move(sources.further[i].series));
+}
+
+index::BuildOptions build_options(const BuildArguments& arguments, const BuildSources& sources) {
+    index::BuildOptions options = arguments.build;
+    if (!arguments.tiers.empty())
+        options.tiers = tiers_of(arguments.tiers);
+    if (!arguments.codec.empty())
+        options.codec = *index::codec_from_name(arguments.codec);
+    options.array = sources.array;
+    options.component = sources.component;
+    index::ReadOptions reading = read_options(arguments);
+    reading.array = reading.component = std::nullopt;
+    if (reading != index::ReadOptions())
+        options.reading = reading;
+    options.color_array = arguments.color;
+    options.color_component = arguments.color_component;
+    options.color = sources.colors.get();
+    for (const ArraySource& source : sources.further)
+        options.further.push_back({source.series.get(), source.array, source.component});
+    return options;
+}
+
+} // namespace isochron::app

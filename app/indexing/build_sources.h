@@ -1,0 +1,42 @@
+// What an index is built of.
+#pragma once
+
+#include "app/indexing/build_arguments.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// One array, and the options that select it in the files.
+struct ArraySource {
+    std::unique_ptr<index::VolumeSeries> series;
+    std::optional<std::string> array, component;
+};
+
+/// The first array, the array to color by, and the further arrays; no volume when there is nothing
+/// to append.
+struct BuildSources {
+    std::unique_ptr<index::VolumeSeries> volume, colors;
+    std::optional<std::string> array, component; ///< that select the volume
+    std::vector<ArraySource> further;
+    std::vector<std::string> notes; ///< on arrays that were left out
+};
+
+/// Opens files of values, or one index, which may have an older file version.
+/// @throws index::Error, UsageError
+BuildSources open_sources(const std::vector<std::filesystem::path>& files,
+                          const BuildArguments& arguments);
+
+/// For `build --append`: leaves of each series only the steps that the index does not have yet.
+/// @throws index::Error when the index has other arrays, or as `index::append_to`
+void append_sources(BuildSources& sources, const std::shared_ptr<const index::IndexFile>& held,
+                    const std::string& name);
+
+/// The options of the arguments, with the colors and further arrays of `sources`, which outlive it.
+index::BuildOptions build_options(const BuildArguments& arguments, const BuildSources& sources);
+
+} // namespace isochron::app

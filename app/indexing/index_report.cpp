@@ -1,0 +1,287 @@
+// What an index holds, as text and as JSON.
+#include "app/indexing/index_report.h"
+
+#include "app/indexing/series_report.h"
+#include "app/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace isochron::app {
+namespace {
+
+using index::SeriesInfo;
+
+double raw_bytes(const SeriesInfo& info) {
+    return static_cast<double>(info.steps()) * static_cast<double>(info.grid.cell_count()) * 24;
+}
+
+/// Of all arrays of the file together.
+double percent_of_raw(const index::IndexFile& file) {
+    std::uint64_t besides = file.stats().file_bytes;
+    double raw = 0;
+    for (std::size_t number = 0; number < file.arrays(); ++number) {
+        const index::IndexStats& stats = file.array(number).stats();
+        besides -= stats.volume_bytes + stats.detail_bytes;
+        raw += raw_bytes(file.array(number).info());
+    }
+    return 100 * static_cast<double>(besides) / raw;
+}
+
+/// Bytes of the parts of one array.
+std::uint64_t own_bytes(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    std::uint64_t bytes = stats.volume_bytes + stats.detail_bytes + stats.color_bytes;
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        bytes += stats.bytes_of(static_cast<index::Tier>(i));
+    return bytes;
+}
+
+std::vector<std::string_view> tier_names(const index::IndexFile& file) {
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (file.plan().tiers.has(static_cast<index::Tier>(i)))
+            names.push_back(index::kTierNames[i]);
+    return names;
+}
+
+std::string array_text(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    const auto tiers = tier_names(file);
+    return fmt::format("{}: {}, {} to {}{}, {} NaN, {}, {}", file.info().array,
+                       index::name_of(file.info().type), stats.low, stats.high,
+                       with_space(file.info().value_unit), grouped(stats.nan_values),
+                       tiers.empty() ? "no tiers" : fmt::format("{}", fmt::join(tiers, ", ")),
+                       human_bytes(static_cast<double>(own_bytes(file))));
+}
+
+nlohmann::ordered_json array_json(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    return {{"array", file.info().array},
+            {"value_unit", file.info().value_unit},
+            {"type", index::name_of(file.info().type)},
+            {"low", stats.low},
+            {"high", stats.high},
+            {"nan_values", stats.nan_values},
+            {"tiers", tier_names(file)},
+            {"content_hash", fmt::format("{:016x}", file.content_hash())}};
+}
+
+/// The time nodes of the paper's tree if the index has one, else of the cell tier; may be empty.
+std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
+    if (file.tree())
+        return file.tree()->nodes();
+    return file.cells() ? file.cells()->nodes() : std::vector<index::TimeNodeCells>{};
+}
+
+/// Number of entries in the same tree; 0 without one.
+std::uint64_t entries_of(const index::IndexFile& file) {
+    return file.tree() ? file.tree()->entries() : file.stats().cell_entries;
+}
+
+/// Mean number of entries per cell and step.
+double coherence(const index::IndexFile& file) {
+    return static_cast<double>(entries_of(file)) /
+           (static_cast<double>(file.info().grid.cell_count()) *
+            static_cast<double>(file.info().steps()));
+}
+
+/// The level map of the cells if the index has them, else of the bricks; for wide value types that
+/// of the last step.
+index::LevelMapPtr levels_of(const index::IndexFile& file) {
+    if (file.cells())
+        return std::make_shared<index::LevelMap>(file.levels());
+    return file.plan().tiers.has(index::Tier::bricks)
+               ? file.chunks().levels(static_cast<std::uint32_t>(file.info().steps() - 1))
+               : nullptr;
+}
+
+std::string levels_text(const index::IndexFile& file) {
+    const auto levels = levels_of(file);
+    if (!levels)
+        return "none: there are no bricks and no cells";
+    const bool by_step = !file.cells() && index::size_of(file.info().type) > 1;
+    return fmt::format("{}, {}{}", levels->levels(),
+                       levels->lossless() ? "one for every value" : "shared by several values",
+                       by_step ? " (of the last step; each has its own)" : "");
+}
+
+std::string sources_text(const std::vector<std::string>& sources) {
+    constexpr std::size_t kListed = 8;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(kListed, sources.size()); ++i)
+        text += fmt::format("source        {}\n", sources[i]);
+    if (sources.size() > kListed)
+        text += fmt::format("source        ... {} more, the last {}\n", sources.size() - kListed,
+                            sources.back());
+    return text;
+}
+
+std::string tree_text(const index::IndexFile& file) {
+    const auto nodes = time_nodes(file);
+    if (nodes.empty())
+        return "time nodes    none: bricks and the scan have none; build --lattice adds the "
+               "paper's tree\n";
+    std::string text;
+    for (const auto& node : nodes)
+        text += fmt::format("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
+                            node.last_step, grouped(node.cells));
+    return text;
+}
+
+} // namespace
+
+std::string sizes(const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    const auto bytes = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
+    std::string text = bytes(file.arrays() == 1 ? stats.file_bytes : own_bytes(file));
+    text += file.referral() ? ": volume in its sources"
+                            : fmt::format(": volume {}", bytes(stats.volume_bytes));
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
+        if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
+            text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
+    if (stats.detail_bytes > 0)
+        text += fmt::format(", levels of detail {}", bytes(stats.detail_bytes));
+    if (stats.color_bytes > 0)
+        text += fmt::format(", colors {}", bytes(stats.color_bytes));
+    return text;
+}
+
+/// How a step is searched that is asked for the first time, and why.
+std::string first_visit_text(const index::IndexFile& file) {
+    if (!file.cells() || !file.plan().tiers.has(index::Tier::bricks))
+        return {};
+    const auto held = file.cells()->hold();
+    return fmt::format("a first look at a step is searched by what has fewer bytes left to read: "
+                       "cells of step 0 take about {} besides the values, bricks come with these; "
+                       "another look by cells, the fastest",
+                       human_bytes(static_cast<double>(file.cells()->missing_bytes(0))));
+}
+
+std::string as_text(const IndexReport& report) {
+    const index::IndexFile& file = report.file;
+    const SeriesInfo& info = file.info();
+    const index::IndexStats& stats = file.stats();
+    std::string text = fmt::format("{}\n", report.name) + text_of(info);
+    const auto line = [&](std::string_view label, const std::string& value) {
+        text += fmt::format("{:<13} {}\n", label, value);
+    };
+    line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
+    line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
+    for (std::size_t number = 0; file.arrays() > 1 && number < file.arrays(); ++number)
+        line(number == 0 ? "arrays" : "", array_text(file.array(number)));
+    if (const index::ColorArray* color = file.array(0).color())
+        line("colors", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
+                                   index::name_of(color->type), color->low, color->high,
+                                   with_space(color->value_unit), grouped(color->nan_values)));
+    line("file",
+         fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
+    for (std::size_t level = 1; level < file.detail_levels(); ++level)
+        line(level == 1 ? "levels" : "",
+             fmt::format("of detail {}: {}", level,
+                         fmt::join(file.chunks(level).info().grid.vertices, " x ")));
+    for (const std::string& reason : file.plan().reasons)
+        line("plan", reason);
+    if (const std::string visits = first_visit_text(file); !visits.empty())
+        line("plan", visits);
+    if (file.plan().steps < info.steps())
+        line("plan",
+             fmt::format("made when it had {} of its {} steps", file.plan().steps, info.steps()));
+    if (file.cells() && file.cells()->steps() < info.steps())
+        line("cells", fmt::format("of the first {} steps; the others are searched by bricks until "
+                                  "their epoch of {} is complete",
+                                  file.cells()->steps(), index::TimePath::kMaxSteps));
+    line("ranks", levels_text(file));
+    if (entries_of(file) > 0)
+        line("coherence",
+             fmt::format("{:.4f} entries for each cell and step: the fewer, the longer "
+                         "cells stay as they are ({} entries{})",
+                         coherence(file), grouped(entries_of(file)),
+                         file.tree() ? fmt::format("; lattice {}, max variation {}",
+                                                   file.tree_options().lattice,
+                                                   file.tree_options().max_variation)
+                                     : ""));
+    line("content hash", fmt::format("{:016x}", file.content_hash()));
+    text += sources_text(info.sources);
+    for (const std::string& note : info.notes)
+        line("note", note);
+    if (report.tree)
+        text += tree_text(file);
+    return text;
+}
+
+std::string as_json(const IndexReport& report) {
+    const index::IndexFile& file = report.file;
+    const SeriesInfo& info = file.info();
+    const index::IndexStats& stats = file.stats();
+    nlohmann::ordered_json j{{"file", report.name}};
+    j.update(json_of(info));
+    j.update(nlohmann::ordered_json{
+        {"low", stats.low},
+        {"high", stats.high},
+        {"value_unit", info.value_unit},
+        {"nan_values", stats.nan_values},
+        {"histogram", stats.histogram},
+        {"file_bytes", stats.file_bytes},
+        {"volume_bytes", stats.volume_bytes},
+        {"bricks_bytes", stats.bricks_bytes},
+        {"cells_bytes", stats.cells_bytes},
+        {"deltas_bytes", stats.deltas_bytes},
+        {"tree_bytes", stats.tree_bytes},
+        {"detail_bytes", stats.detail_bytes},
+        {"detail", nlohmann::ordered_json::array()},
+        {"raw_bytes", raw_bytes(info)},
+        {"percent_of_raw", percent_of_raw(file)},
+        {"tiers", tier_names(file)},
+        {"plan", file.plan().reasons},
+        {"levels", nullptr},
+        {"lossless", nullptr},
+        {"refers_to", nullptr},
+        {"arrays", nlohmann::ordered_json::array()},
+        {"lattice", file.tree_options().lattice},
+        {"max_variation", file.tree_options().max_variation},
+    });
+    for (std::size_t level = 1; level < file.detail_levels(); ++level)
+        j["detail"].push_back(
+            {{"level", level}, {"vertices", file.chunks(level).info().grid.vertices}});
+    if (const auto levels = levels_of(file)) {
+        j["levels"] = levels->levels();
+        j["lossless"] = levels->lossless();
+    }
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        j["arrays"].push_back(array_json(file.array(number)));
+    if (const index::ColorArray* color = file.array(0).color())
+        j["color"] = {{"array", color->array},
+                      {"value_unit", color->value_unit},
+                      {"type", index::name_of(color->type)},
+                      {"low", color->low},
+                      {"high", color->high},
+                      {"nan_values", color->nan_values},
+                      {"bytes", stats.color_bytes}};
+    if (file.referral()) {
+        j["refers_to"] = nlohmann::ordered_json::array();
+        for (const std::filesystem::path& source : file.referral()->files)
+            j["refers_to"].push_back(source.string());
+    }
+    if (entries_of(file) > 0) {
+        j["tree_entries"] = entries_of(file);
+        j["coherence"] = coherence(file);
+    }
+    j["content_hash"] = fmt::format("{:016x}", file.content_hash());
+    j["sources"] = info.sources;
+    j["notes"] = info.notes;
+    if (report.tree) {
+        j["tree"] = nlohmann::ordered_json::array();
+        for (const auto& node : time_nodes(file))
+            j["tree"].push_back({{"first_step", node.first_step},
+                                 {"last_step", node.last_step},
+                                 {"depth", node.depth},
+                                 {"cells", node.cells}});
+    }
+    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+} // namespace isochron::app

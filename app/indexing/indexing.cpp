@@ -1,0 +1,113 @@
+// Makes an index in the background.
+#include "app/indexing/indexing.h"
+
+#include "app/indexing/kept_index.h"
+#include "app/text.h"
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <utility>
+
+#include <sys/resource.h>
+
+namespace isochron::app {
+namespace {
+
+/// Ends the work from its progress.
+struct IndexingStopped {};
+
+/// What is shown goes first: the threads and processes that this thread starts from now on get
+/// what it leaves of the processors.
+void give_way_to_pictures() {
+    constexpr int kPolite = 10;
+    setpriority(PRIO_PROCESS, 0, kPolite);
+}
+
+} // namespace
+
+std::string Indexing::State::line() const {
+    if (done)
+        return {};
+    if (of == 0)
+        return "opening";
+    const double percent = 100 * fraction;
+    return steps == 0 ? fmt::format("indexing {} step{}: {}, {:.0f} %", of, of == 1 ? "" : "s",
+                                    phase.empty() ? "reading" : phase, percent)
+                      : fmt::format("indexing: {} of {} steps, {:.0f} %", steps, of, percent);
+}
+
+Indexing::Indexing(BuildArguments arguments, std::filesystem::path folder)
+    : arguments_(std::move(arguments)), folder_(std::move(folder)),
+      worker_([this](const std::stop_token& stop) { run(stop); }) {}
+
+Indexing::~Indexing() = default;
+
+Indexing::State Indexing::state() const {
+    const std::scoped_lock lock(mutex_);
+    return state_;
+}
+
+void Indexing::wait_for_opening(std::chrono::milliseconds most) const {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, most, [&] { return state_.of > 0 || state_.done; });
+}
+
+void Indexing::check() const {
+    const std::scoped_lock lock(mutex_);
+    if (failed_)
+        std::rethrow_exception(failed_);
+}
+
+void Indexing::set(const std::function<void(State&)>& change) {
+    const std::scoped_lock lock(mutex_);
+    change(state_);
+    changed_.notify_all();
+}
+
+void Indexing::run(const std::stop_token& stop) {
+    std::exception_ptr failed;
+    std::string failure;
+    std::optional<ProgressBar> bar; // beside the window, for who looks there
+    try {
+        const auto path = kept_index(
+            arguments_, folder_,
+            {.opened = [&](std::size_t steps) { set([&](State& state) { state.of = steps; }); },
+             .held =
+                 [&](const std::filesystem::path& at, std::size_t steps) {
+                     set([&](State& state) {
+                         state.index = at;
+                         state.steps = steps;
+                     });
+                     give_way_to_pictures();
+                 },
+             .progress =
+                 [&](std::string_view phase, double fraction) {
+                     if (stop.stop_requested())
+                         throw IndexingStopped();
+                     set([&](State& state) {
+                         state.phase = phase;
+                         state.fraction = fraction;
+                     });
+                     if (!bar)
+                         bar.emplace(stderr, 0, ProgressBar::Of::all);
+                     bar->show("indexing", fraction);
+                 }});
+    } catch (const IndexingStopped&) {
+        return;
+    } catch (const std::bad_alloc&) {
+        failure = "there is not enough memory to index these files";
+        failed = std::make_exception_ptr(index::Error(failure));
+    } catch (const std::exception& error) {
+        failure = one_line(error.what());
+        failed = std::current_exception();
+    }
+    set([&](State& state) {
+        failed_ = failed;
+        state.failure = failure;
+        state.done = true;
+    });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,75 @@
+// Opens the index that a command is given.
+#include "app/indexing/open_index.h"
+
+#include "app/text.h"
+#include "index/error.h"
+#include "index/extraction/volume_bricks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace isochron::app {
+
+std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
+                                                   std::uint64_t cache_bytes) {
+    try {
+        auto file = index::IndexFile::open(path, cache_bytes);
+        if (const auto lost = file->lost_state())
+            fmt::print(stderr, "isochron: {}\n", *lost);
+        return file;
+    } catch (const index::Error& error) {
+        std::error_code ignored;
+        if (path.extension() == ".isochron" || !std::filesystem::is_regular_file(path, ignored))
+            throw;
+        std::filesystem::path made = path;
+        made.replace_extension(".isochron");
+        throw index::Error(fmt::format("{}; `isochron build {} -o {}` makes an index of data",
+                                       error.what(), path.string(), made.string()));
+    }
+}
+
+std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
+                                                           std::uint64_t cache_bytes) {
+    auto file = open_index(path, cache_bytes);
+    check_can_be_shown(file->info().grid, path.string());
+    return file;
+}
+
+void check_can_be_shown(const index::Grid& grid, const std::string& name) {
+    constexpr std::size_t kMostBricks = std::size_t{1} << 26;
+    if (index::BrickTiling(grid).count() > kMostBricks)
+        throw index::Error(fmt::format("{}: {} vertices, expected at most 2^35 to show; isochron "
+                                       "query finds the active cells of an isovalue",
+                                       name, grid.vertex_count()));
+}
+
+std::vector<std::string> array_names(const index::IndexFile& file) {
+    std::vector<std::string> names;
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        names.push_back(file.array(number).info().array);
+    return names;
+}
+
+std::shared_ptr<const index::IndexFile>
+array_called(const std::shared_ptr<const index::IndexFile>& file,
+             const std::optional<std::string>& name) {
+    return name ? index::array_of(file, array_number(*file, *name)) : file;
+}
+
+std::size_t array_number(const index::IndexFile& file, const std::string& name) {
+    const auto number = file.array_called(name);
+    if (!number)
+        throw index::Error(fmt::format("{}: no array {}, expected {}", file.name(), name,
+                                       fmt::join(array_names(file), ", ")));
+    return *number;
+}
+
+void warn_beyond(double isovalue, const index::IndexFile& file) {
+    const index::IndexStats& stats = file.stats();
+    if (isovalue < stats.low || isovalue > stats.high)
+        fmt::print(stderr, "isochron: isovalue {} lies beyond the data, {} to {}{}\n",
+                   human_number(isovalue), human_number(stats.low), human_number(stats.high),
+                   with_space(file.info().value_unit));
+}
+
+} // namespace isochron::app

@@ -1,0 +1,154 @@
+// Chooses numbers of cells and levels of detail.
+#include "app/quality/detail_choice.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+constexpr double kUp = 1.4;   ///< times a number of cells must fit before it is taken up
+constexpr double kDown = 0.9; ///< and below this share of it, it is left
+constexpr int kMostSteps = 2; ///< by which it grows at a time: twice as many
+/// Share of what was seen when a number was chosen; where less is seen, it does not grow.
+constexpr double kAsMuchSeen = 0.9;
+constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
+/// Levels by which voxels at rest are less than a pixel, at first and in the end: the light of
+/// cells that share a pixel is another one at the next level until they are far below it.
+constexpr double kFinerAtFirst = 0.5, kFinerAtLast = 2;
+constexpr double kUnseen = 2; ///< levels by which unseen regions may be coarser
+constexpr double kNearest = -8, kFarthest = 8;
+constexpr int kParts = index::DetailQuery::kPartsOfLevel;
+
+/// The numbers of cells that are chosen from: each is the half more, or a third more, of the last.
+std::uint64_t cells_of(int step) {
+    const std::uint64_t base = DetailChoice::kFewest << (step / 2);
+    return step % 2 == 0 ? base : base + base / 2;
+}
+
+/// Pixels along a voxel at a distance of a meter; in a parallel view, at any.
+double pixels_at_one_meter(const render::View& view, double voxel) {
+    const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
+                            glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
+                                      glm::length(glm::vec3(view.clip_from_eye[1])));
+    return voxel * std::max(scale.x, scale.y);
+}
+
+/// Whether a box in index space may be seen: not all of its corners lie beyond one side.
+bool may_be_seen(const glm::mat4& clip_from_index, const glm::vec3& low, const glm::vec3& high) {
+    std::array<int, 5> beyond{};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at =
+            glm::mix(low, high, glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+        const glm::vec4 p = clip_from_index * glm::vec4(at, 1.0f);
+        beyond[0] += p.x < -p.w;
+        beyond[1] += p.x > p.w;
+        beyond[2] += p.y < -p.w;
+        beyond[3] += p.y > p.w;
+        beyond[4] += p.w <= 0.0f;
+    }
+    return std::ranges::find(beyond, 8) == beyond.end();
+}
+
+} // namespace
+
+DetailChoice::DetailChoice(const index::Grid& grid, std::uint64_t most)
+    : regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {
+    for (std::size_t i = 0; i < regions_.size(); ++i)
+        boxes_.push_back(box_of(i, grid));
+}
+
+DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& grid) const {
+    const auto at = regions_.at(region);
+    Box box{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const std::uint32_t first = at[a] * regions_.edge();
+        const std::uint32_t last = std::min(first + regions_.edge(), grid.cells()[a]);
+        box.low[axis] = static_cast<float>(grid.even_place(axis, first));
+        box.high[axis] = static_cast<float>(grid.even_place(axis, last));
+        box.cell[axis] = (box.high[axis] - box.low[axis]) / static_cast<float>(last - first);
+    }
+    return box;
+}
+
+void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
+    ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
+    std::vector<bool> seen(ideal_.size());
+    const glm::vec3 spacing = placement.spacing();
+    for (const render::View& view : views) {
+        const glm::mat4 clip_from_index =
+            view.clip_from_eye * view.eye_from_room * placement.room_from_index;
+        const glm::vec3 eye(glm::inverse(placement.room_from_index) *
+                            glm::vec4(view.eye_in_room(), 1.0f));
+        for (std::size_t i = 0; i < ideal_.size(); ++i) {
+            const auto& [low, high, cell] = boxes_[i];
+            const glm::vec3 sides = cell * spacing;
+            const double pixels = pixels_at_one_meter(view, std::max({sides.x, sides.y, sides.z}));
+            const glm::vec3 beside = eye - glm::clamp(eye, low, high);
+            const double distance =
+                view.is_parallel() ? 1.0
+                                   : glm::length(glm::mat3(placement.room_from_index) * beside);
+            const bool is_seen = may_be_seen(clip_from_index, low, high);
+            seen[i] = seen[i] || is_seen;
+            const double level =
+                std::log2(std::max(distance, 1e-3) / pixels) + (is_seen ? 0.0 : kUnseen);
+            ideal_[i] = std::clamp(std::min(ideal_[i], level), kNearest, kFarthest);
+        }
+    }
+    seen_ = static_cast<double>(std::ranges::count(seen, true)) /
+            static_cast<double>(std::max<std::size_t>(seen.size(), 1));
+}
+
+index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn) {
+    const double cells = fit.value_or(static_cast<double>(kAtFirst));
+    const auto holds = [&](int step, double share) {
+        return share * static_cast<double>(cells_of(step)) <= cells;
+    };
+    const int before = step_;
+    if (step_ < 0)
+        while (holds(step_ + 1, 1))
+            ++step_;
+    while (step_ > 0 && !holds(step_, kDown))
+        --step_;
+    step_ = std::max(step_, 0);
+    if (drawn == cells_of(step_) && drawn < most_ && seen_ >= kAsMuchSeen * seen_then_)
+        for (int more = 0; more < kMostSteps && holds(step_ + 1, kUp); ++more)
+            ++step_;
+    if (step_ != before)
+        seen_then_ = seen_;
+    kept_.resize(ideal_.size());
+    for (std::size_t i = 0; i < ideal_.size(); ++i) {
+        const double wish = kParts * ideal_[i];
+        if (wish < kept_[i] - kParts * kStay || wish >= kept_[i] + 1 + kParts * kStay)
+            kept_[i] = static_cast<std::int8_t>(std::floor(wish));
+    }
+    return {std::min(cells_of(step_), most_), false, kept_};
+}
+
+index::DetailQuery DetailChoice::at_first_rest(std::uint64_t cells) const {
+    return resting(cells, kFinerAtFirst);
+}
+
+index::DetailQuery DetailChoice::at_rest() const {
+    return resting(most_, kFinerAtLast);
+}
+
+/// @param finer levels by which voxels are less than a pixel
+index::DetailQuery DetailChoice::resting(std::uint64_t cells, double finer) const {
+    index::DetailQuery query{std::min(cells, most_), true, {}};
+    const auto level = [finer](double ideal) {
+        return static_cast<std::int8_t>(kParts * std::max(std::floor(ideal - finer), 0.0));
+    };
+    if (std::ranges::any_of(ideal_, [&](double ideal) { return level(ideal) > 0; }))
+        for (const double ideal : ideal_)
+            query.wished.push_back(level(ideal));
+    return query;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,82 @@
+// Chooses how many cells a picture may have, and how fine each region of the volume should be.
+#pragma once
+
+#include "index/detail/detail_regions.h"
+#include "index/volume/grid.h"
+#include "index/volume/query.h"
+#include "render/cells/placement.h"
+#include "render/gl/view.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::app {
+
+/// One choice for all eyes and windows. The number of cells is one of a few fixed ones, and small
+/// changes of the budget do not change it, so that new sets are not asked for all the time.
+class DetailChoice {
+  public:
+    /// However small the budget, moving pictures may have at least this many cells.
+    static constexpr std::uint64_t kFewest = 1 << 12;
+    /// Number before any time has been measured: small, as a set that takes too long to draw is
+    /// drawn until the next one comes.
+    static constexpr std::uint64_t kAtFirst = 1 << 13;
+    /// Volumes of at most this many cells are always shown as they are.
+    static constexpr std::uint64_t kSmallVolume = 1 << 18;
+
+    /// @param most cells that a set may have at all
+    DetailChoice(const index::Grid& grid, std::uint64_t most);
+
+    /// Whether the volume is so small that nothing has to be chosen.
+    bool small() const { return small_; }
+    std::uint64_t most() const { return most_; }
+    /// From now on sets have at most this many cells: more could not be drawn.
+    void limit(std::uint64_t most) {
+        most_ = std::clamp(most, std::min(kFewest, most_), most_);
+        small_ = false;
+    }
+
+    /// Finds the useful level of each region: log2 of the number of its voxels along a pixel, so
+    /// that a voxel of that level is a pixel; below 0 where voxels are larger. Regions that no view
+    /// shows count as four times as far away. Without views, every level will be 0.
+    void look(std::span<const render::View> views, const render::Placement& placement);
+
+    /// For a picture that changes. The number of cells grows to twice as many at most, once the last
+    /// ones have been drawn, as costs are predicted well only near what has been drawn. It does not
+    /// grow while less of the volume is seen than when it was chosen: cells that nobody sees cost
+    /// little until the head turns back.
+    /// @param fit cells that are expected to fit the budget; empty: not known yet
+    /// @param drawn `most_cells` of the cells that are drawn
+    index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
+    /// For a picture that has just come to rest: level 0 wherever a voxel is larger than half a
+    /// pixel, and elsewhere a level of which a voxel is at most 0.7 pixels.
+    /// @param cells that it may have
+    index::DetailQuery at_first_rest(std::uint64_t cells) const;
+    /// For a picture that stays at rest, and for pictures that are written: level 0 wherever a
+    /// voxel is larger than an eighth of a pixel, and elsewhere a level of which a voxel is at most
+    /// a quarter of a pixel. As many cells as a set may have.
+    index::DetailQuery at_rest() const;
+
+  private:
+    /// A region in even coordinates, and the mean sides of its cells of level 0.
+    struct Box {
+        glm::vec3 low, high, cell;
+    };
+    Box box_of(std::size_t region, const index::Grid& grid) const;
+    index::DetailQuery resting(std::uint64_t cells, double finer) const;
+
+    index::DetailRegions regions_;
+    std::vector<Box> boxes_; ///< by region
+    std::uint64_t most_;
+    bool small_;
+    int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
+    double seen_ = 0;               ///< share of the regions that some view may show
+    double seen_then_ = 0;          ///< the same when the number was chosen
+    std::vector<double> ideal_;     ///< by region: the level of which a voxel is a pixel
+    std::vector<std::int8_t> kept_; ///< wishes of moving pictures
+};
+
+} // namespace isochron::app

@@ -1,0 +1,185 @@
+// The quality of a session's frames.
+#include "app/quality/frame_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace isochron::app {
+namespace {
+
+Milliseconds period_of(const Config& config, std::optional<double> refresh_rate) {
+    const double limit = config.frame_rate_limit;
+    return Milliseconds(1e3 / std::min(refresh_rate.value_or(limit), limit));
+}
+
+/// Time without motion after which a picture that still changes, as the head sways, is not expected
+/// to become still.
+constexpr interaction::Seconds kNeverStill{1};
+/// Longest time at rest in which footprints are tried before slices begin.
+constexpr interaction::Seconds kTrialsAtRest{0.15};
+
+} // namespace
+
+FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
+                           std::optional<double> refresh_rate)
+    : settled_(config.settled_footprint), wanted_budget_(config.frame_budget_ms),
+      still_budget_(config.still_budget_ms), configured_period_(period_of(config, refresh_rate)),
+      period_(configured_period_), steady_(wanted_budget_.count() > 0 ? wanted_budget_ : period_),
+      still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
+
+void FrameQuality::set_headset_period(std::optional<Milliseconds> period) {
+    // Runtimes tell their period to the nanosecond, and it varies a little.
+    constexpr double kSame = 0.02;
+    const Milliseconds wanted = period.value_or(configured_period_);
+    if (!(wanted.count() > 0) || std::abs(wanted / period_ - 1) < kSame)
+        return;
+    period_ = wanted;
+    if (wanted_budget_.count() > 0)
+        return;
+    steady_ = QualityController(period_);
+    still_ = QualityController(std::max(period_, still_budget_));
+}
+
+std::vector<DrawSample> FrameQuality::collect(FrameLog& log) {
+    std::vector<DrawSample> samples = meter_.finished();
+    for (const DrawSample& sample : samples)
+        if (sample.gpu)
+            log.set_gpu(sample.frame, *sample.gpu);
+    return samples;
+}
+
+void FrameQuality::learn(std::span<const DrawSample> samples) {
+    for (const DrawSample& sample : samples)
+        for (QualityController* controller : {&steady_, &still_})
+            controller->measured(sample.footprint, sample.load, sample.cost());
+}
+
+bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
+                          render::FootprintSet available, render::FootprintSet possible,
+                          FrameReport& report) {
+    if (changed)
+        changed_at_ = report.time;
+    const bool still = report.time - changed_at_ >= kStillAfter;
+    QualityInput input;
+    input.pace = report.pace;
+    input.mode = state.quality;
+    input.playing = state.playback.playing;
+    input.settled = settled_;
+    input.by_pace = how == Choosing::by_pace;
+    if (input.by_pace)
+        input.settled = input.settled.value_or(render::kBestFootprint);
+    input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
+    input.available = available;
+    const auto in_the_end = sliced(input, how);
+    if (still || report.pace == interaction::Pace::moving)
+        swayed_since_ = report.time;
+    input.in_slices = in_the_end;
+    const bool slices = still && in_the_end;
+    unseen_.reset();
+    if (slices) {
+        input.settled.reset();
+        if (resting_ && resting_->input == input && resting_->possible == possible) {
+            ends_in_slices_ = true;
+            report.in_slices = input.in_slices;
+            report.budget = steady_.budget();
+            tell(resting_->choice, resting_->final, report);
+            report.better = steady_.expected(*input.in_slices, input.load);
+            return false;
+        }
+    }
+    const bool pauses = still && !slices && report.pace != interaction::Pace::moving;
+    QualityController& controller = pauses ? still_ : steady_;
+    QualityInput with_mesh = input;
+    with_mesh.available = possible;
+    const QualityChoice with_all = QualityController(controller).choose(with_mesh);
+    const QualityChoice choice = controller.choose(input);
+    // A trial of the exact surface comes first where both are next.
+    wants_mesh_ = with_all.footprint == render::Footprint::mesh &&
+                  choice.footprint <= render::Footprint::mesh;
+    if (how == Choosing::with_slices && !still)
+        unseen_ = steady_.worth_measuring(with_mesh);
+    wants_mesh_ |= unseen_ == render::Footprint::mesh;
+    if (unseen_ && !available.has(*unseen_))
+        unseen_.reset();
+    // What a mesh or slices may still change is not final.
+    ends_in_slices_ = in_the_end && *in_the_end != choice.footprint;
+    const bool slices_come = ends_in_slices_ && report.time - swayed_since_ < kNeverStill;
+    const bool final =
+        choice.final && with_all.final && choice.footprint == with_all.footprint && !slices_come;
+    tell(choice, final, report);
+    report.budget = controller.budget();
+    resting_.reset();
+    const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
+    if (slices && measured && choice.footprint != *input.in_slices)
+        resting_ = {input, possible, choice, final};
+    return choice.measure;
+}
+
+void FrameQuality::tell(const QualityChoice& choice, bool final, FrameReport& report) const {
+    report.footprint = choice.footprint;
+    report.reason = choice.reason;
+    report.final = final;
+    report.expected = choice.cost;
+    report.better = choice.better_cost;
+}
+
+/// The footprint that this picture at rest is to have in the end, if it is made in slices.
+std::optional<render::Footprint> FrameQuality::sliced(const QualityInput& input,
+                                                      Choosing how) const {
+    if (how != Choosing::with_slices || !(still_budget_.count() > 0) || input.playing ||
+        input.mode != interaction::QualityMode::automatic ||
+        input.pace != interaction::Pace::settled || input.load.cells <= 0)
+        return std::nullopt;
+    return input.available.best(settled_.value_or(render::kBestFootprint));
+}
+
+Milliseconds FrameQuality::left_of_frame(Milliseconds taken) const {
+    constexpr double kShare = 0.8; // as frames take now more and now less
+    constexpr Milliseconds kLeast{2};
+    const Milliseconds left = kShare * steady_.budget() - taken;
+    return left >= kLeast ? left : Milliseconds(0);
+}
+
+Milliseconds FrameQuality::slice_budget() const {
+    // Shorter slices would take longer in all, and longer ones would be felt in what comes next.
+    constexpr Milliseconds kLeast{8}, kMost{50};
+    return std::min(still_budget_, std::clamp(steady_.budget(), kLeast, kMost));
+}
+
+void FrameQuality::learn_slices(render::Footprint footprint, std::uint64_t cells,
+                                Milliseconds time) {
+    const DrawLoad load{static_cast<double>(cells) * charged_.cells, charged_.pixels};
+    for (QualityController* controller : {&steady_, &still_})
+        controller->measured_in_slices(footprint, load, time);
+}
+
+std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const {
+    constexpr double kShare = 0.75, kMany = 1e6;
+    const QualityController& controller = pace == interaction::Pace::moving ? steady_ : still_;
+    const auto cost = [&](double cells) {
+        return controller.expected(render::Footprint::quad,
+                                   {cells * charged_.cells, charged_.pixels});
+    };
+    const auto none = cost(0), many = cost(kMany);
+    if (!none || !many || !(*many > *none))
+        return std::nullopt;
+    return std::max(0.0, kMany * ((kShare * controller.budget() - *none) / (*many - *none)));
+}
+
+void FrameQuality::begin(std::uint64_t frame) {
+    meter_.begin(frame);
+}
+
+void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor) {
+    view_ = of_cell;
+    meter_.end(report.footprint, {static_cast<double>(report.cells) * view_.cells, view_.pixels},
+               processor);
+}
+
+unsigned FrameQuality::missed(interaction::Seconds between) const {
+    // With a budget longer than the display's period, that many missed refreshes are intended.
+    const double periods = between / std::max(period_, steady_.budget());
+    return static_cast<unsigned>(std::clamp(std::round(periods) - 1.0, 0.0, 1e9));
+}
+
+} // namespace isochron::app

@@ -1,0 +1,126 @@
+// The quality of a session's frames: budgets, measured draw times, and the choice of footprint.
+//
+//     quality.learn(quality.collect(log));                  // every frame
+//     quality.charge(quality.view());
+//     const Choosing how = Choosing::with_slices;
+//     if (quality.choose(state, changed, how, footprints, possible, report) || changed) {
+//         quality.begin(log.next());
+//         draw(views, report.footprint);
+//         quality.end(report, of_cell, processor_time);
+//     }
+#pragma once
+
+#include "app/config/config.h"
+#include "app/frame/explorer_state.h"
+#include "app/frame/frame_log.h"
+#include "app/quality/draw_meter.h"
+#include "app/quality/quality_controller.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::app {
+
+/// What the choice of a footprint depends on: on measured times, or (`by_pace`) only on whether the
+/// picture moves. A fixed-step replay must repeat exactly, so it ignores measurements and draws a
+/// settled picture with the configured footprint, else the best one. Live frames are measured; a
+/// picture at rest ends at that footprint, too: it is drawn in slices over several frames.
+enum class Choosing : std::uint8_t { with_slices, by_pace };
+
+/// Frames that change have the frame budget. A picture in which nothing has moved for a while is
+/// drawn in slices, each within that budget. Where the quality or the configuration wants none, it
+/// is drawn at once, within the larger still budget: a pause that is acceptable at rest. Each budget
+/// has its own controller; both learn from all frames.
+class FrameQuality {
+  public:
+    /// A picture is still after this time without a change, which is longer than the time between
+    /// two poses of a slow tracker.
+    static constexpr interaction::Seconds kStillAfter{0.1};
+
+    /// @param refresh_rate [Hz] of the display, if it is known
+    FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
+
+    /// While a headset paces the frames, its period replaces that of display and configuration.
+    /// @param period of the headset; empty: no headset paces the frames
+    void set_headset_period(std::optional<Milliseconds> period);
+
+    /// Frames whose times have become known since the last call; adds GPU times to their reports.
+    std::vector<DrawSample> collect(FrameLog& log);
+    /// Learns from the times of frames, in order.
+    void learn(std::span<const DrawSample> samples);
+
+    /// Load of one cell in every view of the last frame: the number of views, and their pixels.
+    const DrawLoad& view() const { return view_; }
+    /// Sets the load per cell for the next choice: in a cluster that of the process which draws
+    /// most, as all draw with the same footprint.
+    void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
+
+    /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
+    /// and with its cells.
+    /// @param changed what the eyes see has changed since the last frame, apart from the footprint
+    /// With slices, `FrameReport::in_slices` says which footprint to make once nothing needs to be
+    /// measured any more; from then on the choice stays until something changes.
+    /// @return true: draw even if nothing has changed, so that the cost gets known
+    /// @param available that the cells can be drawn with
+    /// @param possible the same if the cells were asked for with a mesh
+    bool choose(const ExplorerState& state, bool changed, Choosing how,
+                render::FootprintSet available, render::FootprintSet possible, FrameReport& report);
+
+    /// Cells that quads are expected to draw in every view within the budget, of moving pictures or
+    /// of those at rest, with room to spare; empty before the first measurement.
+    std::optional<double> cells_that_fit(interaction::Pace pace) const;
+
+    /// Whether the picture of the last choice ends at another footprint, made in slices.
+    bool ends_in_slices() const { return ends_in_slices_; }
+
+    /// Whether the last choice would have been a mesh, or `unseen`, if there had been one.
+    bool wants_mesh() const { return wants_mesh_; }
+    /// After a choice: the footprint to measure where nobody sees it, in the time that frames leave,
+    /// and to tell `learn_slices` of. Empty: none.
+    std::optional<render::Footprint> unseen() const { return unseen_; }
+
+    /// Call before drawing the frame. @param frame its number in the log
+    void begin(std::uint64_t frame);
+    /// Call after drawing the frame.
+    /// @param of_cell load of one cell in every view
+    /// @param processor time to give the commands, including the upload
+    void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
+
+    /// Time that a frame may spend on what nobody sees; 0: none. @param taken by the frame itself
+    Milliseconds left_of_frame(Milliseconds taken) const;
+    /// Time that a frame may spend on slices.
+    Milliseconds slice_budget() const;
+    /// Learns from a picture that was made in slices, of the views that were charged.
+    void learn_slices(render::Footprint footprint, std::uint64_t cells, Milliseconds time);
+
+    /// Number of refreshes that the display missed in the time between two frames.
+    unsigned missed(interaction::Seconds between) const;
+
+  private:
+    /// A choice at rest, and what it depends on.
+    struct Resting {
+        QualityInput input;
+        render::FootprintSet possible;
+        QualityChoice choice;
+        bool final = false;
+    };
+    std::optional<render::Footprint> sliced(const QualityInput& input, Choosing how) const;
+    void tell(const QualityChoice& choice, bool final, FrameReport& report) const;
+
+    const std::optional<render::Footprint> settled_;
+    const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
+    const Milliseconds configured_period_;            ///< of frames without a headset
+    Milliseconds period_;                             ///< of frames now
+    QualityController steady_, still_;
+    interaction::Seconds changed_at_{0};
+    interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
+    std::optional<Resting> resting_;       ///< while slices are made or shown
+    std::optional<render::Footprint> unseen_;
+    DrawMeter meter_;
+    DrawLoad view_; ///< of one cell in all views of the frame drawn last
+    DrawLoad charged_;
+    bool wants_mesh_ = false, ends_in_slices_ = false;
+};
+
+} // namespace isochron::app

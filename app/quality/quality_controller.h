@@ -1,0 +1,152 @@
+// Chooses the footprint of a frame, for all its eyes and windows, by the measured cost of drawing.
+//
+//     QualityController controller(Milliseconds(11.1));
+//     for (const DrawSample& sample : meter.finished())
+//         controller.measured(sample.footprint, sample.load, sample.cost());
+//     const QualityChoice choice = controller.choose({.pace = gate.pace()});   // every frame
+#pragma once
+
+#include "app/frame/quality_reason.h"
+#include "app/quality/draw_cost.h"
+#include "interaction/commands.h"
+#include "interaction/controls/motion_gate.h"
+#include "render/drawing/cell_pass.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace isochron::app {
+
+/// What the choice depends on, apart from measurements.
+struct QualityInput {
+    interaction::Pace pace = interaction::Pace::moving;
+    interaction::QualityMode mode = interaction::QualityMode::automatic;
+    bool playing = false; ///< time plays: every frame may bring other cells
+    /// Footprints that the shown cells can be drawn with.
+    render::FootprintSet available = render::FootprintSet::up_to(render::kBestFootprint);
+    /// Best footprint of a settled picture, whatever it costs; empty: by measurement.
+    std::optional<render::Footprint> settled;
+    /// Footprint that the picture at rest gets in slices, whatever it costs; empty: none is.
+    std::optional<render::Footprint> in_slices;
+    /// Ignore measurements: a moving picture is drawn with quads.
+    bool by_pace = false;
+    DrawLoad load;
+    bool operator==(const QualityInput&) const = default;
+};
+
+struct QualityChoice {
+    render::Footprint footprint = render::Footprint::quad;
+    QualityReason reason = QualityReason::moving;
+    /// The settled picture of these cells has reached its final footprint: a capture may be taken.
+    bool final = false;
+    /// Draw this frame even if nothing in it has changed: its cost is not known yet.
+    bool measure = false;
+    std::optional<Milliseconds> cost; ///< expected, of `footprint` at this load
+    std::optional<Milliseconds>
+        better_cost; ///< expected, of the next better footprint, if it does not fit
+};
+
+/// Modes: `fast` draws quads. `auto` draws the best footprint within the budget; while the picture
+/// moves, only one that is expected to fit with room to spare. `paper` draws quads while moving and
+/// splats once settled. `quality` draws the best footprint of all; only while time plays, the best
+/// within the budget, so that time keeps its pace. No order of costs is assumed: a better footprint
+/// may be the cheaper one.
+///
+/// A footprint that is measured over the budget, or expected over it at a new load, is left at
+/// once.
+/// It may return
+/// - when the load has fallen so far that it is expected to fit with a margin, or
+/// - after a wait: 16 frames after the first failure, twice as many after each further one, times
+///   the budgets that a failed trial took (at most 8), at most 2048 frames. The wait starts anew at
+///   16 frames once the footprint has lasted 256 frames.
+/// A footprint is not tried if it may take longer than `kDearestTrial` (while moving, and beside
+/// slices: than the budget), judged by its earlier times at other loads, or by a multiple of the
+/// time of quads. If quads get faster, so do its earlier times, as other programs may have slowed
+/// both down. If it failed by less than three budgets, its times are halved every 2048 frames, so
+/// that it is tried again. What is not tried because of that multiple alone is worth to be measured
+/// where no frame gets longer by it, see `worth_measuring`; again after 2048 frames.
+/// So one load causes few frames over the budget, at least 16 frames lie between a step down and a
+/// step up, and a footprint that fits is back after at most 2048 settled frames.
+class QualityController {
+  public:
+    static constexpr unsigned kShortestWait = 16, kLongestWait = 2048, kProven = 256; ///< frames
+    /// Longest expected time of a frame that is drawn to measure a footprint; the budget if that is
+    /// longer.
+    static constexpr Milliseconds kDearestTrial{400};
+
+    explicit QualityController(Milliseconds budget) : budget_(budget) {}
+
+    /// Adds the cost of a drawn frame; call in the order of the frames, possibly some frames later.
+    /// The first frame after a change of footprint includes work that is done only once (compiling,
+    /// sorting): it counts only if the footprint is known and the frame is within the budget.
+    void measured(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
+
+    /// The best footprint that may fit, but is not tried, as its time is only guessed, or was
+    /// measured long ago. Empty: there is none. Not splats, which are put in order for each view:
+    /// a picture of theirs cannot be made while the view changes.
+    std::optional<render::Footprint> worth_measuring(const QualityInput& input) const;
+    /// Adds the cost of a picture that was made in slices, which tells about whole frames, too.
+    void measured_in_slices(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
+
+    /// Advances by one frame.
+    QualityChoice choose(const QualityInput& input);
+
+    Milliseconds budget() const { return budget_; }
+    /// Expected cost of a footprint; empty before it has been measured.
+    std::optional<Milliseconds> expected(render::Footprint footprint, const DrawLoad& load) const {
+        return of(footprint).cost.predict(load);
+    }
+
+  private:
+    struct Candidate {
+        DrawCost cost;
+        DrawCost beside; ///< what quads were expected to cost when this one was measured
+        std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
+        DrawLoad failed_at;              ///< least load of the failures
+        Milliseconds failed_cost{0};
+        bool known = false;    ///< measured since it was last tried again
+        bool outdated = false; ///< the costs are of before that
+        bool fits = false;     ///< within the budget by the newest measurement
+        bool failed = false;   ///< left as too slow, and not measured within the budget since
+        unsigned age = 0;      ///< frames chosen by the budget since the newest measurement
+        unsigned wait = kShortestWait / 2;
+        unsigned lasted = 0; ///< frames since it became the current one
+    };
+    Candidate& of(render::Footprint footprint) {
+        return candidates_[static_cast<std::size_t>(footprint)];
+    }
+    const Candidate& of(render::Footprint footprint) const {
+        return candidates_[static_cast<std::size_t>(footprint)];
+    }
+
+    QualityChoice choice_for(const QualityInput& input);
+    QualityChoice regardless(render::Footprint footprint, QualityReason reason,
+                             const DrawLoad& load);
+    QualityChoice within_budget(const QualityInput& input);
+    QualityChoice describe(const QualityInput& input) const;
+    void turn_to(render::Footprint footprint);
+    void step_down(const QualityInput& input);
+    void step_up(const QualityInput& input);
+    void learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
+    std::optional<Milliseconds> before(render::Footprint footprint, const DrawLoad& load) const;
+    bool has_room(const QualityInput& input) const;
+    bool bearable(render::Footprint footprint, const QualityInput& input) const;
+    bool outgrown(const Candidate& candidate, const DrawLoad& load) const;
+    bool returns(render::Footprint footprint, const QualityInput& input);
+    bool decided(render::Footprint footprint, const QualityInput& input) const;
+    void fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
+
+    Milliseconds budget_;
+    std::array<Candidate, render::kFootprints> candidates_;
+    render::Footprint current_ = render::Footprint::quad;
+    bool was_moving_ = true; ///< in the previous frame
+    bool budgeted_ = false;  ///< current_ was chosen by the budget
+    bool over_ = false;      ///< current_ was measured over the budget
+    DrawLoad over_load_;
+    Milliseconds over_cost_{0};                ///< that was measured over the budget
+    unsigned since_down_ = kShortestWait;      ///< frames since the last step down, at most this
+    std::optional<render::Footprint> sampled_; ///< footprint of the newest measurement
+};
+
+} // namespace isochron::app

@@ -1,0 +1,48 @@
+// Opens HDF5 datasets by their path.
+#include "index/decoders/decoders.h"
+#include "index/decoders/hdf5/hdf5_grid.h"
+#include "index/decoders/hdf5/hdf5_volume.h"
+#include "index/decoders/hdf5/vtkhdf.h"
+#include "index/error.h"
+#include "index/formats/stored_file.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace isochron::index {
+
+std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
+                                         const ReadOptions& options) {
+    auto file = std::make_unique<Hdf5File>(path);
+    if (is_vtkhdf(*file) && !(options.array && options.array->starts_with('/')))
+        return decode_vtkhdf(std::move(file), options);
+    const Hdf5Array array = choose_array(*file, options);
+    const Hdf5Dataset& first = array.steps.front();
+    if (!first.type)
+        throw Error(
+            fmt::format("{}: {} does not hold numbers that can be read", file->name(), first.path));
+    std::string why;
+    const auto layout = layout_of(first, options, &why);
+    if (!layout)
+        throw Error(fmt::format("{}: {} ({}): {}", file->name(), array.name,
+                                shape_text(first.dimensions), why));
+    Hdf5Volume volume{{}, array.steps, *layout};
+    if (layout->time && array.steps.size() > 1)
+        throw Error(fmt::format("{}: {} ({}): each of {} groups holds several steps, choose one "
+                                "with --array {}",
+                                file->name(), array.name, shape_text(first.dimensions),
+                                array.steps.size(), first.path));
+    volume.info.arrays = array.offered;
+    size_grid(*file, volume);
+    const std::size_t steps = layout->time ? first.dimensions[*layout->time] : array.steps.size();
+    expect_few_steps(steps, file->name());
+    if (layout->time && file->scales(first)[*layout->time].empty())
+        volume.info.notes.push_back(fmt::format("the first axis of {} ({}) is taken for time",
+                                                array.name, shape_text(first.dimensions)));
+    place_hdf5(*file, first, *layout, options, volume.info);
+    time_hdf5(*file, array, *layout, steps, volume.info);
+    return open_volume(std::move(file), array.name, std::move(volume), options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,158 @@
+// Reads NetCDF (classic, 64-bit offset, CDF-5 and NetCDF-4) through Unidata's library.
+#include "index/decoders/decoders.h"
+#include "index/decoders/netcdf/netcdf_values.h"
+#include "index/error.h"
+#include "index/formats/stored_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of variables that hold cell bounds of coordinates, which are not fields to show.
+std::vector<std::string> bounds_in(const NetcdfFile& file) {
+    std::vector<std::string> names;
+    for (const NetcdfVariable& variable : file.variables())
+        for (const char* attribute : {"bounds", "climatology"})
+            if (const std::string name = file.text(variable, attribute); !name.empty())
+                names.push_back(variable.name.substr(0, variable.name.rfind('/') + 1) + name);
+    return names;
+}
+
+[[noreturn]] void fail_without_volume(const NetcdfFile& file) {
+    constexpr std::size_t kListed = 8;
+    std::vector<std::string> found;
+    for (const NetcdfVariable& variable : file.variables())
+        if (variable.dimensions.size() > 1 && found.size() < kListed)
+            found.push_back(text(variable));
+    throw Error(fmt::format("{}: holds no array with three dimensions of more than one vertex "
+                            "besides time{}{}",
+                            file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
+}
+
+/// Those with three dimensions.
+std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
+    const std::vector<std::string> bounds = bounds_in(file);
+    std::vector<StoredArray> offered;
+    for (const NetcdfVariable& variable : file.variables())
+        if (layout_of(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
+            (variable.type || options.array == variable.name)) {
+            std::vector<std::size_t> lengths;
+            for (const NetcdfDimension& dimension : variable.dimensions)
+                lengths.push_back(dimension.length);
+            offered.push_back({.name = variable.name,
+                               .type = variable.type,
+                               .shape = fmt::format("{}", fmt::join(lengths, " x "))});
+        }
+    return offered;
+}
+
+/// Picks the variable that `options` ask for among those with three dimensions.
+/// @throws Error naming the file, as `choose_scalar` does, or when it has others
+const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions& options) {
+    const auto& variables = file.variables();
+    if (options.array) {
+        const auto named = std::ranges::find(variables, *options.array, &NetcdfVariable::name);
+        if (named != variables.end() && !layout_of(file, *named))
+            throw Error(fmt::format("{}: array {}, expected three dimensions of more than one "
+                                    "vertex besides time",
+                                    file.name(), text(*named)));
+    }
+    const std::vector<StoredArray> offered = offered_in(file, options);
+    if (offered.empty())
+        fail_without_volume(file);
+    const ChosenScalar chosen = choose_scalar(offered, options, file.name());
+    return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
+}
+
+class NetcdfVolume final : public DecodedFile {
+  public:
+    NetcdfVolume(const fs::path& path, const ReadOptions& options)
+        : file_(path), variable_(choose_variable(file_, options)),
+          layout_(*layout_of(file_, variable_)), missing_(file_, variable_) {
+        const std::string& name = file_.name();
+        const StoredArray array{.name = variable_.name,
+                                .type = variable_.type,
+                                .gaps = missing_.possible() && *variable_.type != StoredType::f32 &&
+                                        *variable_.type != StoredType::f64};
+        chosen_ = choose_scalar(std::span(&array, 1), options, name);
+        steps_ = layout_.time ? variable_.dimensions[*layout_.time].length : 1;
+        if (steps_ == 0)
+            throw Error(
+                fmt::format("{}: {} has 0 steps, expected at least 1", name, text(variable_)));
+        std::array<std::int64_t, 3> sizes{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sizes[axis] = static_cast<std::int64_t>(
+                std::min<std::size_t>(length_along(axis), std::int64_t{1} << 62));
+        info_.grid.vertices = checked_vertices(sizes, name);
+        file_.expect_room(variable_);
+        if (layout_.time)
+            file_.keep_chunks(variable_, *layout_.time);
+        ReadOptions any = options;
+        any.any_array = true;
+        info_.arrays = choose_scalar(offered_in(file_, options), any, name).offered;
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        info_.scaling = file_.scaling(variable_);
+        if (const std::string unit = file_.text(variable_, "units"); unit != "1")
+            info_.value_unit = unit;
+        info_.notes = chosen_.notes();
+        place_axes(file_, variable_, layout_, options, info_);
+        place_steps(file_, variable_, layout_, info_);
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return steps_; }
+
+    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
+    std::uint32_t slices_at_once() const override {
+        const std::uint32_t all = info_.grid.vertices[2], worth = slices_worth_asking(info_);
+        const std::vector<std::size_t> chunk = file_.chunk_of(variable_);
+        if (chunk.empty())
+            return worth;
+        const auto along = std::clamp<std::uint64_t>(chunk[layout_.space[2]], 1, all);
+        const std::uint64_t whole = (worth + along - 1) / along * along;
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(whole, all));
+    }
+
+    std::uint64_t decoded_bytes() const override {
+        double chunk = 1; // values of a chunk, which may span several steps
+        for (const std::size_t length : file_.chunk_of(variable_))
+            chunk *= static_cast<double>(length);
+        const double values = std::max(chunk, static_cast<double>(info_.grid.vertex_count()));
+        constexpr double kMost = 1e15;
+        return static_cast<std::uint64_t>(std::min(values, kMost)) * size_of(*variable_.type);
+    }
+
+    void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
+        read_netcdf_slab(file_, variable_, layout_, step, slices, chosen_, missing_, info_.grid,
+                         out);
+    }
+
+  private:
+    std::size_t length_along(std::size_t axis) const {
+        return variable_.dimensions[layout_.space[axis]].length;
+    }
+
+    NetcdfFile file_;
+    NetcdfVariable variable_;
+    NetcdfLayout layout_;
+    MissingValues missing_;
+    ChosenScalar chosen_;
+    SeriesInfo info_;
+    std::size_t steps_ = 1;
+};
+
+} // namespace
+
+std::unique_ptr<DecodedFile> decode_netcdf(const fs::path& path, const ReadOptions& options) {
+    return std::make_unique<NetcdfVolume>(path, options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,74 @@
+// Reads ParaView collections (.pvd): files and their times.
+#include "index/decoders/decoders.h"
+#include "index/decoders/vtk/vtk_session.h"
+#include "index/decoders/vtk/xml_markup.h"
+#include "index/error.h"
+#include "index/system/mapped_file.h"
+
+#include <fmt/format.h>
+
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_collection(const fs::path& path, std::vector<std::pair<fs::path, double>>& files) {
+    const std::string name = path.string();
+    {
+        const MappedFile file(path);
+        expect_shallow({reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()},
+                       name);
+    }
+    const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
+        vtkXMLUtilities::ReadElementFromFile(path.c_str()));
+    vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+    if (!collection)
+        throw Error(fmt::format("{}: not a ParaView collection", name));
+    std::map<std::pair<double, std::string>, std::string> parts;
+    for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+        vtkXMLDataElement* set = collection->GetNestedElement(i);
+        if (std::string_view(set->GetName()) != "DataSet")
+            continue;
+        const char* file = set->GetAttribute("file");
+        double time = 0;
+        if (!file)
+            throw Error(fmt::format("{}: DataSet {} names no file", name, i));
+        const char* text = set->GetAttribute("timestep");
+        if (!text)
+            throw Error(fmt::format("{}: {} has no timestep", name, file));
+        if (!set->GetScalarAttribute("timestep", time) || !std::isfinite(time))
+            throw Error(
+                fmt::format("{}: {}: timestep \"{}\", expected a number", name, file, text));
+        const char* part = set->GetAttribute("part");
+        const auto [same, is_new] = parts.try_emplace({time, part ? part : "0"}, file);
+        if (!is_new)
+            throw Error(fmt::format("{}: {}: time {}, {} has the same, and the same part; "
+                                    "--time-step needs the files themselves",
+                                    name, file, time, same->second));
+        files.emplace_back(path.parent_path() / file, time);
+    }
+    if (files.empty())
+        throw Error(fmt::format("{}: an empty collection", name));
+    // Programs that write in parallel, or were restarted, may list files in any order.
+    std::stable_sort(files.begin(), files.end(),
+                     [](const auto& a, const auto& b) { return a.second < b.second; });
+}
+
+} // namespace
+
+std::vector<std::pair<fs::path, double>> decode_pvd(const fs::path& path) {
+    std::vector<std::pair<fs::path, double>> files;
+    with_vtk(path, [&] { read_collection(path, files); });
+    return files;
+}
+
+} // namespace isochron::index

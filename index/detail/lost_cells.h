@@ -1,0 +1,53 @@
+// Active cells of a volume where coarser levels of detail have none: specks, thin parts and bulges
+// that the levels' means lose.
+#pragma once
+
+#include "index/detail/detail_regions.h"
+#include "index/search/layer_search.h"
+#include "index/surface/cell_set.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// An active cell of the finest level that an index has is lost if its region has a coarser level,
+/// and the cell of that coarser level around it holds no part of any drawn cell.
+class LostCells {
+  public:
+    /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in
+    /// which nothing at all is drawn; and if these are still too many, each of them counts as one
+    /// lost cell as large as the chunk.
+    static constexpr std::size_t kMostChunks = std::size_t{1} << 14;
+
+    /// @param finest level that the index has chunks of
+    /// @param search of that level, with bricks; all outlive this
+    LostCells(const IndexFile& file, const DetailRegions& regions, unsigned finest,
+              LayerSearch& search, std::size_t most_chunks = kMostChunks)
+        : file_(file), regions_(regions), finest_(finest), search_(search),
+          most_chunks_(most_chunks) {}
+
+    struct Found {
+        CellSet cells; ///< ids and points of the finest level's grid, ascending
+        /// Unread chunks as cells: the points' places are those of mixed levels.
+        std::vector<CellPoint> chunks;
+    };
+    /// @param drawn the cells of the query's surface in a picture, at places of mixed levels
+    /// @param levels of the regions in that picture
+    /// @return false when stopped
+    /// @throws Error as ChunkStore does
+    bool find(const Query& query, std::span<const CellPoint> drawn,
+              std::span<const std::uint8_t> levels, Found& found, const std::stop_token& stop);
+
+  private:
+    const IndexFile& file_;
+    const DetailRegions& regions_;
+    unsigned finest_;
+    LayerSearch& search_;
+    std::size_t most_chunks_;
+};
+
+} // namespace isochron::index

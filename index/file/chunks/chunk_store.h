@@ -1,0 +1,136 @@
+// The chunks of one array of an open index: read when needed, kept in the cache.
+#pragma once
+
+#include "index/file/chunks/byte_cache.h"
+#include "index/file/chunks/chunk_grid.h"
+#include "index/file/chunks/chunk_records.h"
+#include "index/file/sections/index_contents.h"
+#include "index/system/huge_pages.h"
+#include "index/system/slot_pool.h"
+#include "index/volume/level_map.h"
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// One chunk of a step.
+struct Chunk {
+    std::array<std::uint32_t, 3> size{}; ///< vertices along x, y and z
+    ChunkBricks bricks{};                ///< undefined in an index without bricks
+    std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty if the file has none
+};
+using ChunkPtr = std::shared_ptr<const Chunk>;
+
+using LevelMapPtr = std::shared_ptr<const LevelMap>;
+
+/// The tiles of a step (brick_tiles.h).
+struct StepTiles {
+    LargeMemory memory;
+    std::size_t bytes = 0;
+
+    std::span<const std::uint8_t> ranks() const {
+        return {reinterpret_cast<const std::uint8_t*>(memory.get()), bytes};
+    }
+};
+using StepTilesPtr = std::shared_ptr<const StepTiles>;
+
+/// Thrown by a read that was asked to stop.
+struct Stopped {};
+/// @throws Stopped if it is requested
+inline void stop_if_asked(const std::stop_token& stop) {
+    if (stop.stop_requested())
+        throw Stopped();
+}
+
+/// Thread-safe. Functions that read the file throw Error if it is damaged or cannot be read.
+class ChunkStore {
+  public:
+    /// @param source, cache outlive this
+    ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array);
+
+    const SeriesInfo& info() const { return array_.info; }
+    const ChunkGrid& grid() const { return grid_; }
+    const ChunkDecoder& decoder() const { return decoder_; }
+    const ByteSource& source() const { return source_; }
+
+    /// The table of a layer; if it is not in the cache, tables of neighboring layers are read too.
+    ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
+    /// The levels whose ranks a step's bricks hold. The index must have bricks.
+    LevelMapPtr levels(std::uint32_t step) const;
+    /// @param places ascending @return the chunks in the same order
+    /// @throws Stopped as well
+    std::vector<ChunkPtr> chunks(std::uint32_t step, std::uint32_t layer,
+                                 std::span<const std::uint32_t> places,
+                                 const std::stop_token& stop = {}) const;
+    /// Announces that chunks will be needed soon, so that the disk works on many requests at once.
+    /// @param places ascending @return bytes that must be read for them
+    std::uint64_t expect(std::uint32_t step, std::uint32_t layer,
+                         std::span<const std::uint32_t> places) const;
+
+    /// The same; if most of a layer's bytes must be read, all of it is read in one go, and this waits
+    /// until it has come from the disk.
+    std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
+                        std::span<const std::uint32_t> places, const std::stop_token& stop) const;
+    /// Whether `fetch` of so many chunks of a layer, of which none is in the cache, reads all of it:
+    /// a sixth of the chunks are so spread that, with their neighbors, most are needed.
+    bool fetches_all(std::size_t places) const { return 6 * places >= grid_.chunks_of_layer(); }
+
+    /// The values and bricks of one whole step, for work that needs all of it.
+    /// @throws Stopped as well
+    LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
+    /// Whether `tiles` may be asked for: values have more than 8 bits, there are bricks, and the
+    /// tiles fit into a quarter of the cache.
+    bool can_have_tiles() const;
+    /// The tiles of one whole step, for searches that are repeated.
+    /// @throws Stopped as well
+    StepTilesPtr tiles(std::uint32_t step, const std::stop_token& stop = {}) const;
+    /// Bytes of records of chunks that are not in the cache.
+    std::uint64_t missing_bytes(std::uint32_t step, std::uint32_t layer,
+                                std::span<const std::uint32_t> places) const;
+    /// Bytes that `whole` would read.
+    std::uint64_t missing_bytes(std::uint32_t step) const;
+
+    /// Bytes of the values of a chunk of so many vertices.
+    std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;
+    /// The same of a chunk that is not clipped.
+    std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
+
+    /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
+    /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
+    bool better_whole(std::uint32_t step) const;
+    /// Notes that a step has been worked on.
+    void worked_on(std::uint32_t step) const;
+    bool was_worked_on(std::uint32_t step) const;
+
+  private:
+    ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
+                       std::uint32_t place = 0) const;
+    std::size_t chunk_bytes() const;
+    ChunkPtr decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
+                     std::span<const std::byte> record) const;
+    template <class F>
+    void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
+                      const std::stop_token& stop, F&& f) const;
+    std::vector<std::uint32_t> missing(std::uint32_t step, std::uint32_t layer,
+                                       std::span<const std::uint32_t> places) const;
+    std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
+                           std::span<const std::uint32_t> missing) const;
+    std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
+                                     std::span<const std::uint32_t> places) const;
+    const ByteSource& source_;
+    ByteCache& cache_;
+    ChunkArray array_;
+    ChunkGrid grid_;
+    ChunkDecoder decoder_;
+    LevelMapPtr of_type_;            ///< levels of all steps, for an 8-bit type
+    std::shared_ptr<SlotPool> pool_; ///< memory of chunks with their values
+    mutable std::mutex visits_mutex_;
+    mutable std::vector<bool> visited_; ///< steps that have been worked on
+};
+
+} // namespace isochron::index

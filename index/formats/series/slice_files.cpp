@@ -1,0 +1,279 @@
+// Names with numbers, and the volumes that they make.
+#include "index/formats/series/slice_files.h"
+
+#include "index/error.h"
+#include "index/formats/data_stream.h"
+#include "index/formats/readers.h"
+#include "index/formats/series/natural_order.h"
+#include "index/formats/series/numbered_name.h"
+#include "index/formats/text_header.h"
+#include "index/lower_case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the numbers in names count.
+enum class Counted : std::uint8_t { slice, step, channel };
+
+/// By the letters before a number.
+std::optional<Counted> counted_behind(const std::string& text) {
+    std::size_t begin = text.size();
+    const auto is_letter = [](unsigned char c) { return (c | 32) >= 'a' && (c | 32) <= 'z'; };
+    while (begin > 0 && is_letter(static_cast<unsigned char>(text[begin - 1])))
+        --begin;
+    const std::string word = lower_case(text.substr(begin));
+    for (const char* each : {"z", "slice", "plane", "section", "img"})
+        if (word == each)
+            return Counted::slice;
+    for (const char* each : {"t", "time", "timepoint", "frame", "step"})
+        if (word == each)
+            return Counted::step;
+    for (const char* each : {"c", "ch", "chn", "channel", "w"})
+        if (word == each)
+            return Counted::channel;
+    return std::nullopt;
+}
+
+/// Whether a number stands in a folder's name.
+bool in_folder(const NumberedName& name, std::size_t number) {
+    return std::any_of(name.texts.begin() + static_cast<std::ptrdiff_t>(number) + 1,
+                       name.texts.end(),
+                       [](const std::string& text) { return text.find('/') != text.npos; });
+}
+
+/// The numbers that differ. One that a folder's name and a file's name both have counts once.
+std::vector<std::size_t> counting_numbers(const std::vector<NumberedName>& names) {
+    std::vector<std::size_t> counting;
+    for (const std::size_t i : varying_numbers(names))
+        if (std::ranges::none_of(counting, [&](std::size_t earlier) {
+                return in_folder(names.front(), earlier) && !in_folder(names.front(), i) &&
+                       std::ranges::all_of(names, [&](const NumberedName& name) {
+                           return name.numbers[i] == name.numbers[earlier];
+                       });
+            }))
+            counting.push_back(i);
+    return counting;
+}
+
+/// What each varying number counts. @throws Error when that cannot be told
+std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
+                                        const std::vector<fs::path>& files, bool flat) {
+    const std::vector<std::size_t> varying = counting_numbers(names);
+    std::map<std::size_t, Counted> found;
+    std::set<Counted> taken;
+    for (const std::size_t i : varying)
+        if (const auto counted = counted_behind(names.front().texts[i]);
+            counted && taken.insert(*counted).second)
+            found[i] = *counted;
+    if (varying.size() == 1 && (found.empty() || (flat && found.begin()->second == Counted::step)))
+        return {{varying.front(), flat ? Counted::slice : Counted::step}};
+    if (varying.size() == 2 && found.empty() && flat && in_folder(names.front(), varying[0]) &&
+        !in_folder(names.front(), varying[1])) // 003/0001.tif
+        return {{varying[0], Counted::step}, {varying[1], Counted::slice}};
+    // One that is left is what is not there yet.
+    for (const std::size_t i : varying)
+        if (!found.contains(i) && varying.size() == found.size() + 1) {
+            const Counted left =
+                flat && !taken.contains(Counted::slice) ? Counted::slice : Counted::step;
+            if (taken.insert(left).second)
+                found[i] = left;
+        }
+    if (found.size() != varying.size())
+        throw Error(fmt::format("{}, {}: {} numbers differ in the names of the files, expected "
+                                "them behind t, c and z (t01_c0_z001.tif)",
+                                files.front().string(), files.back().string(), varying.size()));
+    return found;
+}
+
+/// Gaps would be shown as if they were none.
+void expect_even(const std::map<std::uint64_t, fs::path>& slices) {
+    if (slices.size() < 3)
+        return;
+    const std::uint64_t gap = std::next(slices.begin())->first - slices.begin()->first;
+    for (auto slice = std::next(slices.begin()); slice != slices.end(); ++slice) {
+        const auto before = std::prev(slice);
+        if (slice->first - before->first != gap)
+            throw Error(fmt::format("{}: slice {} follows {} of {}, expected {}",
+                                    slice->second.string(), slice->first, before->first,
+                                    before->second.string(), before->first + gap));
+    }
+}
+
+/// The folder that all files are in, at some depth.
+fs::path common_folder(const std::vector<fs::path>& files) {
+    fs::path common = files.front().parent_path();
+    for (const fs::path& file : files) {
+        const fs::path folder = file.parent_path();
+        fs::path both;
+        for (auto a = common.begin(), b = folder.begin();
+             a != common.end() && b != folder.end() && *a == *b; ++a, ++b)
+            both /= *a;
+        common = both;
+    }
+    return common;
+}
+
+SeriesFile of_slices(std::vector<fs::path> slices) {
+    SeriesFile file{.path = slices.front(), .open = {}, .time = {}};
+    file.open = [slices = std::move(slices)](const fs::path& path, const ReadOptions& options) {
+        ReadOptions with = options;
+        with.slices = slices;
+        return open_tiff(path, with);
+    };
+    return file;
+}
+
+SeriesFile of_stack(const fs::path& path) {
+    return {.path = path, .open = open_tiff, .time = {}};
+}
+
+/// Reads numbers of a TIFF header, of either byte order and size.
+class TiffHead {
+  public:
+    explicit TiffHead(const fs::path& path) : size_(file_bytes(path)), file_(path) {}
+
+    /// @return none: it cannot be told
+    std::optional<bool> flat() {
+        const std::uint64_t order = number(0, 2);
+        big_ = order == 0x4d4d;
+        const std::uint64_t kind = number(2, 2);
+        if ((order != 0x4949 && !big_) || (kind != 42 && kind != 43))
+            return std::nullopt;
+        const bool wide = kind == 43; // BigTIFF
+        const std::uint64_t at = wide ? number(8, 8) : number(4, 4);
+        const std::uint64_t entries = number(at, wide ? 8 : 2), size = wide ? 20 : 12;
+        const std::uint64_t first = at + (wide ? 8 : 2);
+        if (at == 0 || at > size_ || entries > 4096)
+            return std::nullopt;
+        if (number(first + entries * size, wide ? 8 : 4) != 0)
+            return false;
+        for (std::uint64_t i = 0; i < entries; ++i) {
+            constexpr std::uint64_t kImageDescription = 270;
+            const std::uint64_t entry = first + i * size;
+            if (number(entry, 2) != kImageDescription)
+                continue;
+            const std::uint64_t count = number(entry + 4, wide ? 8 : 4);
+            const std::uint64_t inside = wide ? 8 : 4;
+            const std::uint64_t text =
+                count <= inside ? entry + (wide ? 12 : 8) : number(entry + (wide ? 12 : 8), inside);
+            return !describes_more(text_at(text, std::min<std::uint64_t>(count, 1 << 16)));
+        }
+        return true;
+    }
+
+  private:
+    static bool describes_more(const std::string& text) {
+        const std::size_t images = text.find("images=");
+        return (text.starts_with("ImageJ=") && images != std::string::npos &&
+                text.compare(images, 9, "images=1\n") != 0) ||
+               text.find("<TiffData") != std::string::npos;
+    }
+
+    std::string text_at(std::uint64_t at, std::uint64_t size) {
+        std::string text(at > size_ ? 0 : std::min(size, size_ - at), '\0');
+        file_.clear();
+        file_.seekg(static_cast<std::streamoff>(at));
+        file_.read(text.data(), static_cast<std::streamsize>(text.size()));
+        return text;
+    }
+    std::uint64_t number(std::uint64_t at, std::uint64_t size) {
+        const std::string bytes = text_at(at, size);
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < bytes.size(); ++i)
+            value |= std::uint64_t{static_cast<unsigned char>(bytes[i])}
+                     << 8 * (big_ ? bytes.size() - 1 - i : i);
+        return value;
+    }
+
+    std::uint64_t size_;
+    std::ifstream file_;
+    bool big_ = false;
+};
+
+} // namespace
+
+bool is_tiff(const fs::path& path) {
+    const std::string name = lower_case(path.filename().string());
+    return name.ends_with(".tif") || name.ends_with(".tiff") || name.ends_with(".btf");
+}
+
+bool is_flat_tiff(const fs::path& path) {
+    return TiffHead(path).flat().value_or(false);
+}
+
+std::vector<SeriesFile> tiff_series(const std::vector<fs::path>& files,
+                                    const ReadOptions& options) {
+    if (files.size() == 1)
+        return {of_stack(files.front())};
+    std::vector<fs::path> sorted = files;
+    std::ranges::stable_sort(sorted, [](const fs::path& a, const fs::path& b) {
+        return natural_less(a.string(), b.string());
+    });
+    const bool flat = is_flat_tiff(sorted.front());
+    std::vector<NumberedName> names;
+    const std::string::size_type folder = common_folder(sorted).string().size();
+    for (const fs::path& file : sorted) {
+        names.push_back(taken_apart(file.string().substr(folder)));
+        if (names.back().texts != names.front().texts)
+            throw Error(fmt::format("{}, {}: names that differ in more than numbers, expected "
+                                    "t01_c0_z001.tif and the like",
+                                    sorted.front().string(), file.string()));
+    }
+    const auto counts = meanings(names, sorted, flat);
+    std::map<std::uint64_t, std::map<std::uint64_t, std::map<std::uint64_t, fs::path>>> found;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        std::map<Counted, std::uint64_t> at;
+        for (const auto& [number, counted] : counts)
+            at[counted] = names[i].numbers[number];
+        fs::path& place = found[at[Counted::channel]][at[Counted::step]][at[Counted::slice]];
+        if (!place.empty())
+            throw Error(fmt::format("{}, {}: both are slice {} of step {}", place.string(),
+                                    sorted[i].string(), at[Counted::slice], at[Counted::step]));
+        place = sorted[i];
+    }
+    auto channel = found.begin();
+    if (found.size() > 1) {
+        std::vector<std::string> offered;
+        for (const auto& [number, steps] : found)
+            offered.push_back(fmt::format("channel {}", number));
+        const auto chosen = std::ranges::find(offered, options.array.value_or(""));
+        if (chosen == offered.end())
+            throw Error(fmt::format("{}: files of several channels, choose one with --array: {}",
+                                    sorted.front().string(), fmt::join(offered, ", ")));
+        std::advance(channel, chosen - offered.begin());
+    }
+    std::vector<SeriesFile> series;
+    const std::size_t slices = channel->second.begin()->second.size();
+    for (const auto& [step, of_step] : channel->second) {
+        if (of_step.size() != slices)
+            throw Error(fmt::format("{}: {} slices in step {}, the first has {}",
+                                    of_step.begin()->second.string(), of_step.size(), step,
+                                    slices));
+        expect_even(of_step);
+        std::vector<fs::path> paths;
+        for (const auto& [number, path] : of_step)
+            paths.push_back(path);
+        series.push_back(flat ? of_slices(std::move(paths)) : of_stack(paths.front()));
+        if (!flat && found.size() > 1)
+            series.back().open = [](const fs::path& path, const ReadOptions& given) {
+                ReadOptions within = given;
+                within.array.reset(); // it chose the file
+                return open_tiff(path, within);
+            };
+    }
+    return series;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,52 @@
+// What a build is told besides the series.
+#pragma once
+
+#include "index/file/chunks/chunk_codec.h"
+#include "index/file/sections/index_contents.h"
+#include "index/file/sections/tiers.h"
+#include "index/volume/tree_options.h"
+#include "index/volume/volume_series.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// An array of an index besides its first.
+struct FurtherArray {
+    VolumeSeries* series = nullptr; ///< of the same files; outlives the build
+    /// The options that select it in the files.
+    std::optional<std::string> array = {}, component = {};
+    std::optional<TierPlan> plan = {}; ///< as BuildOptions::plan
+};
+
+struct BuildOptions {
+    std::optional<TierSet> tiers =
+        {}; ///< instead of the planner's choice, which never includes the tree
+    /// The plan of an index that is written anew: kept, instead of a choice, if it is still
+    /// possible.
+    std::optional<TierPlan> plan = {};
+    bool with_tree = false; ///< add the tree to the planner's choice
+    ThiOptions tree = {};
+    unsigned threads = 0; ///< 0: one for each processor
+    /// Most bytes that wait in memory to be packed: planes of a level of detail, and of steps whose
+    /// values have more than 8 bits. More of them wait in a file.
+    std::uint64_t waiting_bytes = 64 << 20;
+    Codec codec = Codec::fitting;
+    /// If set, the file refers to these files instead of carrying a copy of the values.
+    std::optional<Referral> referral = {};
+    /// The array to color by: another array of the same files; null: none. Outlives the build.
+    VolumeSeries* color = nullptr;
+    /// The options that select it in the files, for an index that refers to them.
+    std::optional<std::string> color_array = {}, color_component = {};
+    /// The options that select the volume itself.
+    std::optional<std::string> array = {}, component = {};
+    /// How the files are read, for steps that are appended later; without array and component.
+    std::optional<ReadOptions> reading = {};
+    /// Further arrays, each with its own levels and tiers; fewer than kMostArrays.
+    std::vector<FurtherArray> further = {};
+};
+
+} // namespace isochron::index

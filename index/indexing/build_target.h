@@ -1,0 +1,57 @@
+// The file that a build writes: a new file that appears when complete, or an index that grows.
+#pragma once
+
+#include "index/file/sections/file_layout.h"
+#include "index/system/byte_sink.h"
+#include "index/system/new_file.h"
+#include "index/system/team.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace isochron::index {
+
+/// Shared by all members of a team: all of them call every function. Throws as `Team::together`
+/// does.
+class BuildTarget {
+  public:
+    virtual ~BuildTarget() = default;
+    virtual ByteSink& sink() = 0;
+    /// Makes what was written valid. @param header used from the rank 0 only
+    virtual void commit(const FileHeader& header) = 0;
+};
+
+/// A new file, which rank 0 creates.
+class NewTarget final : public BuildTarget {
+  public:
+    NewTarget(Team& team, const std::filesystem::path& target);
+    NewFile& sink() override { return *file_; }
+    void commit(const FileHeader& header) override;
+
+  private:
+    Team& team_;
+    std::optional<NewFile> file_;
+};
+
+/// An index that has steps already. The present header and the parts that it names are not touched
+/// until the new header is written, so at any crash of process or machine one of the two is valid.
+/// Destroyed without a commit, it cuts off what was written.
+class GrowingTarget final : public BuildTarget {
+  public:
+    /// @param file each member's own, opened with `alone` on rank 0 @param held its header
+    GrowingTarget(Team& team, GrowingSink& file, const FileHeader& held);
+    ~GrowingTarget() override;
+    GrowingTarget(const GrowingTarget&) = delete;
+    GrowingTarget& operator=(const GrowingTarget&) = delete;
+
+    GrowingSink& sink() override { return file_; }
+    void commit(const FileHeader& header) override;
+
+  private:
+    Team& team_;
+    GrowingSink& file_;
+    std::uint64_t held_bytes_;
+    bool may_count_ = false; ///< the new header may have been written
+};
+
+} // namespace isochron::index

@@ -1,0 +1,208 @@
+// Builds .isochron files: one pass over the sources of all arrays, then their tiers, then their
+// sections.
+#include "index/indexing/index_build.h"
+
+#include "index/error.h"
+#include "index/file/sections/file_layout.h"
+#include "index/indexing/array_build.h"
+#include "index/indexing/color_pass.h"
+#include "index/indexing/section_writer.h"
+#include "index/indexing/volume_pass.h"
+#include "index/indexing/work_progress.h"
+#include "index/system/input_file.h"
+#include "index/system/parallel.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <deque>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+/// Refuses to replace a file that is not an index, so that a typing error does not destroy data.
+void refuse_foreign_file(const std::filesystem::path& out) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(out, ignored))
+        return;
+    std::array<char, 8> start{};
+    const std::size_t got = InputFile(out).read(0, std::as_writable_bytes(std::span(start)));
+    if (got > 0 && start != FileHeader{}.magic)
+        throw Error(
+            fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
+}
+
+void check_array(const SeriesInfo& info, const BuildOptions& options) {
+    check_limits(info);
+    if (options.tiers)
+        check_tiers(info.grid, *options.tiers);
+    if (options.with_tree)
+        check_tiers(info.grid, TierSet().with(Tier::tree));
+    if (options.referral && has_wide_ids(info.grid))
+        throw Error(fmt::format("{} cells, expected fewer than 2^32 for an index that refers to "
+                                "its sources",
+                                info.grid.cell_count()));
+}
+
+void check_options(const SeriesInfo& info, const BuildOptions& options) {
+    try {
+        check_array(info, options);
+        if (options.color)
+            expect_colors_of(options.color->info(), info);
+        if (options.further.size() >= kMostArrays)
+            throw Error(fmt::format("{} arrays, expected at most {}", options.further.size() + 1,
+                                    kMostArrays));
+        std::set<std::string> names{info.array};
+        for (const FurtherArray& array : options.further) {
+            const SeriesInfo& further = array.series->info();
+            check_array(further, options);
+            expect_colors_of(further, info);
+            if (further.grid != info.grid)
+                throw Error(fmt::format("arrays {} and {} lie at different places", info.array,
+                                        further.array));
+            if (!names.insert(further.array).second)
+                throw Error(fmt::format("array {} is given twice", further.array));
+        }
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", info.sources.empty() ? "series" : info.sources.front(),
+                                error.what()));
+    }
+}
+
+/// The options of an array besides the first.
+BuildOptions options_of(const FurtherArray& array, const BuildOptions& all) {
+    BuildOptions options = all;
+    options.array = array.array;
+    options.component = array.component;
+    options.plan = array.plan;
+    if (options.referral) {
+        options.referral->options.array = array.array;
+        options.referral->options.component = array.component;
+    }
+    options.color = nullptr;
+    options.further.clear();
+    return options;
+}
+
+/// The arrays that are built together.
+class Arrays {
+  public:
+    Arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
+           const Progress& progress, Team& team, BuildTarget& target, const IndexFile* held)
+        : work_(progress) {
+        for (std::size_t number = 0; number <= all.further.size(); ++number) {
+            const FurtherArray* further = number > 0 ? &all.further[number - 1] : nullptr;
+            options_.push_back(further ? options_of(*further, all) : all);
+            builds_.emplace_back(further ? *further->series : first, out, options_.back(), number,
+                                 team, target, held ? &held->array(number) : nullptr);
+        }
+    }
+
+    /// Reads every step once, writes its chunks, then the tiers of one array after the other.
+    /// @return false if appending is impossible
+    bool write(const PassTarget& to, std::size_t fresh, Team& team) {
+        plan_work();
+        std::vector<ArrayPass> passes;
+        for (ArrayBuild& build : builds_) {
+            passes.push_back(build.pass());
+            passes.back().means.lends |= builds_.size() > 1;
+        }
+        std::vector<VolumeFindings> found =
+            read_volumes(passes, fresh, to, team, [this](std::string_view phase, double done) {
+                work_.report(phase, done);
+            });
+        for (std::size_t number = 0; number < builds_.size(); ++number)
+            if (!builds_[number].take(std::move(found[number])))
+                return false;
+        plan_work();
+        double before = 0;
+        for (ArrayBuild& build : builds_) {
+            const double own = build.work().indexing;
+            to.end = build.write_tiers(to.end, [&](std::string_view phase, double done) {
+                work_.report(phase, indexing_ > 0 ? (before + own * done) / indexing_ : done);
+            });
+            before += own;
+        }
+        return true;
+    }
+
+    std::vector<ArraySections> take_sections() {
+        std::vector<ArraySections> sections;
+        for (ArrayBuild& build : builds_)
+            sections.push_back(build.take_sections());
+        return sections;
+    }
+
+    /// Reports that all is written, but not flushed to disk.
+    void report_flushing() { work_.report("flushing to disk", 0); }
+
+  private:
+    /// Flushing takes a twentieth of all the rest.
+    void plan_work() {
+        double reading = 0;
+        indexing_ = 0;
+        for (const ArrayBuild& build : builds_) {
+            reading += build.work().reading;
+            indexing_ += build.work().indexing;
+        }
+        work_.plan({{"reading", reading},
+                    {"indexing", indexing_},
+                    {"flushing to disk", (reading + indexing_) / 20}});
+    }
+
+    WorkProgress work_;
+    double indexing_ = 0;              ///< the work of all arrays
+    std::deque<BuildOptions> options_; ///< deques, since the builds refer to the options
+    std::deque<ArrayBuild> builds_;
+};
+
+/// Writes all arrays, then their sections.
+/// @return false if appending is impossible
+bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
+                  const Progress& progress, Team& team, BuildTarget& target,
+                  const IndexFile* held) {
+    Arrays arrays(first, out, all, progress, team, target, held);
+    std::uint64_t end = align_up(held ? held->header().file_bytes : kDataBegin, kPartAlignment);
+    if (!arrays.write({target.sink(), end, out.string() + ".chunks", thread_count(all.threads)},
+                      held ? held->info().steps() : 0, team))
+        return false;
+    FileHeader header;
+    header.sequence = held ? held->header().sequence + 1 : 0;
+    team.together([&] {
+        if (team.rank() > 0)
+            return;
+        auto sections = arrays.take_sections();
+        write_sections(sections, held, end, header, target.sink());
+    });
+    arrays.report_flushing();
+    target.commit(header);
+    return true;
+}
+
+} // namespace
+
+void build_index(VolumeSeries& series, const std::filesystem::path& out,
+                 const BuildOptions& options, const Progress& progress, Team& team) {
+    check_options(series.info(), options);
+    NewTarget target(team, out);
+    team.together([&] { refuse_foreign_file(out); });
+    build_arrays(series, out, options, progress, team, target, nullptr);
+}
+
+void build_index(VolumeSeries& series, const std::filesystem::path& out,
+                 const BuildOptions& options, const Progress& progress) {
+    build_index(series, out, options, progress, *alone());
+}
+
+bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
+                  const std::filesystem::path& out, const BuildOptions& options,
+                  const Progress& progress, Team& team) {
+    check_options(series.info(), options);
+    GrowingTarget target(team, file, held.header());
+    return build_arrays(series, out, options, progress, team, target, &held);
+}
+
+} // namespace isochron::index

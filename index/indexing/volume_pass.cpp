@@ -1,0 +1,171 @@
+// The pass of a build over its arrays: reads every step once, analyzes and packs it.
+#include "index/indexing/volume_pass.h"
+
+#include "index/file/detail_levels.h"
+#include "index/file/sections/metadata.h"
+#include "index/indexing/layer_stream.h"
+#include "index/indexing/level_choice.h"
+#include "index/indexing/value_stats.h"
+#include "index/system/running_checksum.h"
+
+#include <deque>
+#include <optional>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// Statistics of the steps of one member.
+class Observer {
+  public:
+    explicit Observer(const SeriesInfo& info) : info_(info), chooser_(info.type) {}
+
+    void look(std::size_t step, const LayerView& layer) {
+        counts_.add(info_.type, info_.scaling, layer.own());
+        const std::size_t plane = layer.plane / size_of(info_.type);
+        chooser_.add(step, {layer.begin * plane, layer.end * plane, info_.grid.vertex_count()},
+                     layer.own());
+        checksum_.add(layer.own());
+        if (layer.end == info_.grid.vertices[2])
+            checksums_.push_back(checksum_.take());
+    }
+
+    bool lossless() const { return chooser_.lossless(); }
+
+    VolumeFindings agreed(const std::vector<std::uint64_t>& states, Team& team) {
+        LevelChooser chooser(info_.type);
+        const std::vector<std::uint64_t> seen = chooser_.state();
+        for (const auto& bytes : team.gather(std::as_bytes(std::span(seen)))) {
+            const auto* state = reinterpret_cast<const std::uint64_t*>(bytes.data());
+            chooser.merge(LevelChooser(info_.type, {state, bytes.size() / sizeof *state}));
+        }
+        return {agreed_counts(counts_, info_.type, team),
+                team.gather_items(checksums_),
+                team.gather_items(states),
+                chooser.choose(),
+                {},
+                {}};
+    }
+
+  private:
+    const SeriesInfo& info_;
+    ValueCounts counts_;
+    LevelChooser chooser_;
+    RunningChecksum checksum_;
+    std::vector<std::uint64_t> checksums_;
+};
+
+/// What a member finds in, and writes of, one array.
+class Reading {
+  public:
+    explicit Reading(const ArrayPass& pass)
+        : pass_(pass), stride_(step_stride(info().step_bytes())), observer_(info()),
+          writer_(info(), pass.contents, pass.means) {}
+
+    const ArrayPass& pass() const { return pass_; }
+
+    void keep(std::size_t step, const LayerView& layer) {
+        if (pass_.kept.file && (pass_.kept.always || observer_.lossless()))
+            pass_.kept.file->write_at((step - pass_.first) * stride_ + layer.begin * layer.plane,
+                                      layer.own());
+    }
+
+    void take(std::size_t step, const LayerView& layer, PartWriter& parts) {
+        observer_.look(step, layer);
+        keep(step, layer);
+        writer_.take(layer, parts, steps_);
+    }
+
+    void take_states(std::size_t begin, std::size_t end) {
+        for (std::size_t step = begin; step < end; ++step)
+            states_.push_back(pass_.series.state(step));
+    }
+
+    /// @param begin of this member's parts in the file
+    VolumeFindings agreed(std::uint64_t begin, Team& team) {
+        VolumeFindings found = observer_.agreed(states_, team);
+        found.steps =
+            agreed_steps(std::move(steps_), begin, detail_grids(info().grid).size(), team);
+        if (pass_.colors)
+            found.colors = pass_.colors->agreed(begin, team);
+        return found;
+    }
+
+  private:
+    const SeriesInfo& info() const { return pass_.series.info(); }
+
+    const ArrayPass& pass_;
+    std::size_t stride_;
+    Observer observer_;
+    StepWriter writer_;
+    std::vector<StepEntry> steps_;
+    std::vector<std::uint64_t> states_;
+};
+
+/// Reads this member's share of all steps.
+void read_share(std::deque<Reading>& readings, std::size_t fresh, const PassTarget& target,
+                PartWriter& parts, const Team& team, const Progress& progress) {
+    const auto stream = [&](std::span<VolumeSeries* const> arrays, std::size_t begin,
+                            std::size_t end, const TakeLayer& take) {
+        stream_layers(arrays, begin, end, target.threads, take, [&](double done) {
+            if (progress)
+                progress("reading", done);
+        });
+    };
+    struct Part {
+        Reading* reading;
+        bool colors;
+    };
+    std::vector<VolumeSeries*> arrays;
+    std::vector<Part> of;
+    for (Reading& reading : readings) {
+        const ArrayPass& pass = reading.pass();
+        // Held steps are divided among the members, and so are new steps.
+        VolumeSeries* const alone[]{&pass.series};
+        if (const auto [begin, end] = team.share(fresh - pass.first); begin < end)
+            stream(alone, pass.first + begin, pass.first + end,
+                   [&](std::size_t, std::size_t step, const LayerView& layer) {
+                       reading.keep(step, layer);
+                   });
+        arrays.push_back(&pass.series);
+        of.push_back({&reading, false});
+        if (!pass.colors)
+            continue;
+        arrays.push_back(&pass.colors->series());
+        of.push_back({&reading, true});
+    }
+    const auto [begin, end] = team.share(arrays.front()->info().steps() - fresh);
+    stream(arrays, fresh + begin, fresh + end,
+           [&](std::size_t array, std::size_t step, const LayerView& layer) {
+               const auto [reading, colors] = of[array];
+               if (colors)
+                   reading->pass().colors->take(layer, parts);
+               else
+                   reading->take(step, layer, parts);
+           });
+    for (Reading& reading : readings)
+        reading.take_states(fresh + begin, fresh + end);
+}
+
+} // namespace
+
+std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std::size_t fresh,
+                                         const PassTarget& target, Team& team,
+                                         const Progress& progress) {
+    std::optional<PartWriter> parts;
+    std::deque<Reading> readings; // which cannot move
+    team.together([&] {
+        parts.emplace(target.file, target.end, target.beside, team);
+        for (const ArrayPass& array : arrays)
+            readings.emplace_back(array);
+        read_share(readings, fresh, target, *parts, team, progress);
+    });
+    const PartWriter::Placed placed = parts->place(team);
+    std::vector<VolumeFindings> found;
+    for (Reading& reading : readings)
+        found.push_back(reading.agreed(target.end + placed.start, team));
+    target.end += placed.bytes;
+    return found;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,66 @@
+// The pass of a build over its arrays: reads every step once, analyzes and packs it.
+#pragma once
+
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/value_counts.h"
+#include "index/indexing/color_pass.h"
+#include "index/indexing/step_writer.h"
+#include "index/progress.h"
+#include "index/system/byte_sink.h"
+#include "index/system/team.h"
+#include "index/volume/level_map.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+
+/// Where a pass writes.
+struct PassTarget {
+    ByteSink& file;
+    std::uint64_t& end;           ///< of the file so far; moves to the end of what was written
+    std::filesystem::path beside; ///< for temporary files without a name: see ScratchFile
+    unsigned threads = 1;
+};
+
+/// Keeps the values from which cells or the tree are built.
+struct KeptValues {
+    ByteSink* file = nullptr; ///< null: nothing is kept
+    /// Keep values even if levels turn out not to be lossless.
+    bool always = true;
+};
+
+/// What a pass does with one of the arrays that it reads.
+struct ArrayPass {
+    VolumeSeries& series;
+    std::size_t first; ///< the first step whose values are kept
+    KeptValues kept;
+    ChunkContents contents;
+    WriterMeans means;
+    ColorPass* colors; ///< gets each new step right after this array; null if there is none
+};
+
+/// The results of the pass for an array, the same for every member of the team.
+struct VolumeFindings {
+    ValueCounts counts;
+    std::vector<std::uint64_t> checksums; ///< of every step
+    std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
+    LevelMap levels;
+    std::vector<StepEntry> steps; ///< level after level
+    std::optional<ColorFindings> colors;
+};
+
+/// Reads each member's share of the steps, a layer of chunks ahead of the work: of every step from
+/// `fresh` on all arrays, one right after the other, so that a file with several arrays is read
+/// from disk once. Their parts lie in the index in the same order. Keeps the values of steps from
+/// an array's first on, step after step, each padded to `step_stride`; analyzes and packs only
+/// those from `fresh` on.
+std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std::size_t fresh,
+                                         const PassTarget& target, Team& team,
+                                         const Progress& progress);
+
+} // namespace isochron::index

@@ -1,0 +1,116 @@
+// Copies parts of chunks to their places in a cube.
+#include "index/search/chunk_cube.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::uint32_t kBelow = 1, kAbove = 2;
+constexpr std::size_t kMostVertices = kBelow + kChunkEdge + kAbove;
+/// Bytes behind the cube, so that its last rows can be read as whole vectors.
+constexpr std::size_t kPadding = 512;
+
+struct Rows {
+    const std::byte* from;
+    std::byte* to;
+    std::size_t from_row, from_plane, to_row, to_plane; ///< [bytes]
+    std::uint32_t rows, planes;
+};
+
+template <class Width>
+void copy_rows_with(const Rows& rows, Width width) {
+    const std::byte* from = rows.from;
+    std::byte* to = rows.to;
+    for (std::uint32_t z = 0; z < rows.planes; ++z, from += rows.from_plane, to += rows.to_plane)
+        for (std::uint32_t y = 0; y < rows.rows; ++y)
+            std::memcpy(to + y * rows.to_row, from + y * rows.from_row, width);
+}
+
+/// Copies rows of so many bytes; the usual widths are compile-time constants.
+void copy_rows_of_width(const Rows& rows, std::size_t width) {
+    const auto with =
+        [&]<std::size_t kWidth>(std::integral_constant<std::size_t, kWidth> constant) {
+            copy_rows_with(rows, constant);
+        };
+    switch (width) {
+    case 1: return with(std::integral_constant<std::size_t, 1>());
+    case 2: return with(std::integral_constant<std::size_t, 2>());
+    case 4: return with(std::integral_constant<std::size_t, 4>());
+    case 8: return with(std::integral_constant<std::size_t, 8>());
+    case 16: return with(std::integral_constant<std::size_t, 16>());
+    case 32: return with(std::integral_constant<std::size_t, 32>());
+    case 64: return with(std::integral_constant<std::size_t, 64>());
+    case 128: return with(std::integral_constant<std::size_t, 128>());
+    default: return copy_rows_with(rows, width);
+    }
+}
+
+} // namespace
+
+ChunkCube::ChunkCube(const SeriesInfo& info)
+    : grid_(info.grid),
+      memory_((kMostVertices * kMostVertices * kMostVertices * size_of(info.type) + kPadding) /
+              sizeof(std::uint64_t)) {
+    values_ = {.grid = info.grid,
+               .type = info.type,
+               .scaling = info.scaling,
+               .steps = info.steps(),
+               .first = reinterpret_cast<const std::byte*>(memory_.data()),
+               .stride = memory_.size() * sizeof(std::uint64_t)};
+}
+
+void ChunkCube::begin(std::uint32_t step, const std::array<std::uint32_t, 3>& at) {
+    values_.first_step = step;
+    std::array<std::uint32_t, 3> begin{}, end{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t first = at[axis] * kChunkEdge, all = grid_.vertices[axis];
+        first_[axis] = first > 0 ? kBelow : 0;
+        begin[axis] = first - first_[axis];
+        end[axis] = std::min(first + kChunkEdge + kAbove, all);
+        cells_[axis] = std::min(kChunkEdge, all - 1 - first);
+        values_.grid.vertices[axis] = end[axis] - begin[axis];
+    }
+    if (grid_.rectilinear()) // else nothing but the numbers of vertices differs
+        values_.grid = grid_.part(begin, end);
+}
+
+void ChunkCube::copy(unsigned bit, const Chunk& chunk) {
+    const std::array<unsigned, 3> offset{bit % 3, bit / 3 % 3, bit / 9}; // plus 1
+    std::array<std::uint32_t, 3> from{}, to{}, size{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t own = first_[axis], all = values_.grid.vertices[axis];
+        switch (offset[axis]) {
+        case 0:
+            from[axis] = kChunkEdge - own;
+            size[axis] = own;
+            break;
+        case 1:
+            to[axis] = own;
+            size[axis] = std::min(kChunkEdge, all - own);
+            break;
+        default:
+            to[axis] = std::min(own + kChunkEdge, all);
+            size[axis] = all - to[axis];
+            break;
+        }
+    }
+    const std::size_t word = size_of(values_.type);
+    const std::size_t from_row = chunk.size[0] * word, from_plane = chunk.size[1] * from_row;
+    const std::size_t to_row = values_.grid.vertices[0] * word;
+    const std::size_t to_plane = values_.grid.vertices[1] * to_row;
+    auto* const out = reinterpret_cast<std::byte*>(memory_.data());
+    copy_rows_of_width(
+        {.from = chunk.values.data() + from[2] * from_plane + from[1] * from_row + from[0] * word,
+         .to = out + to[2] * to_plane + to[1] * to_row + to[0] * word,
+         .from_row = from_row,
+         .from_plane = from_plane,
+         .to_row = to_row,
+         .to_plane = to_plane,
+         .rows = size[1],
+         .planes = size[2]},
+        size[0] * word);
+}
+
+} // namespace isochron::index

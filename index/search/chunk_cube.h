@@ -1,0 +1,42 @@
+// The vertices of one chunk and the nearest ones around it, side by side in the nearest cache.
+#pragma once
+
+#include "index/file/chunks/chunk_store.h"
+#include "index/search/chunk_reach.h"
+#include "index/volume/step_values.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isochron::index {
+
+/// A chunk with the vertex below and the two above it along each axis, as far as the grid goes:
+/// what its cells and their normals need. Keeps its memory.
+class ChunkCube {
+  public:
+    explicit ChunkCube(const SeriesInfo& info);
+
+    /// Moves to a chunk. What is copied of the earlier one is gone.
+    /// @param at coordinates of the chunk
+    void begin(std::uint32_t step, const std::array<std::uint32_t, 3>& at);
+    /// Copies what the cube holds of the chunk at an offset (bit of ChunksAround).
+    void copy(unsigned bit, const Chunk& chunk);
+
+    /// All of it, as a grid of its own whose borders are those of the whole grid where it reaches
+    /// them. What was not copied has no meaning.
+    const StepValues& values() const { return values_; }
+    /// The place in it of the chunk's first vertex.
+    const std::array<std::uint32_t, 3>& first() const { return first_; }
+    /// The chunk's cells, at most kChunkEdge along each axis.
+    const std::array<std::uint32_t, 3>& cells() const { return cells_; }
+
+  private:
+    const Grid grid_; ///< the whole one
+    std::vector<std::uint64_t> memory_;
+    StepValues values_;
+    std::array<std::uint32_t, 3> first_{}, cells_{};
+};
+
+} // namespace isochron::index

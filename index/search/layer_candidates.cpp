@@ -1,0 +1,130 @@
+// Reads the candidates of a layer, and finds what lies around their bricks.
+#include "index/search/layer_candidates.h"
+
+#include <algorithm>
+
+namespace isochron::index {
+namespace {
+
+using ChunksOfBricks = std::array<ChunksAround, kBricksOfChunk>;
+
+/// By brick of a chunk: the chunks that hold vertices of its cells, and, for normals, the neighbors
+/// of these along each axis.
+constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
+    ChunksOfBricks around{};
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
+        const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
+                                              i / kChunkBricks[0] % kChunkBricks[1],
+                                              i / kChunkBricks[0] / kChunkBricks[1]};
+        for (int bit = 0; bit < int{kChunksAround}; ++bit) {
+            const std::array<int, 3> d{bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
+            int below = 0; // axes along which only a neighbor's normal needs it
+            bool reached = true;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                below += d[axis] < 0 ? 1 : 0;
+                reached = reached && (d[axis] == 0 || (d[axis] < 0 && at[axis] == 0) ||
+                                      (d[axis] > 0 && at[axis] + 1 == kChunkBricks[axis]));
+            }
+            if (reached && below <= (normals ? 1 : 0))
+                around[i] |= 1u << bit;
+        }
+    }
+    return around;
+}
+constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
+                         kWithNormals = chunks_of_bricks(true);
+
+} // namespace
+
+LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
+                                 const LevelMap::Cut& cut, bool normals,
+                                 const std::stop_token& stop, const ChunkFilter& only)
+    : layer_(layer), places_(places_of(*store.layer(step, layer), cut, layer, only)), cut_(cut) {
+    if (places_.empty())
+        return;
+    const auto started = std::chrono::steady_clock::now();
+    const ChunkGrid& grid = store.grid();
+    for (std::uint32_t i = 0; i < tables_.size(); ++i)
+        if (layer + i > 0 && layer + i - 1 < grid.layers())
+            tables_[i] = store.layer(step, layer + i - 1);
+    chunks_ = store.chunks(step, layer, places_, stop);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
+        const auto [x, y] = grid.at(places_[i]);
+        const ChunksAround around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick);
+        for_each_around(around & ~(1u << kOwnChunk), {x, y, layer}, grid,
+                        [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t) {
+                            around_[bit / 9].push_back(grid.place(cx, cy));
+                        });
+    }
+    for (std::uint32_t i = 0; i < around_.size(); ++i) {
+        std::vector<std::uint32_t>& places = around_[i];
+        std::ranges::sort(places);
+        const auto repeated = std::ranges::unique(places);
+        places.erase(repeated.begin(), repeated.end());
+        std::erase_if(places, [&](std::uint32_t place) { // candidates have been announced
+            return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut);
+        });
+        if (tables_[i] && !store.fetches_all(count_of(*tables_[i], cut, layer + i - 1, only)))
+            store.expect(step, layer + i - 1, places);
+    }
+    time_ = std::chrono::steady_clock::now() - started;
+}
+
+BricksOfChunk LayerCandidates::bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
+    BricksOfChunk bits = 0;
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
+    return bits;
+}
+
+std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,
+                                                      const LevelMap::Cut& cut, std::uint32_t layer,
+                                                      const ChunkFilter& only) {
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t place = 0; place < table.low.size(); ++place)
+        if (may_hold(table.low[place], table.high[place], cut) && (!only || only(layer, place)))
+            places.push_back(place);
+    return places;
+}
+
+std::size_t LayerCandidates::count_of(const ChunkLayer& table, const LevelMap::Cut& cut,
+                                      std::uint32_t layer, const ChunkFilter& only) {
+    if (only)
+        return places_of(table, cut, layer, only).size();
+    std::size_t count = 0; // of a plain loop, which the compiler makes one of vectors
+    for (std::size_t place = 0; place < table.low.size(); ++place)
+        count += may_hold(table.low[place], table.high[place], cut) ? 1 : 0;
+    return count;
+}
+
+ChunksAround LayerCandidates::reach(std::size_t i) const {
+    return joined(bricks_[i], kChunksOfBrick);
+}
+
+void LayerCandidates::keep_unannounced(std::uint32_t layer,
+                                       std::vector<std::uint32_t>& places) const {
+    const std::size_t i = layer + 1 - layer_;
+    if (!tables_[i])
+        return;
+    std::erase_if(places, [&](std::uint32_t place) {
+        return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut_) ||
+               std::ranges::binary_search(around_[i], place);
+    });
+}
+
+void PreparedCandidates::prepare(std::uint32_t layer) {
+    Layer& it = of_[layer];
+    const std::scoped_lock lock(it.mutex);
+    if (it.there)
+        return;
+    it.candidates = read_(layer);
+    it.there = true;
+}
+
+LayerCandidates PreparedCandidates::take(std::uint32_t layer) {
+    prepare(layer);
+    return std::exchange(of_[layer].candidates, {});
+}
+
+} // namespace isochron::index

@@ -1,0 +1,93 @@
+// A slab: one layer of chunks of a step and the planes around it, as dense arrays that are filled
+// only where they are needed.
+#pragma once
+
+#include "index/file/chunks/chunk_store.h"
+#include "index/search/layer_candidates.h"
+#include "index/system/huge_pages.h"
+#include "index/volume/level_map.h"
+#include "index/volume/step_values.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Holds the cells whose lowest vertex lies in one layer of chunks, and the vertices that they and
+/// their normals need. Values that were not filled have no meaning; filled ones stay until the next
+/// `begin`. Keeps its memory: one for each thread. Functions that fill throw as ChunkStore does.
+class StepSlab {
+  public:
+    /// @param store outlives this
+    explicit StepSlab(const ChunkStore& store);
+
+    /// Number of layers that hold cells.
+    static std::uint32_t layers(const Grid& grid) {
+        return (grid.cells()[2] + kChunkEdge - 1) / kChunkEdge;
+    }
+    /// Memory [bytes] of a slab of this grid.
+    static std::uint64_t bytes(const SeriesInfo& info);
+
+    /// Moves to a layer of a step. @param stop when it is set, functions that fill throw Stopped
+    void begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop = {});
+
+    /// Fills the vertices of cells, and, for normals, their neighbors along each axis.
+    /// @param cells of this layer, as ids of `around()`, ascending
+    void fill_around(std::span<const CellId> cells, bool normals);
+    void fill_all();
+
+    /// Moves to a layer of which all chunks will be `put`; nothing more is read.
+    void begin_whole(std::uint32_t step, std::uint32_t layer, std::stop_token stop);
+    /// Copies a chunk of this layer to its place. Several threads may do so at once.
+    /// @param candidates its bricks that may hold active cells
+    void put(const Chunk& chunk, std::uint32_t place, BricksOfChunk candidates);
+    /// The bricks of `cells()`, as from `build_bricks`; only the candidates that have been put are
+    /// set.
+    std::span<const std::uint8_t> bricks() const { return bricks_; }
+    /// Copies the planes that this slab needs of the layer next to it.
+    void fill_from(const StepSlab& next);
+
+    /// The layer's cells and their vertices; ids are counted from `first_cell()`.
+    StepValues cells() const;
+    CellId first_cell() const { return plane_cells_ * layer_ * kChunkEdge; }
+    /// The same with one more plane below and above, if the grid has them; ids are counted from
+    /// `first_around()`.
+    StepValues around() const;
+    CellId first_around() const { return plane_cells_ * first_plane_; }
+    std::uint32_t first_plane() const { return first_plane_; }
+
+  private:
+    StepValues planes(std::uint32_t first, std::uint32_t end) const;
+    enum State : std::uint8_t { vacant, needed, filled };
+
+    void need(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
+        std::uint8_t& state = state_[layer + 1 - layer_][chunks_.place(x, y)];
+        if (state == vacant)
+            state = needed;
+    }
+    void forget_bricks();
+    void set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y, BricksOfChunk candidates);
+    void fill();
+    void copy(std::uint32_t layer, std::span<const std::uint32_t> places,
+              std::span<const ChunkPtr> chunks);
+
+    const ChunkStore& store_;
+    const ChunkGrid& chunks_;
+    Grid grid_;
+    CellId plane_cells_;
+    std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
+    LargeMemory values_; ///< undefined until they are filled
+    std::vector<std::uint8_t> bricks_;
+    std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
+    std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie
+    std::vector<const Chunk*> by_column_;            ///< chunks to copy
+    bool whole_ = false;                             ///< all chunks are put, or will be
+    std::stop_token stop_;
+};
+
+} // namespace isochron::index

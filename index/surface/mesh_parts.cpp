@@ -1,0 +1,127 @@
+// Joins parts at the vertices that they share, and divides a mesh into parts.
+#include "index/surface/mesh_parts.h"
+
+#include "index/surface/edge_key.h"
+#include "index/system/parallel.h"
+
+#include <algorithm>
+
+namespace isochron::index {
+namespace {
+
+/// A vertex that the next part may also have.
+struct SharedVertex {
+    EdgeKey key;
+    std::uint32_t number;
+};
+
+class PartsJoiner {
+  public:
+    explicit PartsJoiner(const std::vector<MeshPart>& parts) {
+        std::size_t vertices = 0, triangles = 0, cells = 0;
+        for (const MeshPart& part : parts) {
+            vertices += part.vertices.size();
+            triangles += part.triangles.size();
+            cells += part.cases.size();
+        }
+        all_.vertices.reserve(vertices);
+        all_.triangles.reserve(triangles);
+        all_.cases.reserve(cells);
+    }
+
+    void add(const MeshPart& part) {
+        if (part.vertices.empty())
+            return;
+        find_known(part);
+        const auto first = static_cast<std::uint32_t>(numbers_.size());
+        const std::uint32_t offset = static_cast<std::uint32_t>(all_.vertices.size()) - first;
+        all_.vertices.insert(all_.vertices.end(), part.vertices.begin() + first,
+                             part.vertices.end());
+        const auto number = [&](std::uint32_t of_part) {
+            return of_part < first ? numbers_[of_part] : of_part + offset;
+        };
+        const std::size_t before = all_.triangles.size();
+        all_.triangles.resize(before + part.triangles.size());
+        std::ranges::transform(
+            part.triangles, all_.triangles.begin() + static_cast<std::ptrdiff_t>(before), number);
+        all_.cases.insert(all_.cases.end(), part.cases.begin(), part.cases.end());
+        share_top(part, number);
+    }
+    CellMesh take() { return std::move(all_); }
+
+  private:
+    /// Finds the vertices that the part before also has: only vertices of the part's first plane of
+    /// cells can be shared, and these come first.
+    void find_known(const MeshPart& part) {
+        const std::uint32_t end = part.vertices.front().z + 1u;
+        numbers_.clear();
+        for (const MeshVertex& vertex : part.vertices) {
+            if (vertex.z > end)
+                return;
+            const EdgeKey key = key_of(vertex);
+            const auto found = std::ranges::lower_bound(shared_, key, {}, &SharedVertex::key);
+            if (found != shared_.end() && found->key == key) {
+                numbers_.push_back(found->number);
+            } else {
+                numbers_.push_back(static_cast<std::uint32_t>(all_.vertices.size()));
+                all_.vertices.push_back(vertex);
+            }
+        }
+    }
+
+    template <class Number>
+    void share_top(const MeshPart& part, const Number& number) {
+        const std::uint32_t top = std::ranges::max_element(part.vertices, {}, &MeshVertex::z)->z;
+        shared_.clear();
+        for (std::uint32_t i = 0; i < part.vertices.size(); ++i)
+            if (part.vertices[i].z == top)
+                shared_.push_back({key_of(part.vertices[i]), number(i)});
+        std::ranges::sort(shared_, {}, &SharedVertex::key);
+    }
+
+    CellMesh all_;
+    std::vector<SharedVertex> shared_;   ///< in the last plane of the part before
+    std::vector<std::uint32_t> numbers_; ///< of the part's first vertices, in the whole mesh
+};
+
+/// The index in `ids` of the first cell of a plane at about `i` of `n` equal parts.
+std::size_t cut_at(const Grid& grid, std::span<const CellId> ids, std::size_t i, std::size_t n) {
+    if (i == n)
+        return ids.size();
+    const auto [width, height, depth] = grid.cells();
+    const CellId plane = width * height;
+    const CellId first = ids[ids.size() * i / n] / plane * plane;
+    return static_cast<std::size_t>(std::ranges::lower_bound(ids, first) - ids.begin());
+}
+
+} // namespace
+
+CellMesh join_parts(std::vector<MeshPart> parts) {
+    if (parts.size() == 1)
+        return std::move(parts.front());
+    PartsJoiner joiner(parts);
+    for (const MeshPart& part : parts)
+        joiner.add(part);
+    return joiner.take();
+}
+
+bool make_mesh(std::span<MeshMaker> makers, const StepValues& values, const Query& query,
+               std::span<const CellId> ids, CellMesh& mesh, const std::stop_token& stop) {
+    constexpr std::size_t kCellsPerPart = 1 << 13; ///< fewer cells are one part
+    const std::size_t count = std::clamp<std::size_t>(ids.size() / kCellsPerPart, 1, makers.size());
+    std::vector<MeshPart> parts(count);
+    parallel_for(
+        count, static_cast<unsigned>(count),
+        [&](std::size_t i, unsigned worker) {
+            const std::size_t first = ids.empty() ? 0 : cut_at(values.grid, ids, i, count);
+            const std::size_t end = ids.empty() ? 0 : cut_at(values.grid, ids, i + 1, count);
+            makers[worker].make(values, query, ids.subspan(first, end - first), parts[i], 0, stop);
+        },
+        {});
+    if (stop.stop_requested())
+        return false;
+    mesh = join_parts(std::move(parts));
+    return true;
+}
+
+} // namespace isochron::index

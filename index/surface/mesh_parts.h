@@ -1,0 +1,21 @@
+// Joins parts of a mesh that were made in parallel.
+#pragma once
+
+#include "index/surface/mesh_maker.h"
+
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Joins the parts of consecutive planes, which together are all planes of a step. Vertices on the
+/// border between two parts are shared.
+CellMesh join_parts(std::vector<MeshPart> parts);
+
+/// The mesh of a step's active cells, with as many threads as there are makers.
+/// @return false when it was stopped and the mesh is incomplete
+bool make_mesh(std::span<MeshMaker> makers, const StepValues& values, const Query& query,
+               std::span<const CellId> ids, CellMesh& mesh, const std::stop_token& stop = {});
+
+} // namespace isochron::index

@@ -1,0 +1,342 @@
+// Turns device states into commands.
+#include "interaction/controls/controls.h"
+
+#include "interaction/controls/room_panel.h"
+#include "interaction/input/actions.h"
+#include "interaction/navigation/navigator.h"
+#include "interaction/playback.h"
+#include "interaction/tools/clip_tool.h"
+#include "interaction/tools/tool_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace isochron::interaction {
+namespace {
+
+constexpr double kLongestFrame = 0.1;    ///< [s] for rates: a stall must not become a leap
+constexpr double kLongestPlayback = 1.0; ///< [s] that time may play on in one slow frame
+constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full deflection
+constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
+constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
+constexpr float kEyeStep = 0.001f;       ///< [m]
+constexpr Seconds kRepeatDelay{0.4};     ///< a held key repeats after this
+constexpr Seconds kRepeatInterval{0.05}; ///< and then this often
+
+} // namespace
+
+/// Presses of one button, counted from its level and the clock.
+struct KeyRepeat {
+    bool was_down = false;
+    Seconds next{0};
+
+    int presses(bool down, Seconds now) {
+        int count = 0;
+        if (down && !was_down) {
+            count = 1;
+            next = now + kRepeatDelay;
+        }
+        for (; down && now >= next && count < 4; next += kRepeatInterval)
+            ++count;
+        next = std::max(next, now);
+        was_down = down;
+        return count;
+    }
+};
+
+bool has_colors(const ControlContext& context) {
+    return context.color_arrays && !context.color_arrays->empty();
+}
+
+/// Colors by an array: at first by the one that was chosen before, then by the one after it.
+Coloring by_next_array(const ControlContext& context) {
+    const std::vector<std::string>& names = *context.color_arrays;
+    const bool goes_on = context.coloring.by == ColorBy::value;
+    Coloring changed = context.coloring;
+    changed.by = ColorBy::value;
+    changed.array = names[(context.color_array + (goes_on ? 1 : 0)) % names.size()];
+    changed.range.reset();
+    return changed;
+}
+
+/// The next quantity to color by. The range belonged to the previous one, so it is dropped.
+Coloring after(const Coloring& coloring, bool has_second_array) {
+    const auto next =
+        static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kNames<ColorBy>.size());
+    const bool skipped = next == ColorBy::value && !has_second_array;
+    Coloring changed = coloring;
+    changed.by = skipped ? ColorBy::first_crossing : next;
+    changed.range.reset();
+    return changed;
+}
+
+struct Controls::State {
+    ButtonLevels before;
+    std::optional<Seconds> last_time;
+    KeyRepeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
+    Navigator navigator;
+    Playback playback;
+    ToolBox tools;
+    ToolBox::Outcome made; ///< by tools in the last frame
+    int stamps = 0;
+
+    double isovalue(const Reading& now, const ControlContext& context, Seconds time,
+                    double seconds) {
+        const bool shift = now.key(Action::shift);
+        const double range = context.high - context.low;
+        // In recordings of older versions the same keys also move the wand's valuator.
+        const bool moved = now.wand_rate(WandValuator::isovalue) != 0;
+        const auto down = [&](Action key, Action page) {
+            return now.key(key) || (now.key(page) && !moved);
+        };
+        const int keys =
+            isovalue_up.presses(down(Action::isovalue_up, Action::isovalue_rise), time) -
+            isovalue_down.presses(down(Action::isovalue_down, Action::isovalue_fall), time);
+        const double wheel =
+            now.key(Action::control) ? Reading::valuator(now.mouse, kMouseWheel) : 0.0;
+        const double rate = now.wand_rate(WandValuator::isovalue) +
+                            now.axis(GamepadAxis::right_trigger) -
+                            now.axis(GamepadAxis::left_trigger);
+        const double change =
+            keys * (shift ? kFine : kCoarse) + wheel * kFine + rate * seconds / kRangeSeconds;
+        if (change == 0 || !(range > 0) || !std::isfinite(range))
+            return context.isovalue;
+        const double from =
+            std::isfinite(context.isovalue) ? context.isovalue : context.low + range / 2;
+        return std::clamp(from + change * range, context.low, context.high);
+    }
+
+    /// Sets `step`, `playback` and `follow` if they change.
+    void play(const Reading& now, const ControlContext& context, Seconds time, Seconds elapsed,
+              Commands& commands) {
+        static const std::vector<double> kNone;
+        const std::vector<double>& times = context.times ? *context.times : kNone;
+        const auto steps = static_cast<std::int64_t>(times.size());
+        PlaybackState state = context.playback;
+        const bool toggle = now.pressed(Action::play) || now.pressed(GamepadButton::a);
+        if (toggle)
+            state.playing = !state.playing;
+        if (now.pressed(Action::reverse) || now.pressed(GamepadButton::b))
+            state.reverse = !state.reverse;
+        if (now.pressed(Action::loop))
+            state.loop = !state.loop;
+        if (now.pressed(Action::faster))
+            state.speed = std::min(state.speed * 2, kFastest);
+        if (now.pressed(Action::slower))
+            state.speed = std::max(state.speed / 2, kSlowest);
+
+        std::int64_t step = context.step;
+        const int forward = step_forward.presses(
+            now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper), time);
+        const int back = step_back.presses(
+            now.key(Action::step_back) || now.pad(GamepadButton::left_bumper), time);
+        if (forward != back && steps > 0) {
+            step += forward - back;
+            step = state.loop ? (step % steps + steps) % steps
+                              : std::clamp<std::int64_t>(step, 0, steps - 1);
+            state.playing = false;
+        }
+        const Playback::Result reached =
+            playback.advance(times, static_cast<std::uint32_t>(step), state, elapsed);
+        state.playing = reached.playing;
+        if (reached.step != context.step)
+            commands.step = reached.step;
+        if (now.pressed(Action::follow)) {
+            commands.follow = !context.follow;
+            if (*commands.follow && steps > 0)
+                commands.step = static_cast<std::uint32_t>(steps - 1);
+        }
+        if (state != context.playback)
+            commands.playback = state;
+    }
+
+    /// Saves the volume's place in this frame under the next free name; drops the oldest view if
+    /// there are `kMostViews`.
+    static void save_view(const ControlContext& context, Commands& commands) {
+        std::vector<Viewpoint> views = context.views ? *context.views : std::vector<Viewpoint>{};
+        std::size_t number = 1;
+        const auto name = [&] { return fmt::format("view-{}", number); };
+        while (std::ranges::find(views, name(), &Viewpoint::name) != views.end())
+            ++number;
+        if (views.size() == kMostViews)
+            views.erase(views.begin());
+        views.push_back({name(), commands.room_from_physical.value_or(context.room_from_physical)});
+        commands.views = std::move(views);
+    }
+
+    void switches(const Reading& now, const ControlContext& context, Seconds time,
+                  Commands& commands) {
+        const auto choose = [&](Action action, QualityMode mode) {
+            if (now.pressed(action) && context.quality != mode)
+                commands.quality = mode;
+        };
+        choose(Action::quality_auto, QualityMode::automatic);
+        choose(Action::quality_fast, QualityMode::fast);
+        choose(Action::quality_best, QualityMode::quality);
+        choose(Action::quality_paper, QualityMode::paper);
+
+        const int eyes = eyes_apart.presses(now.key(Action::eyes_apart), time) -
+                         eyes_together.presses(now.key(Action::eyes_together), time);
+        const float separation = std::clamp(
+            context.eye_separation + static_cast<float>(eyes) * kEyeStep, 0.0f, kWidestEyes);
+        if (eyes != 0 && separation != context.eye_separation)
+            commands.eye_separation = separation;
+
+        if (now.pressed(Action::next_stereo) && context.stereo_modes &&
+            !context.stereo_modes->empty()) {
+            const std::vector<std::string>& modes = *context.stereo_modes;
+            const auto found = std::ranges::find(modes, context.stereo);
+            const bool wraps = found == modes.end() || found + 1 == modes.end();
+            commands.stereo = wraps ? modes.front() : *(found + 1);
+        }
+        if (now.pressed(Action::orthographic))
+            commands.orthographic = !context.orthographic;
+        if (now.pressed(Action::bounding_box))
+            commands.bounding_box = !context.bounding_box;
+        if (now.pressed(Action::next_surface) && context.isosurfaces > 1)
+            commands.picked = (context.picked + 1) % context.isosurfaces;
+        if (now.pressed(Action::next_coloring))
+            commands.coloring = after(context.coloring, has_colors(context));
+        if (now.pressed(Action::next_color_array) && has_colors(context))
+            commands.coloring = by_next_array(context);
+        if (now.pressed(Action::next_array) && context.next_array) {
+            commands.isovalue.reset(); // it was of the array before
+            merge(commands, *context.next_array);
+        }
+        if (now.pressed(Action::panel))
+            commands.panel = !context.panel;
+        if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||
+            now.pressed(GamepadButton::back))
+            commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance,
+                                         context.panel_place);
+        // The panel at arm's length can only be read in perspective projection.
+        if (commands.room_panel && commands.room_panel->shown && context.orthographic)
+            commands.orthographic = false;
+        if (now.pressed(Action::grid))
+            commands.grid = !context.grid;
+        if (now.pressed(Action::save_view))
+            save_view(context, commands);
+        if (now.pressed(Action::stamp))
+            commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
+        commands.screenshot = now.pressed(Action::screenshot);
+    }
+
+    /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
+    /// answer in the same frame as the question counts.
+    static void leave(const Reading& now, const ControlContext& context, Commands& commands) {
+        const bool asks = now.pressed(Action::quit) && context.tools == Tools{};
+        if (now.pressed(Action::pick) && context.leaving != asks)
+            commands.quit = true;
+        if (!now.pressed(Action::quit))
+            return;
+        if (context.leaving || asks)
+            commands.leaving = !context.leaving;
+        else
+            commands.tools = Tools{};
+    }
+
+    /// Keys choose the tool of mouse and wand; the wand's button chooses for the wand alone.
+    static void choose_tools(const Reading& now, const ControlContext& context,
+                             Commands& commands) {
+        Tools tools = context.tools;
+        if (now.pressed(Action::first_tools))
+            tools = {};
+        for (const auto& [action, kind] : {std::pair(Action::clip_tool, ToolKind::clip),
+                                           std::pair(Action::ruler_tool, ToolKind::ruler)})
+            if (now.pressed(action))
+                tools.mouse = tools.wand = kind;
+        if (now.pressed(WandButton::next_tool))
+            tools.wand = static_cast<ToolKind>((static_cast<std::size_t>(tools.wand) + 1) %
+                                               kNames<ToolKind>.size());
+        if (tools != context.tools)
+            commands.tools = tools;
+        if (now.pressed(Action::snap_clip))
+            commands.clip = snapped_next(context.state.clip, context.data);
+        if (now.pressed(Action::remove_made))
+            remove_made(context, commands);
+    }
+
+    static void remove_made(const ControlContext& context, Commands& commands) {
+        switch (context.tools.mouse) {
+        case ToolKind::clip: commands.clip = ClipPlane{}; break;
+        case ToolKind::ruler: commands.ruler = Ruler{}; break;
+        default: commands.mark = Mark{};
+        }
+    }
+
+    /// Undo and redo override all other commands of the frame.
+    static void take_back(const Reading& now, const ControlContext& context, Commands& commands) {
+        const auto obey = [&](Action action, WandButton button, const Commands* change) {
+            if (change && (now.pressed(action) || now.pressed(button)))
+                merge(commands, *change);
+        };
+        obey(Action::undo, WandButton::undo, context.undo);
+        obey(Action::redo, WandButton::redo, context.redo);
+    }
+
+    ToolBox::Outcome with_tools(const Reading& now, const ControlContext& context,
+                                const Similarity& volume) {
+        return context.leaving ? ToolBox::Outcome() : tools.update(now, {context, volume});
+    }
+};
+
+Controls::Controls() : state_(std::make_unique<State>()) {}
+Controls::~Controls() = default;
+
+Commands Controls::update(const InputState& input, const ControlContext& context) {
+    State& s = *state_;
+    const Reading now(input, s.before);
+    s.before = now.levels();
+    const double elapsed = s.last_time ? std::max((input.time - *s.last_time).count(), 0.0) : 0.0;
+    const double seconds = std::min(elapsed, kLongestFrame);
+    s.last_time = input.time;
+
+    Commands commands;
+    const Similarity volume =
+        s.navigator.update(now, context, seconds, s.tools.takes_drag(now, context));
+    if (volume != context.room_from_physical)
+        commands.room_from_physical = volume;
+    const double isovalue = s.isovalue(now, context, input.time, seconds);
+    if (isovalue != context.isovalue && std::isfinite(isovalue))
+        commands.isovalue = isovalue;
+    s.play(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)), commands);
+    s.switches(now, context, input.time, commands);
+    s.leave(now, context, commands);
+    s.choose_tools(now, context, commands);
+    s.made = s.with_tools(now, context, volume);
+    merge(commands, s.made.commands);
+    if (now.pressed(Action::reset) && context.start)
+        merge(commands, *context.start);
+    s.take_back(now, context, commands);
+    return commands;
+}
+
+const Commands& Controls::found() const {
+    return state_->made.found;
+}
+
+const std::vector<std::string>& Controls::notes() const {
+    return state_->made.notes;
+}
+
+std::vector<ControlGroup> Controls::documentation() {
+    const auto line_of = [](std::string_view control, std::string_view effect) {
+        return fmt::format("{:<30}{}", control, effect);
+    };
+    std::vector<ControlGroup> groups;
+    for (const DeviceKind kind :
+         {DeviceKind::mouse, DeviceKind::keyboard, DeviceKind::hands, DeviceKind::gamepad}) {
+        ControlGroup& group = groups.emplace_back(kind, std::vector<std::string>());
+        for (const ControlLine& line : control_lines())
+            if (line.device == kind)
+                group.lines.push_back(line_of(line.control, line.effect));
+        if (kind == DeviceKind::keyboard)
+            for (const KeyLine& line : key_lines())
+                group.lines.push_back(line_of(line.keys, line.effect));
+    }
+    return groups;
+}
+
+} // namespace isochron::interaction

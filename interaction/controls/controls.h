@@ -1,0 +1,38 @@
+// Turns device states into commands: navigation, isovalue, time, and the program's switches.
+#pragma once
+
+#include "interaction/commands.h"
+#include "interaction/control_context.h"
+#include "interaction/input/actions.h"
+#include "interaction/input/tracked_input.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// Depends only on the device states and contexts that it was given: the same sequence gives the
+/// same commands.
+class Controls {
+  public:
+    Controls();
+    ~Controls();
+    /// Advances by one frame. The commands include the step that playback has reached.
+    Commands update(const InputState& input, const ControlContext& context);
+
+    /// The part of the last frame's commands that depends on the surfaces shown, not on devices
+    /// alone (places that tools found). `update` does not return it.
+    const Commands& found() const;
+    /// Messages of the tools in the last frame, for people.
+    const std::vector<std::string>& notes() const;
+
+    /// The controls of all devices, for `--help` and the panel.
+    static std::vector<ControlGroup> documentation();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace isochron::interaction

@@ -1,0 +1,28 @@
+// The pick tool: marks the place where a ray meets a surface.
+#include "interaction/tools/pick_tool.h"
+
+namespace isochron::interaction {
+namespace {
+
+const HapticPulse kFound{"wand", 0.04, 0.8f};
+
+} // namespace
+
+ToolOutcome PickTool::update(std::span<const ToolHand> hands, const ToolContext& now) {
+    ToolOutcome outcome;
+    for (const ToolHand& hand : hands) {
+        if (!hand.chosen || !hand.ray || !now.session.find_surface)
+            continue;
+        const auto found = now.session.find_surface(*hand.ray);
+        if (found)
+            outcome.commands.haptics.push_back(kFound);
+        else
+            outcome.note = "no surface there";
+        // A click beside the surfaces removes the mark; without a mark it gives no command.
+        if (found || now.session.state.mark.point)
+            outcome.commands.mark = found ? Mark{found->point} : Mark{};
+    }
+    return outcome;
+}
+
+} // namespace isochron::interaction

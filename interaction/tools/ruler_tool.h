@@ -1,0 +1,17 @@
+// The ruler tool: measures the distance between two places on surfaces.
+#pragma once
+
+#include "interaction/tools/tool.h"
+
+namespace isochron::interaction {
+
+/// The first place begins a measurement, the second one ends it, the next one begins another.
+class RulerTool final : public Tool {
+  public:
+    ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
+};
+
+/// A line between the two places and its length in the data's unit, with a cross at each place.
+ToolDrawing draw_ruler(const ToolState& state, const DataFrame& data);
+
+} // namespace isochron::interaction

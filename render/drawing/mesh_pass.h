@@ -1,0 +1,73 @@
+// Draws the meshes that come with a set of cells.
+#pragma once
+
+#include "render/cells/cell_buffers.h"
+#include "render/cells/draw_part.h"
+#include "render/drawing/mesh_order.h"
+#include "render/gl/buffer_texture.h"
+
+#include <glm/vec4.hpp>
+#include <string>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::render {
+
+class MeshPass {
+  public:
+    /// @param grid_prelude see CellPass
+    /// @throws Error when a shader does not compile
+    MeshPass(const Gl& gl, const std::string& grid_prelude);
+
+    /// How triangles are drawn, apart from their order.
+    struct Look {
+        std::int32_t surfaces = 0;         ///< one bit for each drawn surface
+        std::span<const glm::vec4> colors; ///< of each surface, linear light
+        bool colored = false;              ///< by the cells' coordinates
+        bool near = false;  ///< so near that some may be cut away or fade, or large in the view
+        bool small = false; ///< triangles are of few pixels: lit at their vertices
+    };
+
+    /// Draws one view with the frame and viewport that CellPass has bound, and its depth and blend
+    /// state. (Two in one pass take software GL a third longer.)
+    /// @param cells with a mesh, see `CellBuffers::has_mesh`
+    /// @param order in which most is hidden by what comes before; unless there are too many
+    /// @param part of the triangles of the surfaces that are drawn
+    void draw(const CellBuffers& cells, const Look& look, PlaneOrder order, DrawPart part);
+    /// Triangles of the surfaces that `draw` draws.
+    static std::size_t triangles(const CellBuffers& cells, std::int32_t surfaces);
+    /// Draws blended triangles, cell by cell in this order. @param back_to_front slots of the cells
+    void draw_blended(const CellBuffers& cells, const Look& look,
+                      std::span<const std::uint32_t> back_to_front);
+
+  private:
+    enum class Kind : std::uint8_t { plain, styled, blended };
+    enum class Way : std::uint8_t { plain, near, small }; ///< of Look
+    Program make_program(Kind kind, Way way, const std::string& grid_prelude) const;
+    GLuint program(Kind kind, const Look& look) const;
+    void put_near_first(const CellBuffers& cells, PlaneOrder order);
+    void send_styles(const CellBuffers& cells, bool sorted);
+    void find_styles(const CellBuffers& cells);
+    void tell_surfaces(GLuint program, const CellBuffers& cells) const;
+    void draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
+                        std::size_t count, std::size_t base) const;
+
+    const Gl* gl_;
+    std::array<std::array<std::optional<Program>, 3>, 3> programs_; ///< [kind][way]
+    VertexArray vertex_array_;
+    BufferTexture styles_;                         ///< by triangle
+    Buffer near_first_, order_;                    ///< vertex indices, also to be blended
+    std::vector<std::uint16_t> style_of_triangle_; ///< of the set with cells_version_
+    std::vector<std::uint32_t> first_of_cell_;     ///< first triangle of each cell, by slot
+    OrderedTriangles near_triangles_;              ///< in `near_first_`
+    PlaneOrder sorted_;                            ///< of `near_first_`
+    bool styles_sorted_ = false;                   ///< of `styles_`: as `near_first_`
+    std::uint64_t styles_version_ = 0, cells_version_ = 0, sorted_version_ = 0;
+};
+
+} // namespace isochron::render

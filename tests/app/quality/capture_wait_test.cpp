@@ -1,0 +1,92 @@
+// Captures wait for cells and quality, but not forever.
+#include "app/quality/capture_wait.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Seconds;
+
+const index::SurfacesQuery kBefore{0, {1.0}}, kAsked{0, {2.0}};
+
+CaptureView view(double time, const index::SurfacesQuery& asked,
+                 const std::optional<index::SurfacesQuery>& shown, bool final) {
+    return {.time = Seconds(time), .asked = asked, .shown = shown, .final = final};
+}
+
+TEST(CaptureWait, NothingIsTakenThatWasNotAskedFor) {
+    CaptureWait wait;
+    for (int frame = 0; frame < 100; ++frame)
+        EXPECT_FALSE(wait.take(view(frame, kAsked, kAsked, true)));
+}
+
+TEST(CaptureWait, TakesEachOnceWhenThePictureIsFinal) {
+    CaptureWait wait;
+    wait.ask();
+    wait.ask();
+    EXPECT_FALSE(wait.take(view(0, kAsked, std::nullopt, true)));
+    EXPECT_FALSE(wait.take(view(1, kAsked, kBefore, true)));
+    EXPECT_FALSE(wait.take(view(2, kAsked, kAsked, false)));
+    EXPECT_TRUE(wait.take(view(3, kAsked, kAsked, true)));
+    EXPECT_TRUE(wait.take(view(4, kAsked, kAsked, true)));
+    EXPECT_FALSE(wait.take(view(5, kAsked, kAsked, true)));
+}
+
+TEST(CaptureWait, OneQuerysCellsAreWaitedForAsLongAsTheyTake) {
+    CaptureWait wait;
+    wait.ask();
+    for (int frame = 0; frame < 10000; ++frame)
+        ASSERT_FALSE(wait.take(view(frame, kAsked, kBefore, frame % 2 == 0)));
+    EXPECT_FALSE(wait.take(view(10000, kAsked, kAsked, false)));
+    EXPECT_TRUE(wait.take(view(10001, kAsked, kAsked, true)));
+}
+
+TEST(CaptureWait, CellsThatWillNotComeAreNotWaitedFor) {
+    CaptureWait wait;
+    wait.ask();
+    CaptureView failed = view(0, kAsked, kBefore, true);
+    EXPECT_FALSE(wait.take(failed));
+    failed.failed = true;
+    EXPECT_TRUE(wait.take(failed));
+    wait.ask();
+    failed.shown.reset();
+    EXPECT_FALSE(wait.take(failed)) << "there is nothing to see";
+}
+
+/// Frames at 10 Hz until the capture is taken; the time of that, or 1000 seconds.
+double taken_at(CaptureWait& wait, const std::function<CaptureView(double)>& at) {
+    double time = 0;
+    for (int frame = 0; frame < 10000; ++frame, time += 0.1)
+        if (wait.take(at(time)))
+            break;
+    return time;
+}
+
+TEST(CaptureWait, MotionThatDoesNotEndIsWaitedForNoLongerThanThePatience) {
+    const auto restless = [](double time) { return view(time, kAsked, kAsked, false); };
+    const auto playing = [](double time) {
+        const auto step = static_cast<std::uint32_t>(time * 4);
+        return view(time, {step + 1, {1.0}}, index::SurfacesQuery{step, {1.0}}, false);
+    };
+    const auto playing_fast = [&](double time) {
+        CaptureView now = playing(time);
+        now.final = true;
+        return now;
+    };
+    for (const std::function<CaptureView(double)>& at :
+         {std::function<CaptureView(double)>(restless), std::function<CaptureView(double)>(playing),
+          std::function<CaptureView(double)>(playing_fast)}) {
+        CaptureWait wait;
+        for (int capture = 0; capture < 2; ++capture) {
+            wait.ask();
+            EXPECT_NEAR(taken_at(wait, at), CaptureWait::kPatience.count(), 0.25);
+            EXPECT_FALSE(wait.take(view(0, kAsked, kAsked, true)));
+        }
+    }
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,81 @@
+// Packed rows are unpacked to the same numbers, and other bytes are refused.
+#include "index/file/chunks/packed_rows.h"
+#include "tests/support/test_seed.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes rows_of(const Bytes& numbers) {
+    Bytes packed;
+    pack_rows(numbers, packed);
+    return packed;
+}
+
+/// What the header says, bit by bit.
+Bytes slow_rows_of(const Bytes& numbers) {
+    const std::size_t rows = (numbers.size() + 15) / 16;
+    Bytes packed((rows + 1) / 2, std::byte{0});
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::array<unsigned, 16> fold{};
+        unsigned bits = 0;
+        for (std::size_t i = 0; i < 16 && row * 16 + i < numbers.size(); ++i) {
+            const auto d = static_cast<std::int8_t>(numbers[row * 16 + i]);
+            fold[i] = static_cast<unsigned>(d < 0 ? -2 * d - 1 : 2 * d);
+            while (fold[i] >> bits)
+                ++bits;
+        }
+        packed[row / 2] |= static_cast<std::byte>(row % 2 ? bits << 4 : bits);
+        for (unsigned bit = 0; bit < bits; ++bit)
+            for (std::size_t half = 0; half < 2; ++half) {
+                unsigned byte = 0;
+                for (std::size_t i = 0; i < 8; ++i)
+                    byte |= (fold[half * 8 + i] >> bit & 1) << i;
+                packed.push_back(static_cast<std::byte>(byte));
+            }
+    }
+    return packed;
+}
+
+TEST(PackedRows, AreWhatTheirDescriptionSaysForEveryWidthAndLength) {
+    std::mt19937 random(test_seed());
+    for (int round = 0; round < 400; ++round) {
+        Bytes numbers(round < 40 ? round + 1 : 1 + random() % 4200);
+        const auto widest = static_cast<unsigned>(random() % 9);
+        for (std::byte& number : numbers)
+            number = static_cast<std::byte>(random() % (1u << random() % (widest + 1)) -
+                                            (random() % 2 ? 0 : (1u << widest) / 2));
+        const Bytes packed = rows_of(numbers);
+        ASSERT_EQ(packed, slow_rows_of(numbers)) << numbers.size();
+        Bytes again(numbers.size());
+        ASSERT_TRUE(unpack_rows(packed, again));
+        ASSERT_EQ(again, numbers);
+    }
+}
+
+TEST(PackedRows, OfAnotherLengthAreRefused) {
+    const Bytes numbers(33, std::byte{0x83});
+    Bytes packed = rows_of(numbers), out(33);
+    ASSERT_TRUE(unpack_rows(packed, out));
+    for (std::size_t size = 0; size < packed.size(); ++size)
+        EXPECT_FALSE(unpack_rows(std::span(packed).first(size), out)) << size;
+    packed.push_back(std::byte{0});
+    EXPECT_FALSE(unpack_rows(packed, out));
+    packed.pop_back();
+    packed[1] |= std::byte{0x10};
+    EXPECT_FALSE(unpack_rows(packed, out)) << "a width of no row";
+    packed[1] = std::byte{9};
+    EXPECT_FALSE(unpack_rows(packed, out)) << "nine bits of a byte";
+}
+
+} // namespace
+} // namespace isochron::index

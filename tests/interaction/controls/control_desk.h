@@ -1,0 +1,100 @@
+// Helpers to test controls: devices, a session's state, and frames of a fixed length.
+#pragma once
+
+#include "interaction/controls/controls.h"
+#include "interaction/navigation/navigation.h"
+#include "tests/interaction/input_builders.h"
+
+#include <gtest/gtest.h>
+
+namespace isochron::interaction {
+
+/// Controls with a session around them that obeys every command.
+class Desk {
+  public:
+    Desk(const Desk&) = delete; // the context points into it
+    Desk& operator=(const Desk&) = delete;
+    ControlContext context;
+    std::vector<double> times{0, 1, 2, 3, 4};
+    std::vector<Viewpoint> views;
+    std::vector<std::string> modes{"mono", "side_by_side", "top_bottom"};
+
+    Desk() {
+        context.times = &times;
+        context.isovalue = 50;
+        context.high = 100;
+        context.stereo = "mono";
+        context.stereo_modes = &modes;
+        context.views = &views;
+        context.home = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.01};
+        context.room_from_physical = context.home;
+        context.pivot = {30, 25, 30};
+        context.data = {glm::dmat4(60, 0, 0, 0, 0, 50, 0, 0, 0, 0, 60, 0, 0, 0, 0, 1), "mm"};
+    }
+    Commands frame(std::vector<DeviceState> devices, double elapsed = 1.0 / 60) {
+        now_ += elapsed;
+        Commands commands = controls_.update({Seconds(now_), std::move(devices)}, context);
+        if (commands.isovalue)
+            context.isovalue = *commands.isovalue;
+        if (commands.step)
+            context.step = *commands.step;
+        if (commands.playback)
+            context.playback = *commands.playback;
+        if (commands.room_from_physical)
+            context.room_from_physical = *commands.room_from_physical;
+        if (commands.quality)
+            context.quality = *commands.quality;
+        if (commands.eye_separation)
+            context.eye_separation = *commands.eye_separation;
+        if (commands.stereo)
+            context.stereo = *commands.stereo;
+        if (commands.panel)
+            context.panel = *commands.panel;
+        if (commands.grid)
+            context.grid = *commands.grid;
+        if (commands.views)
+            views = *commands.views;
+        if (commands.bounding_box)
+            context.bounding_box = *commands.bounding_box;
+        if (commands.picked)
+            context.picked = *commands.picked;
+        if (commands.coloring)
+            context.coloring = *commands.coloring;
+        if (commands.leaving)
+            context.leaving = *commands.leaving;
+        if (commands.tools)
+            context.tools = *commands.tools;
+        merge(commands, controls_.found());
+        if (commands.clip)
+            context.state.clip = *commands.clip;
+        if (commands.ruler)
+            context.state.ruler = *commands.ruler;
+        if (commands.mark)
+            context.state.mark = *commands.mark;
+        return commands;
+    }
+    /// Presses keys for one frame and lets go for another.
+    Commands tap(std::uint64_t actions) {
+        Commands commands = frame({head_at(kStanding), keys_down(actions)});
+        merge(commands, frame({head_at(kStanding), keys_down(0)}));
+        return commands;
+    }
+    const Similarity& volume() const { return context.room_from_physical; }
+    glm::dvec3 center() const { return transform(volume(), context.pivot); }
+
+  private:
+    Controls controls_;
+    double now_ = 0;
+};
+
+inline void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-9) {
+    EXPECT_LT(glm::length(a - b), tolerance)
+        << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+/// The physical point that lies at the room point `p`.
+inline glm::dvec3 physical(const Similarity& volume, const glm::dvec3& p) {
+    return glm::dvec3(glm::inverse(matrix(volume)) * glm::dvec4(p, 1));
+}
+
+} // namespace isochron::interaction

@@ -1,0 +1,215 @@
+// Devices change isovalue, time and switches; commands merge.
+#include "tests/interaction/controls/control_desk.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace isochron::interaction {
+namespace {
+
+TEST(Controls, KeysStepTheIsovalueByOnePercentOrAThousandth) {
+    Desk desk;
+    desk.tap(bit(Action::isovalue_up));
+    EXPECT_NEAR(desk.context.isovalue, 51, 1e-9);
+    desk.tap(bit(Action::isovalue_down) | bit(Action::shift));
+    EXPECT_NEAR(desk.context.isovalue, 50.9, 1e-9);
+    std::vector<float> wheel(kMouseValuators, 0.0f);
+    wheel[kMouseWheel] = 2;
+    desk.frame({keys_down(bit(Action::control)), mouse_dragged(wheel)});
+    EXPECT_NEAR(desk.context.isovalue, 51.1, 1e-9);
+    EXPECT_EQ(desk.volume(), desk.context.home);
+}
+
+TEST(Controls, AHeldKeyRepeatsAfterADelayAtAnyFrameRate) {
+    for (const int rate : {20, 60, 144}) {
+        Desk desk;
+        for (int frame = 0; frame < 2 * rate; ++frame)
+            desk.frame({keys_down(bit(Action::isovalue_up))}, 1.0 / rate);
+        EXPECT_NEAR(desk.context.isovalue, 50 + 1 + 1.6 / 0.05, 2) << rate;
+    }
+}
+
+TEST(Controls, TheWandValuatorRunsThroughTheRangeInFourSeconds) {
+    for (const int rate : {20, 60, 144}) {
+        Desk desk;
+        desk.context.isovalue = 0;
+        desk.frame({});
+        for (int frame = 0; frame < 2 * rate; ++frame)
+            desk.frame({wand_at(kStanding, 0, 1)}, 1.0 / rate);
+        EXPECT_NEAR(desk.context.isovalue, 50, 1e-6);
+        for (int frame = 0; frame < 3 * rate; ++frame)
+            desk.frame({wand_at(kStanding, 0, 1)}, 1.0 / rate);
+        EXPECT_EQ(desk.context.isovalue, 100);
+        EXPECT_TRUE(desk.frame({wand_at(kStanding, 0, 1)}).empty());
+    }
+}
+
+TEST(Controls, GamepadTriggersChangeTheIsovalueAndSticksFly) {
+    Desk desk;
+    desk.frame({});
+    desk.frame({{"gamepad", std::nullopt, true, 0, {0, 0, 0, 0, 0, 1}}}, 0.1);
+    EXPECT_NEAR(desk.context.isovalue, 52.5, 1e-9);
+    desk.frame({{"gamepad", std::nullopt, true, 0, {0, 0, 0, 0, 1, 0}}}, 0.1);
+    EXPECT_NEAR(desk.context.isovalue, 50, 1e-9);
+    const glm::dvec3 before = desk.center();
+    desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, -1, 0, 0, 0, 0}}}, 0.1);
+    expect_near(desk.center() - before, {0, 0, 0.1}, 1e-7); // ahead: it comes nearer
+    desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, 0, 1, 0, 0, 0}}}, 0.1);
+    EXPECT_LT(desk.center().x, before.x); // turning right: it swings to the left
+    desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::right_bumper), {}}});
+    EXPECT_EQ(desk.context.step, 1u);
+    desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::a), {}}});
+    EXPECT_TRUE(desk.context.playback.playing);
+}
+
+TEST(Controls, SteppingWrapsWithLoopStopsWithoutAndPauses) {
+    Desk desk;
+    desk.tap(bit(Action::step_back));
+    EXPECT_EQ(desk.context.step, 4u);
+    desk.tap(bit(Action::step_forward));
+    EXPECT_EQ(desk.context.step, 0u);
+    desk.tap(bit(Action::loop));
+    EXPECT_FALSE(desk.context.playback.loop);
+    desk.tap(bit(Action::step_back));
+    EXPECT_EQ(desk.context.step, 0u);
+    desk.tap(bit(Action::play));
+    EXPECT_TRUE(desk.context.playback.playing);
+    desk.tap(bit(Action::step_forward));
+    EXPECT_FALSE(desk.context.playback.playing);
+    EXPECT_EQ(desk.context.step, 1u);
+}
+
+TEST(Controls, PlayingRunsThroughTheSeriesInTenSeconds) {
+    Desk desk;
+    desk.tap(bit(Action::play));
+    std::vector<int> frames(5, 0);
+    for (int frame = 0; frame < 600; ++frame) {
+        desk.frame({head_at(kStanding)});
+        ++frames[desk.context.step];
+    }
+    for (const int count : frames)
+        EXPECT_NEAR(count, 120, 3);
+}
+
+TEST(Controls, PlaybackKeysReverseAndChangeSpeedWithinBounds) {
+    Desk desk;
+    desk.tap(bit(Action::reverse));
+    EXPECT_TRUE(desk.context.playback.reverse);
+    desk.tap(bit(Action::faster));
+    EXPECT_EQ(desk.context.playback.speed, 2.0);
+    for (int i = 0; i < 20; ++i)
+        desk.tap(bit(Action::faster));
+    EXPECT_EQ(desk.context.playback.speed, kFastest);
+    for (int i = 0; i < 20; ++i)
+        desk.tap(bit(Action::slower));
+    EXPECT_EQ(desk.context.playback.speed, kSlowest);
+}
+
+TEST(Controls, FollowingGoesToTheLastStep) {
+    Desk desk;
+    const Commands on = desk.tap(bit(Action::follow));
+    EXPECT_EQ(on.follow, true);
+    EXPECT_EQ(on.step, 4u);
+    desk.context.follow = true;
+    const Commands off = desk.tap(bit(Action::follow));
+    EXPECT_EQ(off.follow, false);
+    EXPECT_FALSE(off.step);
+}
+
+TEST(Controls, OneStepDoesNotPlay) {
+    Desk desk;
+    desk.times = {7};
+    EXPECT_TRUE(desk.tap(bit(Action::play)).empty());
+    EXPECT_TRUE(desk.tap(bit(Action::step_forward)).empty());
+    desk.context.playback.playing = true; // the panel's doing
+    desk.frame({});
+    EXPECT_FALSE(desk.context.playback.playing);
+}
+
+TEST(Controls, SwitchesReportOnlyChanges) {
+    Desk desk;
+    EXPECT_EQ(desk.tap(bit(Action::quality_best)).quality, QualityMode::quality);
+    EXPECT_TRUE(desk.tap(bit(Action::quality_best)).empty());
+    EXPECT_NEAR(*desk.tap(bit(Action::eyes_apart)).eye_separation, 0.064f, 1e-7f);
+    for (int i = 0; i < 100; ++i)
+        desk.tap(bit(Action::eyes_together));
+    EXPECT_EQ(desk.context.eye_separation, 0.0f);
+    EXPECT_TRUE(desk.tap(bit(Action::eyes_together)).empty());
+    EXPECT_EQ(desk.tap(bit(Action::next_stereo)).stereo, "side_by_side");
+    desk.tap(bit(Action::next_stereo));
+    EXPECT_EQ(desk.tap(bit(Action::next_stereo)).stereo, "mono");
+    EXPECT_EQ(desk.tap(bit(Action::panel)).panel, false);
+    EXPECT_TRUE(desk.tap(bit(Action::screenshot)).screenshot);
+    EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, true);
+    EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, false) << "stays";
+    EXPECT_FALSE(desk.tap(bit(Action::pick)).quit) << "nobody asks any more";
+    desk.tap(bit(Action::quit));
+    EXPECT_TRUE(desk.tap(bit(Action::pick)).quit);
+    EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-1"});
+    EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-2"});
+}
+
+TEST(Controls, LooksGoRoundByKeys) {
+    Desk desk;
+    EXPECT_EQ(desk.tap(bit(Action::bounding_box)).bounding_box, false);
+    EXPECT_EQ(desk.tap(bit(Action::bounding_box)).bounding_box, true);
+    EXPECT_TRUE(desk.tap(bit(Action::next_surface)).empty()); // there is but one
+    desk.context.isosurfaces = 3;
+    EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 1u);
+    EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 2u);
+    EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 0u);
+    desk.context.coloring = {ColorBy::surface, "dusk", std::array{1.0, 2.0}};
+    EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
+              (Coloring{ColorBy::first_crossing, "dusk", {}}));
+    desk.tap(bit(Action::next_coloring));
+    const std::vector<std::string> arrays{"u"};
+    desk.context.color_arrays = &arrays;
+    EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
+              (Coloring{ColorBy::value, "dusk", {}}));
+}
+
+TEST(Controls, EveryActionHasAKeyAndEveryKeyOneLineOfDocumentation) {
+    std::set<Action> actions;
+    std::set<std::pair<Key, Chord>> keys;
+    for (const KeyLine& line : key_lines())
+        for (const KeyBinding& binding : line.bindings) {
+            actions.insert(binding.action);
+            EXPECT_TRUE(keys.insert({binding.key, binding.chord}).second) << line.keys;
+        }
+    EXPECT_EQ(actions.size(), static_cast<std::size_t>(Action::count));
+    std::size_t lines = 0;
+    std::set<DeviceKind> devices;
+    for (const ControlGroup& group : Controls::documentation()) {
+        EXPECT_TRUE(devices.insert(group.device).second);
+        lines += group.lines.size();
+        for (const std::string& line : group.lines) {
+            EXPECT_LE(line.size(), 90u);
+            EXPECT_EQ(line.find('\n'), std::string::npos);
+        }
+    }
+    EXPECT_EQ(lines, key_lines().size() + control_lines().size());
+    EXPECT_EQ(devices.size(), 4u);
+}
+
+TEST(Commands, MergingKeepsTheLaterAndCollectsStamps) {
+    Commands a, b;
+    a.isovalue = 1;
+    a.step = 2;
+    a.stamps = {"one"};
+    a.screenshot = true;
+    b.isovalue = 3;
+    b.panel = false;
+    b.stamps = {"two"};
+    merge(a, b);
+    EXPECT_EQ(a.isovalue, 3);
+    EXPECT_EQ(a.step, 2u);
+    EXPECT_EQ(a.panel, false);
+    EXPECT_TRUE(a.screenshot);
+    EXPECT_EQ(a.stamps, (std::vector<std::string>{"one", "two"}));
+    EXPECT_FALSE(a.empty());
+    EXPECT_TRUE(Commands{}.empty());
+}
+
+} // namespace
+} // namespace isochron::interaction

@@ -1,0 +1,206 @@
+// Tools: what hands do with the tool that they hold.
+#include "interaction/tools/clip_tool.h"
+#include "interaction/tools/tool_table.h"
+
+#include "tests/interaction/controls/control_desk.h"
+#include "tests/support/test_seed.h"
+
+#include <glm/gtx/norm.hpp>
+
+#include <cmath>
+
+namespace isochron::interaction {
+namespace {
+
+constexpr std::uint64_t kHold = bit(WandButton::grab);
+
+/// A desk whose data have a surface: the plane z = 30 of their physical space.
+class ToolDesk : public Desk {
+  public:
+    ToolDesk() {
+        context.find_surface = [this](const Pose& ray) -> std::optional<Pointed> {
+            const glm::dvec3 from = physical(volume(), ray.position);
+            const glm::dvec3 ahead = glm::dvec3(ray.orientation * glm::vec3(0, 0, -1));
+            const glm::dvec3 to = physical(volume(), glm::dvec3(ray.position) + ahead);
+            const double along = (30 - from.z) / (to.z - from.z);
+            const glm::dvec3 at = from + along * (to - from);
+            if (!(along > 0) || at.x < 0 || at.x > 60 || at.y < 0 || at.y > 50)
+                return std::nullopt;
+            return Pointed{{at, 0, context.isovalue}, 0};
+        };
+    }
+    /// A click of the mouse, whose ray goes through a place in the room.
+    Commands click(const glm::vec3& at) {
+        Commands commands = mouse(at, bit(MouseBit::left));
+        merge(commands, mouse(at, 0));
+        return commands;
+    }
+    Commands mouse(const glm::vec3& at, std::uint64_t buttons, float dragged = 0) {
+        const glm::quat turn =
+            glm::quatLookAt(glm::normalize(at - kStanding.position), glm::vec3(0, 1, 0));
+        return frame({head_at(kStanding),
+                      {"pointer", Pose{kStanding.position, turn}, true, 0, {}},
+                      {"mouse", std::nullopt, true, buttons, {dragged, 0, 0, 0, 0, 0, 0}}});
+    }
+    glm::vec3 in_room(const glm::dvec3& p) const { return glm::vec3(transform(volume(), p)); }
+};
+
+TEST(Tools, TheTableHoldsEachKindOnceInItsOrder) {
+    for (std::size_t i = 0; i < tool_table().size(); ++i) {
+        EXPECT_EQ(static_cast<std::size_t>(tool_table()[i].kind), i);
+        EXPECT_TRUE(tool_table()[i].make());
+    }
+}
+
+TEST(Tools, KeysChooseThemAndEscapeLeavesThemFirst) {
+    ToolDesk desk;
+    desk.tap(bit(Action::clip_tool));
+    EXPECT_EQ(desk.context.tools.mouse, ToolKind::clip);
+    EXPECT_EQ(desk.context.tools.wand, ToolKind::clip);
+    EXPECT_EQ(desk.context.tools.other, ToolKind::grab);
+    const Commands left = desk.tap(bit(Action::quit));
+    EXPECT_FALSE(left.leaving);
+    EXPECT_EQ(desk.context.tools, Tools{});
+    EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, true);
+}
+
+TEST(Tools, AClickPicksAndADragDoesNot) {
+    ToolDesk desk;
+    const glm::dvec3 place(20, 10, 30);
+    const Commands picked = desk.click(desk.in_room(place));
+    ASSERT_TRUE(picked.mark && picked.mark->point);
+    expect_near(picked.mark->point->position, place, 1e-3);
+    desk.mouse(desk.in_room({40, 40, 30}), bit(MouseBit::left));
+    desk.mouse(desk.in_room({40, 40, 30}), bit(MouseBit::left), 0.05f);
+    EXPECT_FALSE(desk.mouse(desk.in_room({40, 40, 30}), 0).mark);
+    EXPECT_EQ(desk.click({50, 50, -1}).mark, Mark{}) << "a miss takes the mark away";
+    EXPECT_FALSE(desk.click({50, 50, -1}).mark) << "where there is none it does nothing";
+}
+
+TEST(Tools, AHandThatHoldsAnotherToolDoesNotMoveTheVolume) {
+    ToolDesk desk;
+    desk.context.tools.wand = ToolKind::ruler;
+    Pose hand{{0, 1.3f, 0}, {1, 0, 0, 0}};
+    desk.frame({wand_at(hand, kHold)});
+    hand.position.x += 0.1f;
+    EXPECT_FALSE(desk.frame({wand_at(hand, kHold)}).room_from_physical);
+    desk.frame({wand_at(hand)});
+    desk.context.tools.wand = ToolKind::grab;
+    desk.frame({wand_at(hand, kHold)});
+    hand.position.x += 0.1f;
+    EXPECT_TRUE(desk.frame({wand_at(hand, kHold)}).room_from_physical);
+}
+
+TEST(Tools, TheRulerMeasuresInTheDataUnitsAndBeginsAnew) {
+    ToolDesk desk;
+    desk.tap(bit(Action::ruler_tool));
+    const glm::dvec3 a(10, 10, 30), b(40, 50, 30);
+    desk.click(desk.in_room(a));
+    EXPECT_EQ(desk.context.state.ruler.places.size(), 1u);
+    desk.click(desk.in_room(b));
+    ASSERT_EQ(desk.context.state.ruler.places.size(), 2u);
+    const ToolDrawing drawing = drawing_of(desk.context.state, desk.context.data);
+    ASSERT_EQ(drawing.labels.size(), 1u);
+    EXPECT_EQ(drawing.labels[0].text, "50 mm");
+    desk.click(desk.in_room(a));
+    EXPECT_EQ(desk.context.state.ruler.places.size(), 1u);
+    desk.tap(bit(Action::remove_made));
+    EXPECT_TRUE(desk.context.state.ruler.places.empty());
+}
+
+TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {
+    Random random(test_seed());
+    for (int round = 0; round < 100; ++round) {
+        ToolDesk desk;
+        desk.context.room_from_physical.exaggeration = round % 2 ? 1.0 : 3.0;
+        desk.context.tools.wand = ToolKind::clip;
+        desk.context.state.clip = {true, {30, 25, 30}, {0, 0, 1}};
+        const Pose before{{0.1f, 1.2f, -0.3f}, random_rotation(random)};
+        const Pose after{{-0.2f, 1.5f, -0.1f}, random_rotation(random)};
+        desk.frame({wand_at(before, kHold)});
+        desk.frame({wand_at(after, kHold)});
+        // In the hand's own frame the plane has stayed.
+        const auto seen = [&](const Pose& hand, const ClipPlane& plane) {
+            const glm::dquat into = glm::conjugate(glm::dquat(hand.orientation));
+            const glm::dvec3 at =
+                into * (transform(desk.volume(), plane.point) - glm::dvec3(hand.position));
+            return std::pair(at, into * normal_in_room(desk.volume(), plane.normal));
+        };
+        const auto [place, normal] = seen(before, {true, {30, 25, 30}, {0, 0, 1}});
+        const auto [now_at, now_normal] = seen(after, desk.context.state.clip);
+        expect_near(now_at, place, 1e-5);
+        expect_near(now_normal, normal, 1e-5);
+    }
+}
+
+TEST(Tools, TheMousePullsTheClipPlaneUnderItsRayAndTurnsNothing) {
+    ToolDesk desk;
+    desk.context.tools.mouse = ToolKind::clip;
+    // A plane that faces to the right and upwards, so that its normal can be seen.
+    desk.context.state.clip = {true, {30, 25, 30}, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
+    const glm::dvec3 normal = desk.context.state.clip.normal;
+    const glm::dvec3 to = glm::dvec3(30, 25, 30) + 8.0 * normal;
+    desk.mouse(desk.in_room({30, 25, 30}), bit(MouseBit::left));
+    const Commands pulled = desk.mouse(desk.in_room(to), bit(MouseBit::left), 0.1f);
+    EXPECT_FALSE(pulled.room_from_physical) << "the drag is the plane's";
+    ASSERT_TRUE(pulled.clip);
+    EXPECT_NEAR(glm::dot(pulled.clip->point - glm::dvec3(30, 25, 30), normal), 8.0, 1e-3);
+    EXPECT_EQ(pulled.clip->normal, normal);
+}
+
+TEST(Tools, AClipPlaneIsUnderTheMouseWhereHeightsAreExaggerated) {
+    ToolDesk desk;
+    desk.context.room_from_physical =
+        exaggerated(desk.context.room_from_physical, desk.context.pivot, 2.5);
+    desk.context.tools.mouse = ToolKind::clip;
+    const glm::dvec3 point(30, 25, 30);
+    desk.context.state.clip = {true, point, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
+    const Similarity& room = desk.context.room_from_physical;
+    const glm::dvec3 normal = normal_in_room(room, desk.context.state.clip.normal);
+    const glm::dvec3 to = in_physical(room, transform(room, point) + 0.05 * normal);
+    desk.mouse(desk.in_room(point), bit(MouseBit::left));
+    const Commands pulled = desk.mouse(desk.in_room(to), bit(MouseBit::left), 0.1f);
+    ASSERT_TRUE(pulled.clip);
+    EXPECT_NEAR(glm::dot(transform(room, pulled.clip->point) - transform(room, point), normal),
+                0.05, 1e-5);
+}
+
+TEST(Tools, AClipPlaneSnapsToTheAxesInTurn) {
+    ToolDesk desk;
+    for (const int axis : {0, 1, 2, 0}) {
+        desk.tap(bit(Action::snap_clip));
+        EXPECT_TRUE(desk.context.state.clip.shown);
+        glm::dvec3 expected(0.0);
+        expected[axis] = 1;
+        expect_near(desk.context.state.clip.normal, expected);
+    }
+    const ClipPlane other = snapped(desk.context.state.clip, 0, desk.context.data);
+    expect_near(other.normal, {-1, 0, 0});
+}
+
+TEST(Tools, TheOutlineOfAClipPlaneLiesOnThePlaneAndOnTheBox) {
+    Random random(test_seed());
+    ToolDesk desk;
+    const DataFrame& data = desk.context.data;
+    for (int round = 0; round < 200; ++round) {
+        const glm::dvec3 normal(random_rotation(random) * glm::vec3(0, 0, 1));
+        const ClipPlane plane{true, data.at({uniform(random, 0.1, 0.9), 0.5, 0.5}),
+                              glm::normalize(normal)};
+        const auto corners = outline(plane, data);
+        ASSERT_GE(corners.size(), 3u);
+        EXPECT_LE(corners.size(), 6u);
+        for (const glm::dvec3& corner : corners) {
+            EXPECT_NEAR(glm::dot(corner - plane.point, plane.normal), 0.0, 1e-9);
+            const glm::dvec3 in_box = data.in_box(corner);
+            int on_faces = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_TRUE(in_box[axis] > -1e-9 && in_box[axis] < 1 + 1e-9);
+                on_faces += std::min(std::abs(in_box[axis]), std::abs(in_box[axis] - 1)) < 1e-9;
+            }
+            EXPECT_GE(on_faces, 2);
+        }
+    }
+}
+
+} // namespace
+} // namespace isochron::interaction

@@ -1,0 +1,302 @@
+// Meshes: their pictures, compared with the exact surface, and their upload.
+#include "render/drawing/cell_pass.h"
+
+#include "index/scan/scan.h"
+#include "index/surface/mesh_cases.h"
+#include "index/surface/mesh_parts.h"
+#include "render/gl/driver.h"
+#include "render/gl/render_target.h"
+#include "tests/support/gl_test.h"
+#include "tests/support/test_field.h"
+
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace isochron::render {
+namespace {
+
+class MeshPassTest : public GlTest {
+  protected:
+    static constexpr glm::ivec2 kSize{128, 128};
+
+    /// Balls in a grid, with their planes, meshes and volume.
+    index::ExtractionPtr extraction(std::vector<double> isovalues, bool colors = false) {
+        auto set = std::make_shared<index::Extraction>();
+        set->query = {0, isovalues, index::CellColoring::none};
+        std::vector<index::MeshMaker> makers(2);
+        index::BrickValues values(index::ValueType::u8, {}, 0, 255);
+        index::BrickGatherer gatherer(field_.view().grid, values);
+        for (const double isovalue : isovalues) {
+            index::CellSet cells;
+            cells.query = {0, isovalue};
+            index::scan(field_.view(), cells.query, cells.ids);
+            EXPECT_TRUE(index::shade_cells(field_.view(), cells));
+            index::CellMesh mesh;
+            EXPECT_TRUE(make_mesh(makers, field_.view(), cells.query, cells.ids, mesh));
+            cells.mesh = std::make_shared<const index::CellMesh>(std::move(mesh));
+            gatherer.need(cells);
+            set->surfaces.push_back(std::move(cells));
+        }
+        const index::BrickLevels levels = values.levels(isovalues);
+        set->levels = levels.units;
+        set->bricks = gatherer.none();
+        EXPECT_TRUE(gatherer.gather(field_.view(), 0, levels, set->bricks));
+        if (colors)
+            for (std::size_t i = 0; i < set->cells(); ++i)
+                set->colors.push_back(static_cast<std::uint16_t>(i % 4096));
+        return set;
+    }
+
+    Image draw(const index::ExtractionPtr& set, Footprint footprint, const CellAppearance& look,
+               glm::vec3 eye = {40, 35, 60}) {
+        CellBuffers cells(gl_, field_.view().grid);
+        while (cells.shown() != set)
+            cells.upload(set, std::numeric_limits<std::size_t>::max());
+        EXPECT_TRUE(cells.has_mesh());
+        while (cells.compute_corners(part_.value_or(set->cells())) > 0) {
+        }
+        RenderTarget target(gl_, kSize), other(gl_, kSize);
+        target.bind();
+        target.clear({0, 0, 0, 1});
+        const View view{.clip_from_eye = glm::perspective(angle_, 1.0f, 5.0f, 200.0f),
+                        .eye_from_room = glm::lookAt(eye, glm::vec3(15), glm::vec3(0, 1, 0)),
+                        .size = kSize};
+        const Placement placement = Placement::of(field_.view().grid, glm::mat4(1.0f));
+        const std::size_t work = pass_.work(1, cells, footprint, look);
+        parts_ = 0;
+        for (std::size_t first = 0; first < work; first += part_.value_or(work), ++parts_) {
+            if (part_ && parts_ % 3 == 0) { // another picture comes between, of the other side
+                View behind = view;
+                behind.eye_from_room = glm::lookAt(-eye, glm::vec3(15), glm::vec3(0, 1, 0));
+                other.bind();
+                pass_.draw(behind, placement, cells, footprint, look);
+                target.bind();
+            }
+            pass_.draw(std::span(&view, 1), placement, cells, footprint, look,
+                       {first, part_.value_or(work)});
+        }
+        return target.read();
+    }
+
+    /// Share of pixels with a channel off by more than 8 of 255.
+    static double differing(const Image& a, const Image& b) {
+        int count = 0;
+        for (int y = 0; y < kSize.y; ++y)
+            for (int x = 0; x < kSize.x; ++x) {
+                int most = 0;
+                for (int channel = 0; channel < 3; ++channel)
+                    most = std::max(most, std::abs(a.at(x, y)[channel] - b.at(x, y)[channel]));
+                count += most > 8;
+            }
+        return count / double(kSize.x * kSize.y);
+    }
+
+    index::TestField field_{
+        {31, 31, 31}, 1, index::ValueType::u8, [](double x, double y, double z, double) {
+            return 230 -
+                   14 * std::sqrt((x - 15) * (x - 15) + (y - 15) * (y - 15) + (z - 15) * (z - 15));
+        }};
+    CellPass pass_{gl_};
+    float angle_ = 0.6f;              ///< of the picture
+    std::optional<std::size_t> part_; ///< work of each part that is drawn; empty: all at once
+    int parts_ = 0;                   ///< of the last picture
+};
+
+INSTANTIATE_TEST_SUITE_P(, MeshPassTest, both_contexts(), context_name);
+
+TEST_P(MeshPassTest, LooksLikeTheExactSurface) {
+    const auto set = extraction({90.5});
+    CellAppearance look;
+    EXPECT_LT(differing(draw(set, Footprint::mesh, look), draw(set, Footprint::surface, look)),
+              0.01);
+}
+
+TEST_P(MeshPassTest, ColorsOfCellsAreThoseOfTheExactSurface) {
+    const auto set = extraction({90.5, 150.5}, true);
+    Texture map(gl_, GL_TEXTURE_1D);
+    gl_.TextureStorage1D(map.name(), 1, GL_RGBA8, 2);
+    constexpr std::array<std::uint8_t, 8> kTexels{255, 0, 0, 255, 0, 0, 255, 255};
+    gl_.TextureSubImage1D(map.name(), 0, 0, 2, GL_RGBA, GL_UNSIGNED_BYTE, kTexels.data());
+    gl_.TextureParameteri(map.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    CellAppearance look;
+    look.values = {.map = map.name()};
+    // Cells end a little elsewhere.
+    EXPECT_LT(differing(draw(set, Footprint::mesh, look), draw(set, Footprint::surface, look)),
+              0.03);
+}
+
+TEST_P(MeshPassTest, InnerSurfacesShowThroughTranslucentOnes) {
+    const auto set = extraction({90.5, 150.5});
+    CellAppearance look;
+    look.surfaces[0] = {{0.2f, 0.9f, 0.3f}, 0.4f};
+    look.surfaces[1] = {{0.9f, 0.2f, 0.2f}, 1.0f};
+    look.linear_light = false;
+    const Image mesh = draw(set, Footprint::mesh, look);
+    EXPECT_GT(mesh.at(64, 64)[0], mesh.at(64, 64)[1]) << "the inner one is red";
+    EXPECT_LT(differing(mesh, draw(set, Footprint::surface, look)), 0.02);
+}
+
+TEST_P(MeshPassTest, WhatIsCutAwayIsThatOfTheExactSurface) {
+    const auto set = extraction({90.5});
+    CellAppearance look;
+    look.cut = glm::vec4(1, 0, 0, -16.3f);
+    const Image mesh = draw(set, Footprint::mesh, look);
+    EXPECT_GT(differing(mesh, draw(set, Footprint::mesh, {})), 0.02);
+    EXPECT_LT(differing(mesh, draw(set, Footprint::surface, look)), 0.01);
+}
+
+TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
+    const auto set = extraction({90.5, 150.5}, true);
+    Texture map(gl_, GL_TEXTURE_1D);
+    gl_.TextureStorage1D(map.name(), 1, GL_RGBA8, 2);
+    constexpr std::array<std::uint8_t, 8> kTexels{255, 0, 0, 255, 0, 0, 255, 255};
+    gl_.TextureSubImage1D(map.name(), 0, 0, 2, GL_RGBA, GL_UNSIGNED_BYTE, kTexels.data());
+    for (const bool colored : {false, true})
+        for (const float opacity : {1.0f, 0.4f})
+            for (const Footprint footprint :
+                 {Footprint::quad, Footprint::gaussian, Footprint::mesh, Footprint::surface}) {
+                CellAppearance look;
+                look.linear_light = opacity < 1.0f;
+                look.surfaces[0].opacity = opacity;
+                if (colored)
+                    look.values = {.map = map.name()};
+                const Image whole = draw(set, footprint, look);
+                part_ = 700;
+                EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
+                // Without an order, as on a GPU, quads are drawn in one piece.
+                if (footprint != Footprint::quad || takes_processor_ways(gl_)) {
+                    EXPECT_GT(parts_, 2);
+                }
+                part_.reset();
+            }
+}
+
+/// Where a voxel is small, ways to the eye and the key light are found at vertices and highlights are
+/// approximated; where something is cut away, all is found for each pixel.
+TEST_P(MeshPassTest, LightIsThatOfEachPixelFoundInFull) {
+    const auto set = extraction({90.5});
+    struct Case {
+        float shininess, away, angle;
+    };
+    for (const Case& one : {Case{4, 0.7f, 0.6f}, Case{10, 0.7f, 0.6f}, Case{40, 1.2f, 0.15f},
+                            Case{80, 1.2f, 0.15f}, Case{300, 2.0f, 0.08f}}) {
+        SCOPED_TRACE(one.shininess);
+        CellAppearance look;
+        look.shininess = one.shininess;
+        look.reflectance = 0.3f;
+        angle_ = one.angle;
+        const glm::vec3 eye = glm::vec3(15) + one.away * glm::vec3(25, 20, 45);
+        const Image fast = draw(set, Footprint::mesh, look, eye);
+        look.cut = glm::vec4(1, 0, 0, -1000); // nothing
+        const Image full = draw(set, Footprint::mesh, look, eye);
+        int most = 0;
+        for (std::size_t i = 0; i < full.rgba.size(); ++i)
+            most = std::max(most, std::abs(full.rgba[i] - fast.rgba[i]));
+        EXPECT_LE(most, 3) << "of 255";
+        EXPECT_NE(full.rgba, fast.rgba) << "both are found in the same way";
+    }
+}
+
+TEST_P(MeshPassTest, AnyOrderOfPlanesGivesTheSamePicture) {
+    const auto set = extraction({90.5, 150.5}, true);
+    const index::CellMesh& mesh = *set->surfaces[0].mesh;
+    std::vector<CellPlace> cells;
+    for (const index::CellPoint& point : set->surfaces[0].points)
+        cells.push_back({point.x, point.y, point.z, 0});
+    std::vector<std::size_t> cell_of; // of each triangle
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        cell_of.insert(cell_of.end(), index::mesh_cases()[mesh.cases[i]].triangles, i);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool descending : {false, true}) {
+            OrderedTriangles triangles{{1, 2, 3}, {0}}; // of a surface before
+            append_in_order(cells, mesh, {axis, descending}, triangles);
+            ASSERT_EQ(triangles.numbers.size(), 1 + mesh.triangles.size() / 3);
+            ASSERT_EQ(triangles.corners.size(), 3 + mesh.triangles.size());
+            std::vector<std::uint32_t> order;
+            for (std::size_t i = 1; i < triangles.numbers.size(); ++i) {
+                order.push_back(triangles.numbers[i] - 1);
+                for (std::size_t k = 0; k < 3; ++k)
+                    ASSERT_EQ(triangles.corners[3 * i + k], mesh.triangles[3 * order.back() + k]);
+            }
+            const auto plane = [&](std::uint32_t triangle) {
+                const CellPlace& cell = cells[cell_of[triangle]];
+                return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
+            };
+            for (std::size_t i = 1; i < order.size(); ++i) {
+                const int before = plane(order[i - 1]), here = plane(order[i]);
+                ASSERT_TRUE(descending ? before >= here : before <= here);
+                ASSERT_TRUE(before != here || order[i - 1] < order[i]);
+            }
+            EXPECT_EQ(std::set(order.begin(), order.end()).size(), order.size());
+        }
+    // Seen along each axis from either side, the nearer planes come first, and the pictures are
+    // those of the exact surface.
+    for (const glm::vec3 ahead : {glm::vec3(60, 5, 9), glm::vec3(7, 60, 5), glm::vec3(3, 8, 60)})
+        for (const float side : {1.0f, -1.0f}) {
+            const glm::vec3 eye = glm::vec3(15) + side * ahead;
+            const PlaneOrder order =
+                near_planes_first(glm::vec4(eye, 1), glm::vec3(30), glm::vec3(1));
+            EXPECT_GT(std::abs(ahead[order.axis]), 50);
+            EXPECT_EQ(order.descending, side > 0);
+            CellAppearance look;
+            EXPECT_LT(differing(draw(set, Footprint::mesh, look, eye),
+                                draw(set, Footprint::surface, look, eye)),
+                      0.01);
+        }
+}
+
+TEST_P(MeshPassTest, TranslucentTrianglesAreSortedInPieces) {
+    const auto set = extraction({90.5, 150.5});
+    CellBuffers cells(gl_, field_.view().grid);
+    while (cells.shown() != set)
+        cells.upload(set, std::numeric_limits<std::size_t>::max());
+    CellAppearance look;
+    look.surfaces[0].opacity = look.surfaces[1].opacity = 0.4f;
+    RenderTarget target(gl_, kSize);
+    target.bind();
+    const View view{.clip_from_eye = glm::perspective(0.6f, 1.0f, 5.0f, 200.0f),
+                    .eye_from_room =
+                        glm::lookAt(glm::vec3(40, 35, 60), glm::vec3(15), glm::vec3(0, 1, 0)),
+                    .size = kSize};
+    const Placement placement = Placement::of(field_.view().grid, glm::mat4(1.0f));
+    const std::size_t work = pass_.work(1, cells, Footprint::mesh, look);
+    EXPECT_GT(work, cells.size());
+    std::size_t pieces = 0;
+    for (std::size_t first = 0; first < work; first += 40) {
+        pass_.draw(std::span(&view, 1), placement, cells, Footprint::mesh, look, {first, 40});
+        pieces += pass_.orders().sorts() == 0;
+    }
+    EXPECT_NEAR(static_cast<double>(pieces), static_cast<double>(work - cells.size()) / 40, 1);
+    EXPECT_EQ(pass_.orders().sorts(), 1u);
+}
+
+TEST_P(MeshPassTest, AMeshComesInPortionsAndIsShownWhole) {
+    const auto first = extraction({150.5}), second = extraction({90.5});
+    CellBuffers cells(gl_, field_.view().grid);
+    while (cells.shown() != first)
+        cells.upload(first, 1 << 16);
+    const std::size_t indices = cells.mesh().surfaces()[0].indices;
+    int frames = 0;
+    for (; cells.shown() != second; ++frames) {
+        EXPECT_EQ(cells.mesh().surfaces()[0].indices, indices);
+        const std::uint64_t before = cells.count().mesh_bytes;
+        cells.upload(second, 1 << 16);
+        EXPECT_LE(cells.count().mesh_bytes - before, 1u << 16);
+        ASSERT_LT(frames, 1000);
+    }
+    EXPECT_GT(frames, 1);
+    EXPECT_EQ(cells.mesh().surfaces()[0].indices, second->surfaces[0].mesh->triangles.size());
+}
+
+} // namespace
+} // namespace isochron::render

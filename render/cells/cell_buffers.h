@@ -6,11 +6,11 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
+#include "render/cells/arriving_set.h"
 #include "render/cells/axis_table.h"
 #include "render/cells/brick_pool.h"
 #include "render/cells/cell_compute.h"
 #include "render/cells/mesh_buffers.h"
-#include "render/cells/ranked_points.h"
 #include "render/cells/slot_plan.h"
 #include "render/cells/surroundings.h"
 #include "render/cells/upload_count.h"
@@ -88,10 +88,10 @@ class CellBuffers {
     /// The set that is drawn; null before the first is complete.
     const index::ExtractionPtr& shown() const { return shown_; }
     /// The newest set if it was refused, else null; and why, in one line.
-    const index::ExtractionPtr& refused() const { return refused_; }
-    const std::string& refusal() const { return refusal_; }
+    const index::ExtractionPtr& refused() const { return refused_.set; }
+    const std::string& refusal() const { return refused_.why; }
     /// True while a set is on its way to the GPU.
-    bool pending() const { return arriving_ != nullptr; }
+    bool pending() const { return arriving_.set() != nullptr; }
     /// Changes with the shown set. Different buffers never have the same version, except 0.
     std::uint64_t version() const { return version_; }
 
@@ -126,16 +126,16 @@ class CellBuffers {
     static DeviceArray corner_values_array(const Gl& gl);
     static DeviceArray corner_gradients_array(const Gl& gl);
     /// Most cells that these textures can hold: fewer than can be drawn without them.
-    std::size_t corner_limit() const { return corner_gradients_.limit(); }
+    std::size_t corner_limit() const { return corners_.gradients.limit(); }
     /// GL_TEXTURE_BUFFER by slot, two RGBA32F texels each: the values at the cell's vertices minus
     /// its surface's isovalue, in brick units (index/extraction/brick_values.h), which keep signs
     /// and roots. Order of the vertices: 000, 100, 010, 110, 001, 101, 011, 111, x first.
-    GLuint corner_values_texture() const { return corner_values_.texture(); }
+    GLuint corner_values_texture() const { return corners_.values.texture(); }
     /// GL_TEXTURE_BUFFER by slot, four RGBA32UI texels each: for each vertex, in the same order,
     /// two words of two halves: (gradient x, y), (gradient z, 0). Gradients are central differences
     /// (one-sided at the border) in physical space, towards lower values, times one factor for the
     /// whole data set; zero if they are not finite.
-    GLuint corner_gradients_texture() const { return corner_gradients_.texture(); }
+    GLuint corner_gradients_texture() const { return corners_.gradients.texture(); }
 
     /// What was sent so far.
     const UploadCount& count() const { return count_; }
@@ -143,21 +143,26 @@ class CellBuffers {
     const BrickPool* bricks() const { return bricks_ ? &*bricks_ : nullptr; }
 
   private:
+    /// What is kept for exact surfaces: see the textures.
+    struct KeptCorners {
+        DeviceArray values, gradients;
+        std::uint64_t version = 0; ///< of the set whose corners they are
+        std::size_t done = 0;      ///< cells
+    };
+    struct Refusal {
+        index::ExtractionPtr set; ///< null: none
+        std::string why;
+    };
+
     void hold(index::ValueType held);
     void give_up(const index::ExtractionPtr& set, const OutOfMemory& why);
-    bool take_up(const index::ExtractionPtr& newest, SendVolume volume, std::size_t bytes,
-                 std::size_t& sent);
+    bool take_up(const index::ExtractionPtr& newest, SendVolume volume, SendBudget& budget);
     bool begin(index::ExtractionPtr set, SendVolume volume);
     bool make_room_for(const index::VolumeBricks& bricks);
-    static DeviceArray points_array(const Gl& gl);
-    bool send_on(std::size_t bytes, std::size_t& sent);
-    bool send_points(std::size_t bytes, std::size_t& sent);
-    bool send_mesh(std::size_t bytes, std::size_t& sent);
-    bool send_bricks(std::size_t bytes, std::size_t& sent);
-    void send_volume_of_shown(std::size_t bytes, std::size_t& sent);
-    bool send_message(std::size_t bytes, std::size_t& sent);
-    bool send_styles(std::size_t bytes, std::size_t& sent);
-    Slots take_points();
+    bool send_on(SendBudget& budget);
+    bool send_mesh(SendBudget& budget);
+    bool send_bricks(SendBudget& budget);
+    void send_volume_of_shown(SendBudget& budget);
     Slots place_cells();
     void show();
 
@@ -165,8 +170,8 @@ class CellBuffers {
     index::Grid grid_;
     std::unique_ptr<const AxisTable> axes_;
     StagingRing ring_;
-    DeviceArray points_, next_points_; ///< the latter for a set that comes with its points
-    DeviceArray message_, styles_, corner_values_, corner_gradients_;
+    DeviceArray points_;
+    KeptCorners corners_;
     MeshBuffers mesh_;
     Surroundings surroundings_;
     std::optional<BrickPool> bricks_;                  ///< made when the type is known
@@ -174,21 +179,15 @@ class CellBuffers {
     std::map<index::ValueType, CellCompute> computes_; ///< by type of the values
     CellCompute* compute_ = nullptr;                   ///< for `held_`; likewise
     bool by_changes_ = true;                           ///< else each set is sent whole
-    index::ExtractionPtr shown_, refused_;
-    std::string refusal_;
+    index::ExtractionPtr shown_;
+    Refusal refused_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
-    std::uint64_t version_ = 0, corners_version_ = 0, volume_version_ = 0, mesh_version_ = 0;
-    std::size_t corners_done_ = 0;        ///< cells of `corners_version_`
+    std::uint64_t version_ = 0, volume_version_ = 0, mesh_version_ = 0;
     std::uint64_t no_volume_version_ = 0; ///< of the set whose volume found no memory
     UploadCount count_;
+    ArrivingSet arriving_;
     bool sending_mesh_ = false;   ///< of the arriving set
     bool sending_bricks_ = false; ///< of the arriving set, or later of the shown one
-    // The arriving set:
-    index::ExtractionPtr arriving_;
-    std::unique_ptr<RankedPoints> ranked_; ///< if it comes with its points
-    std::unique_ptr<SlotPlan> plan_;       ///< else
-    bool merged_ = false;
-    std::size_t words_sent_ = 0, styles_sent_ = 0;
 };
 
 } // namespace isochron::render

@@ -1,5 +1,5 @@
 // Culls cuts by tiles; compiled once for each SIMD target and chosen at run time.
-#include "render/culling/cut_culling.h"
+#include "render/culling/culling.h"
 
 #include <algorithm>
 #include <array>
@@ -177,14 +177,14 @@ HWY_INLINE void touched_rows(const TileNumbers& tiles, const float* low, const f
 
 } // namespace
 
-std::size_t find(const CellSquares& cuts, const TileNumbers& tiles, std::size_t from,
-                 std::size_t end, std::uint32_t* seen, PixelSquare* parts) {
+std::size_t find(const CellSquares& cuts, const TileNumbers& tiles, CellRange range,
+                 std::uint32_t* seen, PixelSquare* parts) {
     Tiles up;
     TiledCut::Ranges ranges;
     std::size_t count = 0;
-    for (std::size_t first = from; first < end; first += CellSquares::kBlock) {
+    for (std::size_t first = range.first; first < range.end; first += CellSquares::kBlock) {
         touched_rows(tiles, cuts.low() + first, cuts.high() + first, up);
-        const std::size_t cells = std::min(end - first, CellSquares::kBlock);
+        const std::size_t cells = std::min(range.end - first, CellSquares::kBlock);
         for (std::size_t i = 0; i < cells; ++i) {
             const std::size_t n = first + i;
             const int rows = up.last[i] - up.first[i] + 1;
@@ -221,9 +221,9 @@ namespace isochron::render {
 
 HWY_EXPORT(find);
 
-std::size_t find_cuts(const CellSquares& cuts, const TileNumbers& tiles, std::size_t from,
-                      std::size_t end, std::uint32_t* seen, PixelSquare* parts) {
-    return HWY_DYNAMIC_DISPATCH(find)(cuts, tiles, from, end, seen, parts);
+std::size_t find_cuts(const CellSquares& cuts, const TileNumbers& tiles, CellRange range,
+                      std::uint32_t* seen, PixelSquare* parts) {
+    return HWY_DYNAMIC_DISPATCH(find)(cuts, tiles, range, seen, parts);
 }
 
 } // namespace isochron::render

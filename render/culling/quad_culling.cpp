@@ -1,10 +1,7 @@
 // Occlusion culling of quads by tiles; compiled once for each SIMD target and chosen at run time.
-#include "render/culling/quad_culling.h"
-
-#include "render/culling/cut_culling.h"
+#include "render/culling/culling.h"
 
 #include <algorithm>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/culling/quad_culling.cpp"
@@ -77,20 +74,17 @@ HWY_INLINE void cover(const TileNumbers& tiles, const Tiles& across, const Tiles
 
 } // namespace
 
-/// Finds the visible ones of the cells from number `from`, a multiple of the block, to `end`.
-/// @param seen takes their numbers in the order of the squares; has room for all of them
-/// @return how many these are
-std::size_t find(const CellSquares& squares, const TileNumbers& tiles, std::size_t from,
-                 std::size_t end, std::uint32_t* seen) {
+std::size_t find(const CellSquares& squares, const TileNumbers& tiles, CellRange range,
+                 std::uint32_t* seen) {
     Tiles across, up, whole_across, whole_up;
     std::size_t count = 0;
-    for (std::size_t first = from; first < end; first += CellSquares::kBlock) {
+    for (std::size_t first = range.first; first < range.end; first += CellSquares::kBlock) {
         const float *x = squares.x() + first, *y = squares.y() + first, *z = squares.z() + first;
         touched(tiles, x, squares.outer() + first, tiles.columns, across);
         touched(tiles, y, squares.outer() + first, tiles.rows, up);
         covered(tiles, x, squares.inner() + first, tiles.columns, whole_across);
         covered(tiles, y, squares.inner() + first, tiles.rows, whole_up);
-        const std::size_t cells = std::min(end - first, CellSquares::kBlock);
+        const std::size_t cells = std::min(range.end - first, CellSquares::kBlock);
         for (std::size_t i = 0; i < cells; ++i) {
             if (hidden(tiles, across, up, i, z[i]))
                 continue;
@@ -109,20 +103,9 @@ namespace isochron::render {
 
 HWY_EXPORT(find);
 
-void SeenCells::lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) {
-    // With these sizes most quads cover some tiles, and cuts, of which parts are drawn, many.
-    constexpr float kTilesAcross = 1.5f, kTilesAcrossCut = 3.0f; // half of a quad
-    constexpr int kMostTileBits = 4;
-    tiles.lay_out(view, {cuts_ ? squares.inner_disc() : squares.inner(), squares.size()},
-                  cuts_ ? kTilesAcrossCut : kTilesAcross, kMostTileBits,
-                  std::numeric_limits<float>::max());
-}
-
-std::size_t SeenCells::visit(const CellSquares& squares, const TileNumbers& tiles,
-                             std::size_t first, std::size_t end, std::uint32_t* seen,
-                             PixelSquare* parts) {
-    return cuts_ ? find_cuts(squares, tiles, first, end, seen, parts)
-                 : HWY_DYNAMIC_DISPATCH(find)(squares, tiles, first, end, seen);
+std::size_t find_squares(const CellSquares& squares, const TileNumbers& tiles, CellRange range,
+                         std::uint32_t* seen) {
+    return HWY_DYNAMIC_DISPATCH(find)(squares, tiles, range, seen);
 }
 
 } // namespace isochron::render

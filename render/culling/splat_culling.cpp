@@ -1,5 +1,5 @@
 // Occlusion culling of splats by tiles; compiled once for each SIMD target and chosen at run time.
-#include "render/culling/splat_culling.h"
+#include "render/culling/culling.h"
 
 #include <algorithm>
 #include <array>
@@ -134,16 +134,12 @@ HWY_INLINE void dim(float* light, const float* gaussian, int count, float of_row
 
 } // namespace
 
-/// Finds the visible ones of the splats from number `first` to `end`.
-/// @param falloff log2 of the opacity on the outline
-/// @param seen takes their numbers in the order of the squares; has room for all of them
-/// @return how many these are
 std::size_t find(const CellSquares& splats, float falloff, const TileNumbers& tiles,
-                 std::size_t first, std::size_t end, std::uint32_t* seen) {
+                 CellRange range, std::uint32_t* seen) {
     Profile across, up;
     Spans spans;
     std::size_t count = 0;
-    for (std::size_t n = first; n < end; ++n) {
+    for (std::size_t n = range.first; n < range.end; ++n) {
         const float x = splats.x()[n], y = splats.y()[n];
         const float inner = splats.inner_disc()[n], reach = splats.outer_disc()[n];
         const float per_pixel2 = inner > 0.0f ? falloff / (inner * inner) : 0.0f;
@@ -181,16 +177,9 @@ namespace isochron::render {
 
 HWY_EXPORT(find);
 
-void SeenSplats::lay_out(const View& view, const CellSquares& squares, PictureTiles& tiles) {
-    constexpr float kTilesAcross = 8.0f; ///< half of a splat
-    constexpr int kMostTileBits = 3;
-    tiles.lay_out(view, {squares.inner_disc(), squares.size()}, kTilesAcross, kMostTileBits, 1.0f);
-}
-
-std::size_t SeenSplats::visit(const CellSquares& squares, const TileNumbers& tiles,
-                              std::size_t first, std::size_t end, std::uint32_t* seen,
-                              PixelSquare* /*parts*/) {
-    return HWY_DYNAMIC_DISPATCH(find)(squares, falloff_, tiles, first, end, seen);
+std::size_t find_splats(const CellSquares& splats, float falloff, const TileNumbers& tiles,
+                        CellRange range, std::uint32_t* seen) {
+    return HWY_DYNAMIC_DISPATCH(find)(splats, falloff, tiles, range, seen);
 }
 
 } // namespace isochron::render

@@ -3,6 +3,7 @@
 
 #include "render/cells/frame_block.h"
 #include "render/cells/point_sprites.h"
+#include "render/drawing/mesh_look.h"
 #include "render/gl/driver.h"
 #include "render/gl/driver_trials.h"
 #include "render/gl/limits.h"
@@ -356,6 +357,24 @@ SequenceWanted CellPass::sequence_wanted(const Drawing& drawing, std::size_t eye
     const SplatShape shape{shapes_.shape, shapes_.radius_of(footprint),
                            footprint == Footprint::quad};
     return {views[eye], placement, cells, shape, gaussian_falloff(), layer.blended, leaves_out};
+}
+
+void CellPass::draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPart part) {
+    const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
+    const View& view = views.front();
+    MeshLook look = mesh_look(view, placement, cells.axes(), appearance);
+    look.surfaces = layer.surfaces;
+    look.colors = frame.surfaces;
+    if (layer.blended)
+        mesh_.draw_blended(cells, look,
+                           sequences_.orders()
+                               .order(cells, key_of(view, placement))
+                               .subspan(part.first, part.count));
+    else
+        mesh_.draw(
+            cells, look,
+            near_planes_first(frame.eyes[0].eye_in_index, placement.extent, placement.spacing()),
+            part);
 }
 
 void CellPass::draw_footprints(std::size_t cells, int views, Footprint footprint, Form form) {

@@ -128,12 +128,6 @@ class CellPass {
     /// Goes on with putting quads and splats in order. @return the part of the work that is left to
     /// draw
     DrawPart put_in_order(const Drawing& drawing, DrawPart part);
-    struct VoxelInView {
-        float pixels; ///< along it
-        float angle;  ///< its length as a part of its distance
-    };
-    static VoxelInView largest_voxel(const View& view, const Placement& placement,
-                                     const CellBuffers& cells);
     void draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPart part);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float gaussian_falloff() const;

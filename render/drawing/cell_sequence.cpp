@@ -53,25 +53,21 @@ std::optional<CellSequence> CellSequences::find(const SequenceWanted& wanted, st
 
 void CellSequences::begin(const SequenceWanted& wanted) {
     seen_.emplace(wanted.cells.version(), wanted.view, wanted.placement, wanted.blended);
-    const Slots& slots = wanted.cells.slots();
-    if (wanted.blended)
-        seen_splats_.begin(wanted.view, wanted.placement, wanted.shape, wanted.falloff, slots);
-    else
-        seen_cells_.begin(wanted.view, wanted.placement, wanted.shape, slots);
+    finder_.begin(wanted.view, wanted.placement, wanted.shape, wanted.cells.slots(),
+                  wanted.blended ? std::optional(wanted.falloff) : std::nullopt);
 }
 
 /// Finds the cells that are seen, up to `to` of `of` parts of that work.
 void CellSequences::look(const SequenceWanted& wanted, std::size_t to, std::size_t of) {
     if (!seen_ || !seen_->of(wanted))
         begin(wanted);
-    SeenSlots& finder = wanted.blended ? static_cast<SeenSlots&>(seen_splats_) : seen_cells_;
     const std::span<const std::uint32_t> order =
         orders_.order(wanted.cells, key_of(wanted.view, wanted.placement));
     const std::span<const std::uint32_t> seen =
-        finder.advance(finder.work() * to / of, wanted.cells.slots(), order);
+        finder_.advance(finder_.work() * to / of, wanted.cells.slots(), order);
     if (to < of)
         return;
-    const std::span<const PixelSquare> parts = finder.parts();
+    const std::span<const PixelSquare> parts = finder_.parts();
     if (parts.empty()) {
         slots_.set(GL_R32UI, sizeof(seen[0]), std::as_bytes(seen));
     } else {

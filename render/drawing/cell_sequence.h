@@ -4,8 +4,7 @@
 #include "render/cells/cell_buffers.h"
 #include "render/cells/order_cache.h"
 #include "render/cells/placement.h"
-#include "render/culling/quad_culling.h"
-#include "render/culling/splat_culling.h"
+#include "render/culling/seen_slots.h"
 #include "render/gl/buffer_texture.h"
 #include "render/gl/view.h"
 
@@ -34,7 +33,7 @@ struct SequenceWanted {
     const Placement& placement;
     const CellBuffers& cells;
     SplatShape shape;
-    float falloff;   ///< of splats, see SeenSplats
+    float falloff;   ///< of splats, see SeenSlots
     bool blended;    ///< splats, back to front; else quads, nearest first
     bool leaves_out; ///< cells that cannot be seen are culled
 };
@@ -67,8 +66,7 @@ class CellSequences {
     void look(const SequenceWanted& wanted, std::size_t to, std::size_t of);
 
     OrderCache orders_;
-    SeenCells seen_cells_;
-    SeenSplats seen_splats_;
+    SeenSlots finder_;
     std::optional<Seen> seen_;
     std::vector<std::array<std::uint32_t, 3>> texels_; ///< see cell_order.glsl
     BufferTexture slots_;

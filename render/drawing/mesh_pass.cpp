@@ -39,7 +39,7 @@ Program MeshPass::make_program(Kind kind, Way way, const std::string& grid_prelu
     return link_program(*gl_, sources, prelude);
 }
 
-GLuint MeshPass::program(Kind kind, const Look& look) const {
+GLuint MeshPass::program(Kind kind, const MeshLook& look) const {
     const Way way = kind == Kind::blended || look.near ? Way::near
                     : look.small                       ? Way::small
                                                        : Way::plain;
@@ -131,7 +131,8 @@ void MeshPass::send_styles(const CellBuffers& cells, bool sorted) {
     styles_.set(GL_R16UI, sizeof(sent[0]), std::as_bytes(sent));
 }
 
-void MeshPass::draw(const CellBuffers& cells, const Look& look, PlaneOrder order, DrawPart part) {
+void MeshPass::draw(const CellBuffers& cells, const MeshLook& look, PlaneOrder order,
+                    DrawPart part) {
     const bool sorted = !order.of_mesh() && cells.size() <= kMostSorted;
     if (sorted)
         put_near_first(cells, order);
@@ -162,7 +163,7 @@ void MeshPass::draw(const CellBuffers& cells, const Look& look, PlaneOrder order
     }
 }
 
-void MeshPass::draw_blended(const CellBuffers& cells, const Look& look,
+void MeshPass::draw_blended(const CellBuffers& cells, const MeshLook& look,
                             std::span<const std::uint32_t> back_to_front) {
     find_styles(cells);
     std::vector<std::uint32_t> indices;

@@ -3,6 +3,7 @@
 
 #include "render/cells/cell_buffers.h"
 #include "render/cells/draw_part.h"
+#include "render/drawing/mesh_look.h"
 #include "render/drawing/mesh_order.h"
 #include "render/gl/buffer_texture.h"
 
@@ -24,32 +25,23 @@ class MeshPass {
     /// @throws Error when a shader does not compile
     MeshPass(const Gl& gl, const std::string& grid_prelude);
 
-    /// How triangles are drawn, apart from their order.
-    struct Look {
-        std::int32_t surfaces = 0;         ///< one bit for each drawn surface
-        std::span<const glm::vec4> colors; ///< of each surface, linear light
-        bool colored = false;              ///< by the cells' coordinates
-        bool near = false;  ///< so near that some may be cut away or fade, or large in the view
-        bool small = false; ///< triangles are of few pixels: lit at their vertices
-    };
-
     /// Draws one view with the frame and viewport that CellPass has bound, and its depth and blend
     /// state. (Two in one pass take software GL a third longer.)
     /// @param cells with a mesh, see `CellBuffers::has_mesh`
     /// @param order in which most is hidden by what comes before; unless there are too many
     /// @param part of the triangles of the surfaces that are drawn
-    void draw(const CellBuffers& cells, const Look& look, PlaneOrder order, DrawPart part);
+    void draw(const CellBuffers& cells, const MeshLook& look, PlaneOrder order, DrawPart part);
     /// Triangles of the surfaces that `draw` draws.
     static std::size_t triangles(const CellBuffers& cells, std::int32_t surfaces);
     /// Draws blended triangles, cell by cell in this order. @param back_to_front slots of the cells
-    void draw_blended(const CellBuffers& cells, const Look& look,
+    void draw_blended(const CellBuffers& cells, const MeshLook& look,
                       std::span<const std::uint32_t> back_to_front);
 
   private:
     enum class Kind : std::uint8_t { plain, styled, blended };
-    enum class Way : std::uint8_t { plain, near, small }; ///< of Look
+    enum class Way : std::uint8_t { plain, near, small }; ///< of MeshLook
     Program make_program(Kind kind, Way way, const std::string& grid_prelude) const;
-    GLuint program(Kind kind, const Look& look) const;
+    GLuint program(Kind kind, const MeshLook& look) const;
     void put_near_first(const CellBuffers& cells, PlaneOrder order);
     void send_styles(const CellBuffers& cells, bool sorted);
     void find_styles(const CellBuffers& cells);

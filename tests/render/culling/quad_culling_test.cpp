@@ -1,5 +1,5 @@
 // Occlusion culling of quads: hidden cells are left out, and pictures do not change.
-#include "render/culling/quad_culling.h"
+#include "render/culling/seen_slots.h"
 
 #include "render/cells/point_sprites.h"
 #include "tests/render/culling/hidden_cells.h"
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(, SeenCellsPictures, both_contexts(), context_name);
 TEST(SeenCells, OfAClosedShellAreItsNearHalf) {
     const Shell shell;
     for (const SplatShape& shape : kShapes) {
-        SeenCells seen;
+        SeenSlots seen;
         const auto found =
             seen.find(shell.volume.view, shell.volume.placement, shape, shell.slots, shell.order);
         const double share = double(found.size()) / double(shell.order.size());
@@ -92,7 +92,7 @@ TEST(SeenCells, AreNotBesideOrBehindTheView) {
     shell.volume.placement.room_from_index = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 3)) *
                                              shell.volume.placement.room_from_index;
     for (const SplatShape& shape : kShapes) {
-        SeenCells seen;
+        SeenSlots seen;
         const auto found =
             seen.find(shell.volume.view, shell.volume.placement, shape, shell.slots, shell.order);
         EXPECT_GT(found.size(), shell.order.size() / 100);
@@ -103,7 +103,7 @@ TEST(SeenCells, AreNotBesideOrBehindTheView) {
 TEST(SeenCells, ComeNearestFirst) {
     const Shell shell;
     for (const SplatShape& shape : kShapes) {
-        SeenCells seen;
+        SeenSlots seen;
         const auto found =
             seen.find(shell.volume.view, shell.volume.placement, shape, shell.slots, shell.order);
         std::vector<std::uint32_t> rest(shell.order.rbegin(), shell.order.rend());
@@ -118,7 +118,7 @@ TEST(SeenCells, ComeNearestFirst) {
 TEST(SeenCells, AreAsManyOnEveryKindOfProcessor) {
     const Shell shell;
     for (const SplatShape& shape : kShapes) {
-        SeenCells seen;
+        SeenSlots seen;
         const auto find = [&] {
             return seen.find(shell.volume.view, shell.volume.placement, shape, shell.slots,
                              shell.order);
@@ -131,7 +131,7 @@ TEST(SeenCells, AreAsManyOnEveryKindOfProcessor) {
 
 TEST(SeenCells, OfNoneAreNone) {
     const Shell shell;
-    SeenCells seen;
+    SeenSlots seen;
     for (const SplatShape& shape : kShapes)
         EXPECT_TRUE(seen.find(shell.volume.view, shell.volume.placement, shape, {}, {}).empty());
 }
@@ -140,7 +140,7 @@ TEST(SeenCells, InPiecesAreThoseOfTheWhole) {
     const Shell shell;
     std::mt19937 random(test_seed());
     for (const SplatShape& splat : kShapes) {
-        SeenCells seen;
+        SeenSlots seen;
         const auto found =
             seen.find(shell.volume.view, shell.volume.placement, splat, shell.slots, shell.order);
         const std::vector<std::uint32_t> whole(found.begin(), found.end());

@@ -1,5 +1,5 @@
 // Occlusion culling of splats: those behind opaque ones are left out, and pictures do not change.
-#include "render/culling/splat_culling.h"
+#include "render/culling/seen_slots.h"
 
 #include "tests/render/culling/hidden_cells.h"
 #include "tests/support/simd_targets.h"
@@ -127,10 +127,10 @@ INSTANTIATE_TEST_SUITE_P(, SeenSplatsPictures, both_contexts(), context_name);
 
 TEST(SeenSplats, OfAClosedShellAreLittleMoreThanItsNearHalf) {
     const Shell shell;
-    SeenSplats seen;
+    SeenSlots seen;
     index::on_every_simd_target([&] {
-        const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff,
-                                     shell.slots, shell.order);
+        const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, shell.slots,
+                                     shell.order, kFalloff);
         const double share = double(found.size()) / double(shell.order.size());
         EXPECT_GT(share, 0.4);
         EXPECT_LT(share, 0.75);
@@ -142,18 +142,18 @@ TEST(SeenSplats, AreNotBesideOrBehindTheView) {
     // From the middle of the shell, all around, a view of a tenth of it.
     shell.volume.placement.room_from_index = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, 3)) *
                                              shell.volume.placement.room_from_index;
-    SeenSplats seen;
-    const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff,
-                                 shell.slots, shell.order);
+    SeenSlots seen;
+    const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, shell.slots,
+                                 shell.order, kFalloff);
     EXPECT_GT(found.size(), shell.order.size() / 100);
     EXPECT_LT(found.size(), shell.order.size() / 4);
 }
 
 TEST(SeenSplats, ComeInTheOrderOfAll) {
     const Shell shell;
-    SeenSplats seen;
-    const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff,
-                                 shell.slots, shell.order);
+    SeenSlots seen;
+    const auto found = seen.find(shell.volume.view, shell.volume.placement, kShape, shell.slots,
+                                 shell.order, kFalloff);
     std::vector<std::uint32_t> rest = shell.order;
     std::erase_if(rest, [&](std::uint32_t slot) {
         return std::find(found.begin(), found.end(), slot) == found.end();
@@ -163,9 +163,9 @@ TEST(SeenSplats, ComeInTheOrderOfAll) {
 
 TEST(SeenSplats, OfNoneAreNone) {
     const Shell shell;
-    SeenSplats seen;
+    SeenSlots seen;
     EXPECT_TRUE(
-        seen.find(shell.volume.view, shell.volume.placement, kShape, kFalloff, {}, {}).empty());
+        seen.find(shell.volume.view, shell.volume.placement, kShape, {}, {}, kFalloff).empty());
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// How the triangles of cells are drawn: by the size of their voxels in the picture.
-#include "render/drawing/cell_pass.h"
+// Finds how large triangles are in a picture: by the size of their voxels.
+#include "render/drawing/mesh_look.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,11 +8,16 @@
 #include <algorithm>
 
 namespace isochron::render {
+namespace {
+
+struct VoxelInView {
+    float pixels; ///< along it
+    float angle;  ///< its length as a part of its distance
+};
 
 /// The largest voxel that can be in a view.
-CellPass::VoxelInView CellPass::largest_voxel(const View& view, const Placement& placement,
-                                              const CellBuffers& cells) {
-    const glm::vec3 spacing = placement.spacing() * cells.axes().largest();
+VoxelInView largest_voxel(const View& view, const Placement& placement, const AxisTable& axes) {
+    const glm::vec3 spacing = placement.spacing() * axes.largest();
     const float voxel = std::max({spacing.x, spacing.y, spacing.z});
     const glm::vec2 scale = 0.5f * glm::vec2(view.size) *
                             glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
@@ -27,13 +32,14 @@ CellPass::VoxelInView CellPass::largest_voxel(const View& view, const Placement&
     return {at_one_meter / distance, voxel / distance}; // infinite from within
 }
 
-void CellPass::draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPart part) {
-    const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
-    const View& view = views.front();
+} // namespace
+
+MeshLook mesh_look(const View& view, const Placement& placement, const AxisTable& axes,
+                   const CellAppearance& appearance) {
     CellAppearance opaque = appearance;
     for (SurfaceAppearance& surface : opaque.surfaces)
         surface.opacity = 1.0f;
-    const VoxelInView largest = largest_voxel(view, placement, cells);
+    const VoxelInView largest = largest_voxel(view, placement, axes);
     constexpr float kFewPixels = 8.0f; // so that light within a triangle is seen to be straight
     // Highlights are off by at most 2 % if the ways from a triangle to the eye are those in between
     // the ways from its vertices.
@@ -41,21 +47,9 @@ void CellPass::draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPa
     const bool even = largest.angle * largest.angle * appearance.shininess <= kEven &&
                       appearance.shininess >= kLeastShininess;
     const bool small = largest.pixels <= kFewPixels;
-    const MeshPass::Look look{.surfaces = layer.surfaces,
-                              .colors = frame.surfaces,
-                              .colored = appearance.values.has_value(),
-                              .near = !hides_what_is_behind(opaque, placement) || (!small && !even),
-                              .small = small};
-    if (layer.blended)
-        mesh_.draw_blended(cells, look,
-                           sequences_.orders()
-                               .order(cells, key_of(view, placement))
-                               .subspan(part.first, part.count));
-    else
-        mesh_.draw(
-            cells, look,
-            near_planes_first(frame.eyes[0].eye_in_index, placement.extent, placement.spacing()),
-            part);
+    return {.colored = appearance.values.has_value(),
+            .near = !hides_what_is_behind(opaque, placement) || (!small && !even),
+            .small = small};
 }
 
 } // namespace isochron::render

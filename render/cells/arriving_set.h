@@ -1,0 +1,70 @@
+// A set of cells on its way to the GPU: its points, or how it differs from the shown set.
+#pragma once
+
+#include "index/extraction/extraction.h"
+#include "render/cells/ranked_points.h"
+#include "render/cells/slot_plan.h"
+#include "render/cells/upload_count.h"
+#include "render/gl/device_array.h"
+#include "render/gl/staging_ring.h"
+
+#include <cstddef>
+#include <memory>
+
+namespace isochron::render {
+
+/// Bytes that may be sent in a frame, and how many were.
+struct SendBudget {
+    std::size_t bytes, sent = 0;
+    std::size_t left() const { return bytes - sent; }
+};
+
+/// Sends what says which cells a set has. Bricks of its volume and its mesh are sent beside it, by
+/// CellBuffers.
+class ArrivingSet {
+  public:
+    explicit ArrivingSet(const Gl& gl);
+
+    /// Begins with a set.
+    /// @param plan how the set differs from the shown one; null: the set comes with its points
+    void begin(index::ExtractionPtr set, std::unique_ptr<SlotPlan> plan);
+    /// Gives the set up, or ends when it is shown; `set` is null from then on. @return the set
+    index::ExtractionPtr end();
+
+    /// Null while nothing arrives.
+    const index::ExtractionPtr& set() const { return set_; }
+    bool comes_with_points() const { return ranked_ != nullptr; }
+
+    /// Sends points, or finds how the set differs, for at most about a millisecond.
+    /// @return whether all points are on the GPU, or the differences are known
+    bool send_points(SendBudget& budget, UploadCount& count);
+    /// Sends the differences and the styles of a set without points.
+    /// @return whether all are on the GPU
+    bool send_changes(StagingRing& ring, SendBudget& budget, UploadCount& count);
+
+    /// Puts the sent points in place of these; for a set with points that are all sent.
+    /// @return the slots of the cells
+    Slots swap_points(DeviceArray& points);
+    /// For a set without points, when all changes are sent.
+    SlotPlan& plan() { return *plan_; }
+    const DeviceArray& message() const { return message_; } ///< changed cells, for CellCompute
+    const DeviceArray& styles() const { return styles_; }   ///< likewise, of all cells by slot
+
+    static DeviceArray points_array(const Gl& gl); ///< of index::CellPoint
+
+  private:
+    bool send_message(StagingRing& ring, SendBudget& budget, UploadCount& count);
+    bool send_styles(StagingRing& ring, SendBudget& budget, UploadCount& count);
+
+    const Gl* gl_;
+    DeviceArray points_;  ///< of a set that comes with its points
+    DeviceArray message_; ///< of another set
+    DeviceArray styles_;
+    index::ExtractionPtr set_;
+    std::unique_ptr<RankedPoints> ranked_; ///< if the set comes with its points
+    std::unique_ptr<SlotPlan> plan_;       ///< else
+    bool merged_ = false;                  ///< whether `send_points` is done
+    std::size_t words_sent_ = 0, styles_sent_ = 0;
+};
+
+} // namespace isochron::render

@@ -257,6 +257,17 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
 }
 
+/// Sets all that a picture looks like, for the draws that follow.
+void Session::prepare_scene(const Picture& picture) {
+    scene_.set_guides(picture.guides);
+    scene_.set_panel(picture.audience.panel);
+    scene_.set_tools(picture.tools, picture.clip);
+    scene_.set_near_fade(config_.comfort, picture.audience.viewers);
+    scene_.set_veil(picture.veil);
+    scene_.set_array(array().info());
+    scene_.look(state_, picture.audience.viewers.front().head, picture.scale);
+}
+
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
                         FrameReport& report) {
     const Outputs::Overlay panel = frames_->leads()
@@ -280,13 +291,7 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
         outputs_.leave_free(now.free);
         outputs_.show_aside(now.aside);
         quality_.begin(log_.next());
-        scene_.set_guides(now.guides);
-        scene_.set_panel(now.audience.panel);
-        scene_.set_tools(now.tools, now.clip);
-        scene_.set_near_fade(config_.comfort, now.audience.viewers);
-        scene_.set_veil(now.veil);
-        scene_.set_array(array().info());
-        scene_.look(state_, now.audience.viewers.front().head, now.scale);
+        prepare_scene(now);
         const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
             if (!place.kept)
                 scene_.note_views(views);

@@ -226,6 +226,7 @@ class Session {
     void report_cells(FrameReport& report) const;
     FrameAnswer answer() const;
     bool captures(const FrameReport& report);
+    void prepare_scene(const Picture& picture);
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     Choosing choosing(Waiting waiting) const;

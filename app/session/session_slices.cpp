@@ -56,6 +56,7 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
         slices_.emplace(wanted);
     if (!slices_->whole) {
         slices_->pace.begin_frame(quality_.slice_budget());
+        prepare_scene(wanted); // the percentiles of finer cells are others
         draw_pieces(*slices_);
     }
     slices_whole_ = slices_->whole;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <random>
 #include <stop_token>
 #include <thread>
 #include <utility>
@@ -285,6 +286,60 @@ TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
     EXPECT_GT(most, many);
 }
 
+/// Waves in the colors of a second array, noise, whose percentiles lie the closer together the coarser
+/// the cells are that average it.
+class SessionRestInColors : public SessionRest {
+  protected:
+    SessionRestInColors()
+        : noise_({97, 97, 97}, 1, index::ValueType::f32, [this](double, double, double, double) {
+              return static_cast<double>(random_()) / std::mt19937::max();
+          }) {
+        index::MemorySeries waves(waves_.view()), noise(noise_.view());
+        noise.info().array = "noise";
+        build_index(waves, folder_.path() / "colored.isochron", {.color = &noise});
+        large_ = index::IndexFile::open(folder_.path() / "colored.isochron");
+    }
+    static interaction::Commands between_percentiles() {
+        interaction::Commands commands;
+        commands.isovalue = 0.1;
+        commands.coloring = interaction::Coloring{
+            .by = interaction::ColorBy::value, .map = "polar", .percentiles = {{10, 90}}};
+        return commands;
+    }
+    static std::vector<std::uint8_t> picture(const Session& session) {
+        return session.outputs().display().read_window().rgba;
+    }
+
+    std::mt19937 random_;
+    index::TestField noise_;
+};
+
+TEST_P(SessionRestInColors, AFinerSetInSlicesHasTheColorsAndTheLegendOfItsOwnPercentiles) {
+    Session session(config_with(1e-6), large_, *context_);
+    FrameReport report = frame(session, false, between_percentiles());
+    int coarse = 0, in_slices = 0; // pictures
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        coarse += report.redrawn && report.cells > 0 && report.coarsest > 0;
+        in_slices += report.redrawn && report.reason == QualityReason::in_slices;
+        return report.final && report.cells > 0 && report.coarsest == 0;
+    }));
+    EXPECT_GT(coarse, 0);
+    EXPECT_GT(in_slices, 0);
+
+    Config at_once = config_with(1e-6);
+    at_once.settled_footprint = report.footprint;
+    Session whole(at_once, large_, *context_);
+    for (int i = 0; i < 30; ++i)
+        whole.frame(head_at_rest(i / 60.0),
+                    i == 0 ? between_percentiles() : interaction::Commands(), Waiting::for_cells);
+    EXPECT_EQ(whole.log().frames().back().cells, report.cells);
+    EXPECT_TRUE(picture(session) == picture(whole));
+}
+
+INSTANTIATE_TEST_SUITE_P(Contexts, SessionRestInColors,
+                         testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
+                         context_name);
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionRest,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);

@@ -14,6 +14,7 @@
 #include "app/output/picture_note.h"
 #include "app/output/room_view.h"
 #include "app/quality/draw_cost.h"
+#include "app/scene/audience.h"
 #include "render/gl/frames_in_flight.h"
 #include "stereo/headset_display.h"
 #include "stereo/windows.h"
@@ -28,19 +29,6 @@
 #include <vector>
 
 namespace isochron::app {
-
-/// The viewers of one frame, how they are shown the scene, and what of theirs is in the room.
-struct Audience {
-    std::vector<stereo::ViewerPose> viewers; ///< by number
-    std::vector<stereo::HeadsetEye> eyes;    ///< of a headset that wants a picture
-    std::optional<interaction::Pose> wand;   ///< where it is shown
-    std::optional<ShownPanel> panel;         ///< that stands in the room
-    stereo::StereoMode stereo{};             ///< chosen live
-    /// A wand's ray or what is under a cursor is shown, which pictures to keep leave out.
-    bool aids = false;
-    bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
-    bool operator==(const Audience&) const = default;
-};
 
 /// Which window and viewport a scene is drawn for.
 struct ScenePlace {

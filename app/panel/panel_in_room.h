@@ -4,7 +4,7 @@
 //     const auto commands = commands_of(wand.rest, wand.commands);
 //     panel.update(input, state.room_panel);                      // in the frame, before commands
 //     panel.lay_out(model, input.time);
-//     scene.set_panel(panel.shown(state.room_panel));
+//     picture.audience.panel = panel.shown(state.room_panel);
 #pragma once
 
 #include "app/config/panel_config.h"

@@ -3,6 +3,11 @@
 
 #include "index/extraction/extraction.h"
 #include "index/volume/grid.h"
+#include "render/cells/placement.h"
+#include "render/drawing/cell_pass.h"
+#include "render/gl/view.h"
+
+#include <span>
 
 namespace isochron::app {
 
@@ -12,5 +17,13 @@ index::Grid small_grid(bool rectilinear);
 /// A plane through the cell in the middle of this grid, across its third axis: with its point, a
 /// mesh and the volume around it.
 index::ExtractionPtr small_surface(const index::Grid& grid);
+
+/// Draws such a surface with each of these footprints, opaque and translucent: as small as the
+/// voxels in the middle of a volume, of many pixels, and as large as on a way through it.
+void draw_small_surface(const render::Gl& gl, render::CellPass& pass,
+                        std::span<const render::View> views, const index::Grid& volume,
+                        const glm::dmat4& room_from_physical,
+                        std::span<const render::Footprint> footprints,
+                        const render::CellAppearance& configured);
 
 } // namespace isochron::app

@@ -78,7 +78,7 @@ interaction::ControlContext Session::control_context() const {
     context.state = {state_.mark, state_.clip, state_.ruler};
     context.data = data_frame(file_->info());
     context.find_surface = [this](const interaction::Pose& ray) {
-        return picker_.hit_by(ray, state_, scene_.shown());
+        return picker_.hit_by(ray, state_, scene_.cells().shown());
     };
     context.orthographic = state_.orthographic;
     context.start = &start_;
@@ -114,7 +114,7 @@ Commands Session::commands_from(const interaction::InputState& input) {
     // What is found depends on what is shown, so it is recorded like the operator's panel's
     // commands.
     interaction::merge(panel_commands_, controls_.found());
-    interaction::merge(panel_commands_, picker_.update(panel.rest, state_, scene_.shown()));
+    interaction::merge(panel_commands_, picker_.update(panel.rest, state_, scene_.cells().shown()));
     show_messages(controls_.notes());
     return commands;
 }
@@ -122,14 +122,15 @@ Commands Session::commands_from(const interaction::InputState& input) {
 /// Whether the drawn cells have the current coloring. Before that, their color coordinates have
 /// another meaning.
 bool Session::colored_as_asked() const {
-    const index::ExtractionPtr& shown = scene_.shown();
+    const index::ExtractionPtr& shown = scene_.cells().shown();
     const index::SurfacesQuery wanted = surfaces();
     return shown && shown->query.coloring == wanted.coloring &&
            shown->query.colors == wanted.colors && shown->query.array == wanted.array;
 }
 
 std::optional<ColorScale> Session::scale() const {
-    return color_scale(state_, *file_, colored_as_asked() ? scene_.shown() : index::ExtractionPtr(),
+    return color_scale(state_, *file_,
+                       colored_as_asked() ? scene_.cells().shown() : index::ExtractionPtr(),
                        percentiles_);
 }
 
@@ -143,13 +144,13 @@ void Session::set_headset_period(std::optional<interaction::Seconds> period) {
 }
 
 /// The picture of this frame, with the footprint of the last one.
-Session::Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
+Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
     const bool in_windows = this->in_windows(report);
     const Aids all = aids(input), none;
     const bool over = aids_lie_over();
     const Aids& seen = over ? none : all;
     over_ = over ? all : none;
-    return {
+    Picture picture{
         .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation,
                                              parallel_center()),
                      .eyes = outputs_.headset_eyes(),
@@ -167,16 +168,22 @@ Session::Picture Session::picture(const interaction::InputState& input, const Fr
                  static_cast<float>(report.comfort.vignette)},
         .room_from_physical = state_.room_from_physical,
         .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
-        .cells = scene_.shown(),
+        .cells = scene_.cells().shown(),
         .isosurfaces = state_.isosurfaces,
+        .value_unit = array().info().value_unit,
         .look = state_.look,
         .scale = shown_scale(),
         .bounding_box = state_.bounding_box,
-        .windows = outputs_.window_sizes(),
-        .free = flat_panel()
-                    ? panel_.covered(outputs_.windows()[0].framebuffer_size().x / panel_places().x)
-                    : 0,
-        .aside = stands_beside(interaction::Reading(input).viewer()) ? kPanelShare : 0.0f};
+        .orientation = false,
+        .caption = {},
+        .layout = {
+            .windows = outputs_.window_sizes(),
+            .free = flat_panel() ? panel_.covered(outputs_.windows()[0].framebuffer_size().x /
+                                                  panel_places().x)
+                                 : 0,
+            .aside = stands_beside(interaction::Reading(input).viewer()) ? kPanelShare : 0.0f}};
+    picture.orientation = on_desktop(picture.audience) && !state_.room_panel.shown;
+    return picture;
 }
 
 /// The devices that the views are made from, polled as late as possible.
@@ -228,8 +235,8 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool finer = only_gets_finer(now, waiting);
     const bool changed = now != drawn_ && !finer;
-    render::FootprintSet footprints = scene_.footprints();
-    render::FootprintSet possible = scene_.possible_footprints();
+    render::FootprintSet footprints = scene_.cells().footprints();
+    render::FootprintSet possible = scene_.cells().possible_footprints();
     if (report.cells > frames_->surface_limit())
         for (render::FootprintSet* set : {&footprints, &possible})
             set->remove(render::Footprint::surface);
@@ -245,8 +252,8 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     if (!live && ((mesh_wanted_ && !had_mesh) || detail_ != had_detail)) {
         request_cells(waiting);
         take_newest_cells(waiting, report);
-        now.cells = scene_.shown();
-        footprints = scene_.footprints();
+        now.cells = scene_.cells().shown();
+        footprints = scene_.cells().footprints();
         measure = agree(quality_.choose(state_, changed, how, footprints, footprints, report),
                         detail_, report);
     }
@@ -255,17 +262,6 @@ void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report)
     comes_in_slices_ &= finer;
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
-}
-
-/// Sets all that a picture looks like, for the draws that follow.
-void Session::prepare_scene(const Picture& picture) {
-    scene_.set_guides(picture.guides);
-    scene_.set_panel(picture.audience.panel);
-    scene_.set_tools(picture.tools, picture.clip);
-    scene_.set_near_fade(config_.comfort, picture.audience.viewers);
-    scene_.set_veil(picture.veil);
-    scene_.set_array(array().info());
-    scene_.look(state_, picture.audience.viewers.front().head, picture.scale);
 }
 
 void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
@@ -287,14 +283,13 @@ void Session::draw_eyes(const Picture& now, const interaction::InputState& input
     StopWatch watch;
     if (report.redrawn) {
         slices_.reset();
-        scene_.forget_views();
-        outputs_.leave_free(now.free);
-        outputs_.show_aside(now.aside);
+        views_.clear();
+        outputs_.leave_free(now.layout.free);
+        outputs_.show_aside(now.layout.aside);
         quality_.begin(log_.next());
-        prepare_scene(now);
         const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
             if (!place.kept)
-                scene_.note_views(views);
+                views_.insert(views_.end(), views.begin(), views.end());
             draw_views(place, views, *drawn_);
         };
         const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
@@ -312,7 +307,7 @@ FrameAnswer Session::answer() const {
     answer.close = outputs_.windows().should_close();
     answer.failure = extractor_.failure().value_or("");
     answer.view = quality_.view();
-    answer.surface_limit = scene_.surface_limit();
+    answer.surface_limit = scene_.cells().surface_limit();
     answer.slices_whole = slices_whole_;
     if (slices_ && slices_->whole)
         answer.slices_took = slices_->pace.whole();

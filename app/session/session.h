@@ -147,28 +147,6 @@ class Session {
     /// Share of a window's width for the panel in the room, if the head is emulated.
     static constexpr float kPanelShare = 0.4f;
 
-    /// Everything that the eyes' pictures depend on.
-    struct Picture {
-        Audience audience;
-        interaction::Mark mark;
-        std::optional<interaction::Pointed> pointed;
-        interaction::ToolDrawing tools;
-        interaction::ClipPlane clip;
-        Guides guides;
-        render::Veil veil;
-        interaction::Similarity room_from_physical;
-        render::Footprint footprint{};
-        index::ExtractionPtr cells;
-        std::vector<interaction::Isosurface> isosurfaces;
-        interaction::Look look;
-        std::optional<ColorScale> scale;
-        bool bounding_box = true;
-        std::vector<glm::ivec2> windows;
-        int free = 0;    ///< pixels at the left of the first one
-        float aside = 0; ///< share of width, see Outputs::show_aside
-        bool operator==(const Picture&) const = default;
-    };
-
     /// A picture that is drawn over several frames, and how far it has come.
     struct Slices {
         explicit Slices(const Picture& wanted) : picture(wanted) {}
@@ -178,12 +156,6 @@ class Session {
         std::size_t done = 0;     ///< units of work done at `place`
         Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
         bool whole = false;
-    };
-
-    /// Things that show where somebody points.
-    struct Aids {
-        std::optional<interaction::Pose> wand;
-        std::optional<interaction::Pointed> pointed;
     };
 
     void take_arrays();
@@ -226,7 +198,6 @@ class Session {
     void report_cells(FrameReport& report) const;
     FrameAnswer answer() const;
     bool captures(const FrameReport& report);
-    void prepare_scene(const Picture& picture);
     void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
     PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
     Choosing choosing(Waiting waiting) const;
@@ -239,11 +210,12 @@ class Session {
                     std::size_t work, std::size_t& done);
     void measure_unseen(const Picture& now, const StopWatch& frame, const FrameReport& report);
     std::size_t draw_views(const ScenePlace& place, std::span<const render::View> views,
-                           const Picture& picture, const SceneSlice& slice = {});
+                           const Picture& picture, const ScenePart& slice = {});
     std::vector<interaction::DeviceKind> devices_at_hand() const;
     OperatorPanel::Model panel_models(const FrameReport& report) const;
     glm::ivec2 panel_places() const;
-    bool on_desktop() const;
+    bool on_desktop(const Audience& audience) const;
+    Picture kept(const Picture& picture) const;
     /// Center of the data in the room while they are shown in parallel projection; else empty.
     std::optional<glm::dvec3> parallel_center() const;
     bool flat_panel() const; ///< the operator's panel is shown over the first window
@@ -272,6 +244,7 @@ class Session {
     index::Extractor extractor_;
     Scene scene_;
     DetailChoice details_;
+    std::vector<render::View> views_;     ///< of the last pictures in windows or a headset
     mutable PercentileRange percentiles_; ///< keeps what it has sorted
     std::optional<Picture> drawn_;        ///< last picture
     std::optional<Slices> slices_;        ///< the next one, if it is made in slices

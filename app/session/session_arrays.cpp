@@ -16,7 +16,7 @@ void Session::take_arrays() {
         array_names_.push_back(file_->array(number).info().array);
         if (number == 0)
             continue;
-        scene_.prepare_for(file_->array(number).info());
+        scene_.cells().prepare_for(file_->array(number).info());
         first_surfaces_.push_back(first_surfaces(config_, array_of(file_, number), home_.step));
     }
     color_names_ = index::color_source_names(*file_);

@@ -8,8 +8,8 @@
 namespace isochron::app {
 namespace {
 
-Scene::Use use_of(const index::ExtractionPtr& set) {
-    return set && set->query.detail.at_rest ? Scene::Use::at_rest : Scene::Use::always;
+CellSets::Use use_of(const index::ExtractionPtr& set) {
+    return set && set->query.detail.at_rest ? CellSets::Use::at_rest : CellSets::Use::always;
 }
 
 } // namespace
@@ -33,52 +33,52 @@ void Session::request_cells(Waiting waiting) {
 }
 
 void Session::take_newest_cells(Waiting waiting, FrameReport& report) {
-    const render::UploadCount before = scene_.uploaded();
+    const render::UploadCount before = scene_.cells().uploaded();
     StopWatch watch;
     if (waiting == Waiting::for_cells) {
-        scene_.send_whole();
+        scene_.cells().send_whole();
         extractor_.wait();
         report.wait = watch.lap();
     }
-    CellsInFrame cells = frames_->cells(extractor_, scene_.shown(), waiting);
+    CellsInFrame cells = frames_->cells(extractor_, scene_.cells().shown(), waiting);
     const bool in_motion = waiting == Waiting::never && report.pace == interaction::Pace::moving;
     const auto volume = in_motion ? render::SendVolume::never : render::SendVolume::with_cells;
     if (cells.show && !waits_its_turn(*cells.show) && !comes_too_late(*cells.show, waiting))
-        scene_.upload(*cells.show, volume, use_of(*cells.show));
+        scene_.cells().upload(*cells.show, volume, use_of(*cells.show));
     // A replay uploads all cells that were asked for in one frame, whatever the upload budget.
     while (waiting == Waiting::for_cells && *cells.show &&
-           scene_.held(use_of(*cells.show)) != *cells.show) {
-        scene_.upload(*cells.show, render::SendVolume::with_cells, use_of(*cells.show));
-        if (const std::string refusal = scene_.refusal(*cells.show); !refusal.empty()) {
+           scene_.cells().held(use_of(*cells.show)) != *cells.show) {
+        scene_.cells().upload(*cells.show, render::SendVolume::with_cells, use_of(*cells.show));
+        if (const std::string refusal = scene_.cells().refusal(*cells.show); !refusal.empty()) {
             if (!give_way(*cells.show))
                 throw render::Error(refusal);
             request_cells(waiting);
             extractor_.wait();
-            cells = frames_->cells(extractor_, scene_.shown(), waiting);
+            cells = frames_->cells(extractor_, scene_.cells().shown(), waiting);
         }
     }
-    scene_.draw_at_rest(!in_motion && !is_half_sent(), surfaces());
+    scene_.cells().draw_at_rest(!in_motion && !is_half_sent(), surfaces());
     if (cells.show)
         say_refused(*cells.show, report);
-    if (cells.stage && scene_.stage(cells.stage, use_of(cells.stage)))
+    if (cells.stage && scene_.cells().stage(cells.stage, use_of(cells.stage)))
         frames_->staged();
-    if (!scene_.is_complete()) // the picture has not come to rest
+    if (!scene_.cells().is_complete()) // the picture has not come to rest
         report.pace = interaction::Pace::moving;
     report.upload = watch.lap();
-    report.uploaded = scene_.uploaded().since(before);
+    report.uploaded = scene_.cells().uploaded().since(before);
     report_cells(report);
 }
 
 void Session::report_cells(FrameReport& report) const {
-    const index::ExtractionPtr& shown = scene_.shown();
+    const index::ExtractionPtr& shown = scene_.cells().shown();
     if (!shown)
         return;
     report.shown = shown->query.of_cells();
     report.cells = shown->cells();
     report.coarsest = shown->coarse() ? std::ranges::max(shown->detail) : 0;
     report.finest = shown->coarse() ? std::ranges::min(shown->detail) : 0;
-    for (const Scene::Use use : {Scene::Use::at_rest, Scene::Use::always})
-        if (const index::ExtractionPtr& set = scene_.held(use);
+    for (const CellSets::Use use : {CellSets::Use::at_rest, CellSets::Use::always})
+        if (const index::ExtractionPtr& set = scene_.cells().held(use);
             set && set->volume_cells && set->query.of_cells() == shown->query.of_cells())
             report.volume_cells = set->volume_cells;
     report.candidates = shown->candidates();
@@ -90,16 +90,16 @@ void Session::report_cells(FrameReport& report) const {
 /// Whether the set for pictures at rest lacks its volume, and the one for moving pictures shows the
 /// same: until then the finer one would be drawn in one frame, as a moving picture is.
 bool Session::is_half_sent() const {
-    const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
+    const index::ExtractionPtr& moving = scene_.cells().held(CellSets::Use::always);
     return captures_.wanted() == 0 && moving && moving->query.of_cells() == surfaces() &&
-           !scene_.is_complete(Scene::Use::at_rest);
+           !scene_.cells().is_complete(CellSets::Use::at_rest);
 }
 
 /// Whether a set takes so much longer to draw than the one at rest that is still being drawn in
 /// slices that this one is to be seen first.
 bool Session::waits_its_turn(const index::ExtractionPtr& set) const {
     constexpr std::size_t kManyMore = 8;
-    const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
+    const index::ExtractionPtr& resting = scene_.cells().held(CellSets::Use::at_rest);
     return set && resting && all_at_rest_ && set != resting && set->query.detail.at_rest &&
            resting->query.of_cells() == set->query.of_cells() && drawn_ &&
            drawn_->cells != resting && set->cells() > kManyMore * resting->cells();
@@ -108,7 +108,7 @@ bool Session::waits_its_turn(const index::ExtractionPtr& set) const {
 /// Whether a set for moving pictures, asked for before the picture came to rest, has fewer cells than
 /// the one that is there: a picture at rest only gets better.
 bool Session::comes_too_late(const index::ExtractionPtr& set, Waiting waiting) const {
-    const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
+    const index::ExtractionPtr& moving = scene_.cells().held(CellSets::Use::always);
     return waiting == Waiting::never && rests_ && set && moving && !set->query.detail.at_rest &&
            set->query.of_cells() == moving->query.of_cells() &&
            set->query.detail.most_cells < moving->query.detail.most_cells;
@@ -119,7 +119,7 @@ bool Session::set_comes() const {
     if (extractor_.busy())
         return true;
     const index::ExtractionPtr newest = extractor_.newest();
-    return newest && newest != refused_ && newest != scene_.held(use_of(newest));
+    return newest && newest != refused_ && newest != scene_.cells().held(use_of(newest));
 }
 
 /// Asks for fewer cells from now on, as these could not be shown. @return false if there is nothing
@@ -134,7 +134,7 @@ bool Session::give_way(const index::ExtractionPtr& set) {
 
 /// Says once, in one line, that a set is too large to be shown, and asks for fewer cells.
 void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) {
-    report.refused = scene_.refusal(set);
+    report.refused = scene_.cells().refusal(set);
     if (report.refused.empty()) {
         refused_ = nullptr;
     } else if (set != refused_) { // which may be refused with the same words as the last one
@@ -146,7 +146,7 @@ void Session::say_refused(const index::ExtractionPtr& set, FrameReport& report) 
 
 /// Whether no finer cells than those that are drawn will come for this picture.
 bool Session::is_finest(Waiting waiting) const {
-    const index::ExtractionPtr& shown = scene_.shown();
+    const index::ExtractionPtr& shown = scene_.cells().shown();
     return waiting != Waiting::never || !shown || !shown->coarse() ||
            (shown->query.detail == detail_ && detail_.at_rest);
 }
@@ -167,13 +167,13 @@ void Session::choose_set(Picture& now, Waiting waiting, FrameReport& report) {
     }
     rests_ = waiting != Waiting::never || captures_.wanted() > 0 ||
              report.time - constant_since_ >= FrameQuality::kStillAfter;
-    const index::ExtractionPtr& moving = scene_.held(Scene::Use::always);
+    const index::ExtractionPtr& moving = scene_.cells().held(CellSets::Use::always);
     const bool later = waiting == Waiting::never && captures_.wanted() == 0 && !all_at_rest_ &&
-                       comes_late(scene_.shown());
-    if ((rests_ && !later) || !moving || scene_.shown() == moving)
+                       comes_late(scene_.cells().shown());
+    if ((rests_ && !later) || !moving || scene_.cells().shown() == moving)
         return;
-    scene_.draw_at_rest(false, surfaces());
-    now.cells = scene_.shown();
+    scene_.cells().draw_at_rest(false, surfaces());
+    now.cells = scene_.cells().shown();
     now.scale = shown_scale();
     report_cells(report);
 }
@@ -184,7 +184,8 @@ index::DetailQuery Session::wanted_detail(Waiting waiting, const FrameReport& re
         return {};
     const render::Placement placement =
         render::Placement::of(file_->info().grid, matrix(state_.room_from_physical));
-    details_.look(config_.level_of_detail ? scene_.views() : std::span<const render::View>(),
+    details_.look(config_.level_of_detail ? std::span<const render::View>(views_)
+                                          : std::span<const render::View>(),
                   placement);
     if (waiting == Waiting::never && config_.level_of_detail)
         return detail_for_live(waiting, report);
@@ -198,7 +199,7 @@ index::DetailQuery Session::detail_for_live(Waiting waiting, const FrameReport& 
     const auto shows = [&](const index::ExtractionPtr& set) {
         return set && set->query.of_cells() == wanted;
     };
-    const index::ExtractionPtr& held = scene_.held(Scene::Use::always);
+    const index::ExtractionPtr& held = scene_.cells().held(CellSets::Use::always);
     const index::DetailQuery moving =
         details_.for_motion(quality_.cells_that_fit(interaction::Pace::moving),
                             held ? held->query.detail.most_cells : 0);
@@ -224,11 +225,11 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
     constexpr interaction::Seconds kUntilMeasured{0.5};
     // Costs are predicted well only near what has been drawn.
     constexpr std::uint64_t kFarthest = 8, kWorthASet = 4;
-    const index::ExtractionPtr& resting = scene_.held(Scene::Use::at_rest);
+    const index::ExtractionPtr& resting = scene_.cells().held(CellSets::Use::at_rest);
     const bool shows = resting && resting->query.of_cells() == surfaces();
     const bool seen = shows && drawn_ && drawn_->cells == resting;
     const std::uint64_t drawn =
-        (seen ? resting : scene_.held(Scene::Use::always))->query.detail.most_cells;
+        (seen ? resting : scene_.cells().held(CellSets::Use::always))->query.detail.most_cells;
     const auto fit = quality_.cells_that_fit(interaction::Pace::settled);
     // A time that was measured late, or while others worked, takes back nothing of this picture.
     const double most = std::min(fit.value_or(0), static_cast<double>(kFarthest * drawn));
@@ -244,7 +245,7 @@ index::DetailQuery Session::detail_at_rest(Waiting waiting, std::uint64_t moving
     if (detail_.at_rest && set_comes())
         return detail_; // asking for another one now would bring the two in turn
     if (!fit && !shows && rested < kUntilMeasured)
-        return scene_.held(Scene::Use::always)->query.detail;
+        return scene_.cells().held(CellSets::Use::always)->query.detail;
     // Of many more cells than before, some are seen soon.
     const bool grows = serves && cells_at_first_ >= kWorthASet * resting->query.detail.most_cells &&
                        2 * resting->cells() >= resting->query.detail.most_cells;

@@ -16,32 +16,40 @@ bool Session::in_windows(const FrameReport& report) {
     return !in_headset_ || report.time - *in_headset_ > kMoment;
 }
 
+/// The same picture as it is kept.
+Picture Session::kept(const Picture& picture) const {
+    Picture kept = picture;
+    if (!config_.picture_ray) {
+        kept.pointed.reset();
+        kept.audience.wand.reset();
+    }
+    kept.orientation = config_.picture_caption;
+    if (const index::ExtractionPtr& shown = scene_.cells().shown();
+        shown && config_.picture_caption)
+        kept.caption = caption_text(shown->query, file_->array(shown->query.array).info());
+    return kept;
+}
+
 std::size_t Session::draw_views(const ScenePlace& place, std::span<const render::View> views,
-                                const Picture& picture, const SceneSlice& slice) {
-    const bool aids = !place.kept || config_.picture_ray;
-    scene_.set_pointed(aids ? picture.pointed : std::nullopt);
-    scene_.set_orientation(place.kept ? config_.picture_caption
-                                      : on_desktop() && !state_.room_panel.shown);
-    scene_.set_caption(
-        place.kept && config_.picture_caption && scene_.shown()
-            ? caption_text(scene_.shown()->query, file_->array(scene_.shown()->query.array).info())
-            : std::string());
-    return scene_.draw(views, picture.room_from_physical, picture.footprint,
-                       aids ? picture.audience.wand : std::nullopt, slice);
+                                const Picture& picture, const ScenePart& part) {
+    return scene_.draw(place.kept ? kept(picture) : picture, views, part);
 }
 
 void Session::warm_up() {
     if (outputs_.headset())
         return;
-    Audience audience;
-    audience.viewers =
+    Picture picture;
+    picture.audience.viewers =
         viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
-    audience.stereo = state_.stereo;
-    scene_.set_near_fade(config_.comfort, audience.viewers);
-    scene_.look(state_, audience.viewers.front().head, std::nullopt);
-    outputs_.draw(audience,
-                  [this](const ScenePlace&, std::span<const render::View> views) {
-                      scene_.warm_up(views, state_.room_from_physical);
+    picture.audience.stereo = state_.stereo;
+    picture.room_from_physical = state_.room_from_physical;
+    picture.isosurfaces = state_.isosurfaces;
+    picture.look = state_.look;
+    picture.mark = state_.mark;
+    picture.bounding_box = state_.bounding_box;
+    outputs_.draw(picture.audience,
+                  [this, picture](const ScenePlace&, std::span<const render::View> views) {
+                      scene_.warm_up(picture, views);
                   },
                   {});
     Outputs::SlicePlace place; // what is drawn over several frames has a place of its own
@@ -51,13 +59,13 @@ void Session::warm_up() {
 }
 
 /// Where mouse and keyboard play the wand, it points while the cursor does.
-Session::Aids Session::aids(const interaction::InputState& input) const {
+Aids Session::aids(const interaction::InputState& input) const {
     const bool points =
         !head_is_emulated() || room_panel_.touched() || input.find("pointer") != nullptr;
     const interaction::DeviceState* wand =
         config_.wand_ray && points ? input.find("wand") : nullptr;
     return {wand ? wand->pose : std::nullopt,
-            picker_.pointed(input, !room_panel_.touched(), state_, scene_.shown())};
+            picker_.pointed(input, !room_panel_.touched(), state_, scene_.cells().shown())};
 }
 
 /// At a desktop only the cursor moves for long: the picture below it stays as it is.
@@ -72,13 +80,13 @@ void Session::draw_aids() {
     if (!over_.wand && !over_.pointed)
         return;
     for (const render::View& view : outputs_.display().views_in_window(outputs_.audience().viewers))
-        scene_.draw_aids(view, drawn_->room_from_physical, over_.wand, over_.pointed);
+        scene_.draw_aids(*drawn_, over_, view);
 }
 
 /// Whether the windows are on a desktop rather than walls: there users need help with orientation.
-bool Session::on_desktop() const {
+bool Session::on_desktop(const Audience& audience) const {
     const auto& screens = config_.installation.windows.front().viewports;
-    return outputs_.windows().first().has_window() && outputs_.shows_windows() &&
+    return outputs_.windows().first().has_window() && outputs_.shows_windows(audience) &&
            !outputs_.room() && screens.front().screen.fit_aspect;
 }
 
@@ -89,7 +97,8 @@ PictureNote Session::note() const {
     note.data_hash = fmt::format("{:016x}", file_->content_hash());
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     ExplorerState state = state_;
-    if (const index::ExtractionPtr& shown = scene_.shown()) { // may lag behind while time plays
+    if (const index::ExtractionPtr& shown =
+            scene_.cells().shown()) { // may lag behind while time plays
         state.step = shown->query.step;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
              ++i)

@@ -22,7 +22,7 @@ bool Session::may_be_sliced(Waiting waiting) const {
 /// be made in slices.
 bool Session::only_gets_finer(const Picture& now, Waiting waiting) const {
     if (!rests_ || !drawn_ || choosing(waiting) != Choosing::with_slices ||
-        now.cells == drawn_->cells || now.cells != scene_.held(Scene::Use::at_rest))
+        now.cells == drawn_->cells || now.cells != scene_.cells().held(CellSets::Use::at_rest))
         return false;
     Picture same = now;
     same.cells = drawn_->cells;
@@ -56,7 +56,6 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
         slices_.emplace(wanted);
     if (!slices_->whole) {
         slices_->pace.begin_frame(quality_.slice_budget());
-        prepare_scene(wanted); // the percentiles of finer cells are others
         draw_pieces(*slices_);
     }
     slices_whole_ = slices_->whole;
@@ -75,7 +74,7 @@ void Session::draw_slices(const Picture& now, const Outputs::Overlay& overlay,
 void Session::draw_pieces(Slices& slices) {
     StopWatch watch;
     while (const std::size_t work = slices.whole ? 0 : slices.pace.next()) {
-        std::size_t done = scene_.prepare_slices(slices.picture.footprint, work);
+        std::size_t done = scene_.prepare_parts(slices.picture, work);
         if (done > 0) {
             outputs_.gl().Finish(); // so that its time is known
             const Milliseconds time = watch.lap();
@@ -95,8 +94,8 @@ void Session::draw_pieces(Slices& slices) {
 /// after them. @param done work that was done, of at most `work` @return whether it was the last
 bool Session::draw_slice(Slices& slices, const ScenePlace& place,
                          std::span<const render::View> views, std::size_t work, std::size_t& done) {
-    SceneSlice slice{.begins = slices.place.begins, .cells = {slices.done, 0}, .ends = false};
-    const std::size_t all = scene_.work(views.size(), slices.picture.footprint);
+    ScenePart slice{.begins = slices.place.begins, .cells = {slices.done, 0}, .ends = false};
+    const std::size_t all = scene_.work(slices.picture, views.size());
     if (slice.begins) {
         slices.done = 0;
     } else if (slices.done < all) {
@@ -120,12 +119,13 @@ void Session::measure_unseen(const Picture& now, const StopWatch& frame,
             return surface.opacity >= 1.0f;
         });
     if (!footprint || !opaque || !frames_->alone() || !outputs_.want(now.audience) ||
-        now.cells != scene_.shown()) {
+        now.cells != scene_.cells().shown()) {
         unseen_.reset();
         return;
     }
     if (!unseen_ || unseen_->picture.cells != now.cells ||
-        unseen_->picture.footprint != *footprint || unseen_->picture.windows != now.windows)
+        unseen_->picture.footprint != *footprint ||
+        unseen_->picture.layout.windows != now.layout.windows)
         unseen_.emplace(now);
     unseen_->picture = now;
     unseen_->picture.footprint = *footprint;

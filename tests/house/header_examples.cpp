@@ -290,11 +290,23 @@ void live_loop_example(const Config& config, interaction::CompositeInput tracker
 #include "app/session/live_loop.example"
 }
 
-void panel_in_room_example(PanelInRoom& panel, Scene& scene, const interaction::InputState& input,
-                           const ExplorerState& state, const PanelModel& model,
+void panel_in_room_example(PanelInRoom& panel, Picture& picture,
+                           const interaction::InputState& input, const ExplorerState& state,
+                           const PanelModel& model,
                            interaction::Commands (*commands_of)(const interaction::InputState&,
                                                                 const interaction::Commands&)) {
 #include "app/panel/panel_in_room.example"
+}
+
+void cell_sets_example(CellSets& sets, const index::ExtractionPtr& newest, bool rests,
+                       const index::SurfacesQuery& surfaces,
+                       void (*draw)(const render::CellBuffers&)) {
+#include "app/scene/cell_sets.example"
+}
+
+void scene_example(Scene& scene, const index::ExtractionPtr& newest, const Picture& picture,
+                   std::span<const render::View> views) {
+#include "app/scene/scene.example"
 }
 
 struct SteadySeconds {

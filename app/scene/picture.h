@@ -1,0 +1,60 @@
+// What is drawn, as one value: a scene draws equal pictures to the bit alike.
+#pragma once
+
+#include "app/scene/audience.h"
+#include "app/scene/color_scale.h"
+#include "app/scene/guides.h"
+#include "index/extraction/extraction.h"
+#include "interaction/commands.h"
+#include "interaction/pointed.h"
+#include "interaction/tools/tool.h"
+#include "render/cells/footprints.h"
+#include "render/passes/veil_pass.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// Things that show where somebody points.
+struct Aids {
+    std::optional<interaction::Pose> wand;
+    std::optional<interaction::Pointed> pointed;
+    bool operator==(const Aids&) const = default;
+};
+
+/// Where the eyes' pictures lie in the windows.
+struct PictureLayout {
+    std::vector<glm::ivec2> windows; ///< their sizes [pixel]
+    int free = 0;                    ///< pixels at the left of the first one
+    float aside = 0;                 ///< share of width, see Outputs::show_aside
+    bool operator==(const PictureLayout&) const = default;
+};
+
+/// Everything that the eyes' pictures depend on.
+struct Picture {
+    Audience audience;
+    interaction::Mark mark;
+    std::optional<interaction::Pointed> pointed;
+    interaction::ToolDrawing tools;
+    interaction::ClipPlane clip;
+    Guides guides;
+    render::Veil veil;
+    interaction::Similarity room_from_physical;
+    render::Footprint footprint{};
+    index::ExtractionPtr cells;
+    std::vector<interaction::Isosurface> isosurfaces;
+    std::string value_unit; ///< of their isovalues
+    interaction::Look look;
+    std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart
+    bool bounding_box = true;
+    bool orientation = false; ///< the data's axes and a scale bar in a corner
+    std::string caption;      ///< in a corner; empty: none
+    PictureLayout layout;
+    bool operator==(const Picture&) const = default;
+};
+
+} // namespace isochron::app

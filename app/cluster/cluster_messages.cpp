@@ -151,25 +151,27 @@ std::optional<FrameOrder> decode_order(std::span<const std::byte> bytes) {
     return order;
 }
 
-MessageBytes encoded(const FrameChoice& choice) {
-    json value{{"footprint", choice.footprint},
-               {"reason", choice.reason},
-               {"final", choice.final},
-               {"measure", choice.measure},
-               {"mesh", choice.mesh},
-               {"detail", detail_json(choice.detail)},
-               {"shows_slices", choice.shows_slices},
-               {"holds_finer", choice.holds_finer},
-               {"all_at_rest", choice.all_at_rest}};
-    if (choice.in_slices)
-        value["in_slices"] = *choice.in_slices;
+MessageBytes encoded(const FramePlan& plan) {
+    json value{{"footprint", plan.footprint},
+               {"reason", plan.reason},
+               {"final", plan.final},
+               {"measure", plan.measure},
+               {"mesh", plan.mesh},
+               {"detail", detail_json(plan.detail)},
+               {"shows_slices", plan.shows_slices},
+               {"holds_finer", plan.holds_finer},
+               {"all_at_rest", plan.all_at_rest}};
+    if (plan.in_slices)
+        value["in_slices"] = *plan.in_slices;
+    if (plan.unseen)
+        value["unseen"] = *plan.unseen;
     return bytes_of(value);
 }
 
-FrameChoice decode_choice(std::span<const std::byte> bytes) {
+FramePlan decode_plan(std::span<const std::byte> bytes) {
     const json value = decoded(bytes);
-    Members members(value, "choice");
-    FrameChoice choice{
+    Members members(value, "plan");
+    FramePlan plan{
         footprint_from(members.at("footprint")),
         static_cast<QualityReason>(natural(members.at("reason"), "reason",
                                            static_cast<unsigned>(QualityReason::over_budget))),
@@ -182,10 +184,12 @@ FrameChoice decode_choice(std::span<const std::byte> bytes) {
         boolean(members.at("holds_finer"), "holds_finer"),
         boolean(members.at("all_at_rest"), "all_at_rest")};
     if (const json* in_slices = members.find("in_slices"))
-        choice.in_slices = footprint_from(*in_slices);
+        plan.in_slices = footprint_from(*in_slices);
+    if (const json* unseen = members.find("unseen"))
+        plan.unseen = footprint_from(*unseen);
     members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_slices",
-                  "shows_slices", "holds_finer", "all_at_rest"});
-    return choice;
+                  "shows_slices", "holds_finer", "all_at_rest", "unseen"});
+    return plan;
 }
 
 MessageBytes encoded(const FrameAnswer& answer) {

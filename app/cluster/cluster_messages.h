@@ -7,6 +7,7 @@
 #include "app/cluster/cell_agreement.h"
 #include "app/frame/frame_log.h"
 #include "app/quality/draw_meter.h"
+#include "app/quality/frame_plan.h"
 #include "interaction/recording/recording.h"
 
 #include <cstddef>
@@ -31,21 +32,6 @@ struct FrameOrder {
     bool operator==(const FrameOrder&) const = default;
 };
 
-/// From rank 0 to all, within a frame: how all eyes and windows are drawn.
-struct FrameChoice {
-    render::Footprint footprint = render::Footprint::quad;
-    QualityReason reason = QualityReason::moving;
-    bool final = false;          ///< the picture is as good as it gets for these cells
-    bool measure = false;        ///< draw even if nothing has changed
-    bool mesh = false;           ///< the sets asked for from now on come with a mesh
-    index::DetailQuery detail{}; ///< of the sets asked for from now on
-    std::optional<render::Footprint> in_slices{}; ///< of the picture at rest in slices, if any
-    bool shows_slices = false;                    ///< slices are whole everywhere, and shown
-    bool holds_finer = false; ///< finer cells of the same picture come in slices alone
-    bool all_at_rest = false; ///< all cells are wanted for this picture at rest
-    bool operator==(const FrameChoice&) const = default;
-};
-
 /// From every process to every process, when a frame is drawn and before it is shown.
 struct FrameAnswer {
     CellProgress cells;
@@ -62,14 +48,15 @@ struct FrameAnswer {
 using MessageBytes = std::vector<std::uint8_t>;
 
 MessageBytes encoded(const FrameOrder& order);
-MessageBytes encoded(const FrameChoice& choice);
+/// Rank 0 sends its plan to all within the frame.
+MessageBytes encoded(const FramePlan& plan);
 MessageBytes encoded(const FrameAnswer& answer);
 /// The order that ends the session: `decode_order` returns empty for it.
 MessageBytes encoded_end();
 
 /// These check every part of the message. @throws interaction::Error when one is wrong
 std::optional<FrameOrder> decode_order(std::span<const std::byte> bytes);
-FrameChoice decode_choice(std::span<const std::byte> bytes);
+FramePlan decode_plan(std::span<const std::byte> bytes);
 FrameAnswer decode_answer(std::span<const std::byte> bytes);
 
 } // namespace isochron::app

@@ -68,8 +68,8 @@ class FrameSharing {
     virtual bool slices_are_whole() const = 0;
     /// The time of that picture in the process that took longest.
     virtual Milliseconds slices_took(Milliseconds mine) const = 0;
-    /// @param mine used on rank 0 @return rank 0's choice, with which all processes draw
-    virtual FrameChoice agree(const FrameChoice& mine) = 0;
+    /// @param mine used on rank 0 @return rank 0's plan, by which all processes draw
+    virtual FramePlan agree(const FramePlan& mine) = 0;
 
     /// Returns when all processes have drawn the frame.
     /// @param mine makes this process's answer; called only if there are other processes

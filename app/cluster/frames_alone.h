@@ -25,7 +25,7 @@ class FramesAlone : public FrameSharing {
     std::uint64_t surface_limit() const override;
     bool slices_are_whole() const override { return true; }
     Milliseconds slices_took(Milliseconds mine) const override { return mine; }
-    FrameChoice agree(const FrameChoice& mine) override { return mine; }
+    FramePlan agree(const FramePlan& mine) override { return mine; }
     void swap_barrier(const std::function<FrameAnswer()>&) override {}
     bool close_wanted() const override { return false; }
 };

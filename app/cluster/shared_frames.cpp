@@ -63,9 +63,9 @@ Milliseconds SharedFrames::slices_took(Milliseconds) const {
     return std::ranges::max(answers_, {}, &FrameAnswer::slices_took).slices_took;
 }
 
-FrameChoice SharedFrames::agree(const FrameChoice& mine) {
+FramePlan SharedFrames::agree(const FramePlan& mine) {
     if (!leads())
-        return decode_choice(cluster_.hear());
+        return decode_plan(cluster_.hear());
     tell(encoded(mine));
     return mine;
 }

@@ -46,7 +46,7 @@ class SharedFrames final : public FrameSharing {
     /// By the answers to the last frame.
     bool slices_are_whole() const override;
     Milliseconds slices_took(Milliseconds mine) const override;
-    FrameChoice agree(const FrameChoice& mine) override;
+    FramePlan agree(const FramePlan& mine) override;
 
     /// @param mine cells and samples are filled in here
     void swap_barrier(const std::function<FrameAnswer()>& mine) override;

@@ -54,9 +54,9 @@ void FrameQuality::learn(std::span<const DrawSample> samples) {
             controller->measured(sample.footprint, sample.load, sample.cost());
 }
 
-bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
-                          render::FootprintSet available, render::FootprintSet possible,
-                          FrameReport& report) {
+FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
+                               render::FootprintSet available, render::FootprintSet possible,
+                               FrameReport& report) {
     if (changed)
         changed_at_ = report.time;
     const bool still = report.time - changed_at_ >= kStillAfter;
@@ -75,16 +75,13 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
         swayed_since_ = report.time;
     input.in_slices = in_the_end;
     const bool slices = still && in_the_end;
-    unseen_.reset();
     if (slices) {
         input.settled.reset();
         if (resting_ && resting_->input == input && resting_->possible == possible) {
-            ends_in_slices_ = true;
-            report.in_slices = input.in_slices;
             report.budget = steady_.budget();
-            tell(resting_->choice, resting_->final, report);
+            report.expected = resting_->cost;
             report.better = steady_.expected(*input.in_slices, input.load);
-            return false;
+            return resting_->plan;
         }
     }
     const bool pauses = still && !slices && report.pace != interaction::Pace::moving;
@@ -93,34 +90,32 @@ bool FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how
     with_mesh.available = possible;
     const QualityChoice with_all = QualityController(controller).choose(with_mesh);
     const QualityChoice choice = controller.choose(input);
+    FramePlan plan{
+        .footprint = choice.footprint, .reason = choice.reason, .measure = choice.measure};
     // A trial of the exact surface comes first where both are next.
-    wants_mesh_ = with_all.footprint == render::Footprint::mesh &&
-                  choice.footprint <= render::Footprint::mesh;
+    plan.mesh = with_all.footprint == render::Footprint::mesh &&
+                choice.footprint <= render::Footprint::mesh;
     if (how == Choosing::with_slices && !still)
-        unseen_ = steady_.worth_measuring(with_mesh);
-    wants_mesh_ |= unseen_ == render::Footprint::mesh;
-    if (unseen_ && !available.has(*unseen_))
-        unseen_.reset();
+        plan.unseen = steady_.worth_measuring(with_mesh);
+    plan.mesh |= plan.unseen == render::Footprint::mesh;
+    if (plan.unseen && !available.has(*plan.unseen))
+        plan.unseen.reset();
     // What a mesh or slices may still change is not final.
-    ends_in_slices_ = in_the_end && *in_the_end != choice.footprint;
-    const bool slices_come = ends_in_slices_ && report.time - swayed_since_ < kNeverStill;
-    const bool final =
+    plan.holds_finer = in_the_end && *in_the_end != choice.footprint;
+    const bool slices_come = plan.holds_finer && report.time - swayed_since_ < kNeverStill;
+    plan.final =
         choice.final && with_all.final && choice.footprint == with_all.footprint && !slices_come;
-    tell(choice, final, report);
     report.budget = controller.budget();
-    resting_.reset();
-    const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
-    if (slices && measured && choice.footprint != *input.in_slices)
-        resting_ = {input, possible, choice, final};
-    return choice.measure;
-}
-
-void FrameQuality::tell(const QualityChoice& choice, bool final, FrameReport& report) const {
-    report.footprint = choice.footprint;
-    report.reason = choice.reason;
-    report.final = final;
     report.expected = choice.cost;
     report.better = choice.better_cost;
+    resting_.reset();
+    const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
+    if (slices && measured && choice.footprint != *input.in_slices) {
+        resting_ = {input, possible, plan, choice.cost};
+        resting_->plan.in_slices = input.in_slices;
+        resting_->plan.measure = false;
+    }
+    return plan;
 }
 
 /// The footprint that this picture at rest is to have in the end, if it is made in slices.

@@ -3,9 +3,10 @@
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
 //     const Choosing how = Choosing::with_slices;
-//     if (quality.choose(state, changed, how, footprints, possible, report) || changed) {
+//     const FramePlan plan = quality.choose(state, changed, how, footprints, possible, report);
+//     if (plan.measure || changed) {
 //         quality.begin(log.next());
-//         draw(views, report.footprint);
+//         draw(views, plan.footprint);
 //         quality.end(report, of_cell, processor_time);
 //     }
 #pragma once
@@ -14,6 +15,7 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/quality/draw_meter.h"
+#include "app/quality/frame_plan.h"
 #include "app/quality/quality_controller.h"
 
 #include <optional>
@@ -56,29 +58,22 @@ class FrameQuality {
     /// most, as all draw with the same footprint.
     void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
 
-    /// Advances by one frame and says in its report how it is drawn, at the report's time and pace
-    /// and with its cells.
+    /// Advances by one frame and plans how it is drawn, at its report's time and pace and with its
+    /// cells; which cells come next is for others to plan. The report gets the budget and the
+    /// expected costs.
+    /// With slices, `FramePlan::in_slices` says which footprint to make once nothing needs to be
+    /// measured any more; from then on the choice stays until something changes. `holds_finer` says
+    /// whether the picture ends at another footprint, made in slices.
     /// @param changed what the eyes see has changed since the last frame, apart from the footprint
-    /// With slices, `FrameReport::in_slices` says which footprint to make once nothing needs to be
-    /// measured any more; from then on the choice stays until something changes.
-    /// @return true: draw even if nothing has changed, so that the cost gets known
     /// @param available that the cells can be drawn with
     /// @param possible the same if the cells were asked for with a mesh
-    bool choose(const ExplorerState& state, bool changed, Choosing how,
-                render::FootprintSet available, render::FootprintSet possible, FrameReport& report);
+    FramePlan choose(const ExplorerState& state, bool changed, Choosing how,
+                     render::FootprintSet available, render::FootprintSet possible,
+                     FrameReport& report);
 
     /// Cells that quads are expected to draw in every view within the budget, of moving pictures or
     /// of those at rest, with room to spare; empty before the first measurement.
     std::optional<double> cells_that_fit(interaction::Pace pace) const;
-
-    /// Whether the picture of the last choice ends at another footprint, made in slices.
-    bool ends_in_slices() const { return ends_in_slices_; }
-
-    /// Whether the last choice would have been a mesh, or `unseen`, if there had been one.
-    bool wants_mesh() const { return wants_mesh_; }
-    /// After a choice: the footprint to measure where nobody sees it, in the time that frames leave,
-    /// and to tell `learn_slices` of. Empty: none.
-    std::optional<render::Footprint> unseen() const { return unseen_; }
 
     /// Call before drawing the frame. @param frame its number in the log
     void begin(std::uint64_t frame);
@@ -102,11 +97,10 @@ class FrameQuality {
     struct Resting {
         QualityInput input;
         render::FootprintSet possible;
-        QualityChoice choice;
-        bool final = false;
+        FramePlan plan;
+        std::optional<Milliseconds> cost; ///< expected
     };
     std::optional<render::Footprint> sliced(const QualityInput& input, Choosing how) const;
-    void tell(const QualityChoice& choice, bool final, FrameReport& report) const;
 
     const std::optional<render::Footprint> settled_;
     const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
@@ -116,11 +110,9 @@ class FrameQuality {
     interaction::Seconds changed_at_{0};
     interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
     std::optional<Resting> resting_;       ///< while slices are made or shown
-    std::optional<render::Footprint> unseen_;
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in all views of the frame drawn last
     DrawLoad charged_;
-    bool wants_mesh_ = false, ends_in_slices_ = false;
 };
 
 } // namespace isochron::app

@@ -1,113 +1,145 @@
-// The contents of a session's pictures, and their notes.
-#include "app/session/session.h"
+// Makes the picture of a frame.
+#include "app/session/picture_maker.h"
 
 #include "app/scene/caption.h"
+#include "interaction/input/device_reading.h"
+#include "interaction/navigation/navigator.h"
+#include "interaction/tools/tool_table.h"
 
-#include <fmt/format.h>
+#include <utility>
 
 namespace isochron::app {
 
+std::vector<stereo::ViewerPose> PictureMaker::viewers(const interaction::InputState& input,
+                                                      const ExplorerState& state) const {
+    std::optional<glm::dvec3> center; // of the data in the room, in parallel projection
+    if (state.orthographic)
+        center = interaction::transform(state.room_from_physical,
+                                        physical_center(arrays_.file()->info().grid));
+    return viewer_poses(config_.installation, input, state.eye_separation, center);
+}
+
+/// Whether the drawn cells have the current coloring. Before that, their color coordinates have
+/// another meaning.
+bool PictureMaker::colored_as_asked(const ExplorerState& state) const {
+    const index::ExtractionPtr& shown = sets_.shown();
+    const index::SurfacesQuery wanted = arrays_.surfaces(state);
+    return shown && shown->query.coloring == wanted.coloring &&
+           shown->query.colors == wanted.colors && shown->query.array == wanted.array;
+}
+
+std::optional<ColorScale> PictureMaker::scale(const ExplorerState& state) const {
+    return color_scale(state, *arrays_.file(),
+                       colored_as_asked(state) ? sets_.shown() : index::ExtractionPtr(),
+                       percentiles_);
+}
+
+/// The color scale of the drawn cells. Empty until these have the current coloring.
+std::optional<ColorScale> PictureMaker::shown_scale(const ExplorerState& state) const {
+    return colored_as_asked(state) ? scale(state) : std::nullopt;
+}
+
 /// Whether the windows show the scene themselves: always without a headset; beside a headset only
 /// after it has wanted no picture for a moment.
-bool Session::in_windows(const FrameReport& report) {
+bool PictureMaker::in_windows(const FrameReport& report) {
     constexpr interaction::Seconds kMoment{0.5};
     if (!outputs_.headset_eyes().empty())
         in_headset_ = report.time;
     return !in_headset_ || report.time - *in_headset_ > kMoment;
 }
 
-/// The same picture as it is kept.
-Picture Session::kept(const Picture& picture) const {
+/// Whether the windows are on a desktop rather than walls: there users need help with orientation.
+bool PictureMaker::on_desktop(const Audience& audience) const {
+    const auto& screens = config_.installation.windows.front().viewports;
+    return outputs_.windows().first().has_window() && outputs_.shows_windows(audience) &&
+           !outputs_.room() && screens.front().screen.fit_aspect;
+}
+
+/// Where mouse and keyboard play the wand, it points while the cursor does.
+Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerState& state) const {
+    const bool touched = panel_.in_room().touched();
+    const bool points = !panel_.head_is_emulated() || touched || input.find("pointer") != nullptr;
+    const interaction::DeviceState* wand =
+        config_.wand_ray && points ? input.find("wand") : nullptr;
+    return {wand ? wand->pose : std::nullopt,
+            picker_.pointed(input, !touched, state, sets_.shown())};
+}
+
+/// At a desktop only the cursor moves for long: the picture below it stays as it is.
+bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
+    const bool one_picture_each = !stereo::Multiplex::shows(state.stereo) &&
+                                  stereo::upright(state.stereo) != stereo::StereoMode::quadbuffer;
+    return panel_.head_is_emulated() && !outputs_.room() && !config_.picture_ray &&
+           outputs_.displays() == 1 && one_picture_each;
+}
+
+Picture PictureMaker::make(const Frame& frame, const interaction::InputState& seen) {
+    const ExplorerState& state = frame.state;
+    const Aids all = aids(seen, state), none;
+    const bool over = aids_lie_over(state);
+    const Aids& within = over ? none : all;
+    over_ = over ? all : none;
+    Picture picture{
+        .audience = {.viewers = viewers(seen, state),
+                     .eyes = outputs_.headset_eyes(),
+                     .wand = within.wand,
+                     .panel = panel_.in_room().shown(state.room_panel),
+                     .stereo = state.stereo,
+                     .aids = within.wand || within.pointed,
+                     .in_windows = in_windows(frame.report)},
+        .mark = state.mark,
+        .pointed = within.pointed,
+        .tools = drawing_of({state.mark, state.clip, state.ruler}, data_frame(frame.file.info())),
+        .clip = state.clip,
+        .guides = {state.grid, interaction::teleport_target(seen)},
+        .veil = {static_cast<float>(frame.report.comfort.fade),
+                 static_cast<float>(frame.report.comfort.vignette)},
+        .room_from_physical = state.room_from_physical,
+        .footprint = frame.drawn ? frame.drawn->footprint : render::Footprint{},
+        .cells = sets_.shown(),
+        .isosurfaces = state.isosurfaces,
+        .value_unit = arrays_.shown(state).info().value_unit,
+        .look = state.look,
+        .scale = shown_scale(state),
+        .bounding_box = state.bounding_box,
+        .orientation = false,
+        .caption = {},
+        .layout = {.windows = outputs_.window_sizes(),
+                   .free = panel_.covered(state),
+                   .aside = panel_.stands_beside(interaction::Reading(seen).viewer(), state)
+                                ? SessionPanel::kShare
+                                : 0.0f}};
+    picture.orientation = on_desktop(picture.audience) && !state.room_panel.shown;
+    return picture;
+}
+
+Picture PictureMaker::first(const ExplorerState& state) const {
+    Picture picture;
+    picture.audience.viewers = viewers({}, state);
+    picture.audience.stereo = state.stereo;
+    picture.mark = state.mark;
+    picture.room_from_physical = state.room_from_physical;
+    picture.isosurfaces = state.isosurfaces;
+    picture.look = state.look;
+    picture.bounding_box = state.bounding_box;
+    return picture;
+}
+
+void PictureMaker::show_cells(Picture& picture, const ExplorerState& state) const {
+    picture.cells = sets_.shown();
+    picture.scale = shown_scale(state);
+}
+
+Picture PictureMaker::kept(const Picture& picture) const {
     Picture kept = picture;
     if (!config_.picture_ray) {
         kept.pointed.reset();
         kept.audience.wand.reset();
     }
     kept.orientation = config_.picture_caption;
-    if (const index::ExtractionPtr& shown = scene_.cells().shown();
-        shown && config_.picture_caption)
-        kept.caption = caption_text(shown->query, file_->array(shown->query.array).info());
+    if (const index::ExtractionPtr& shown = sets_.shown(); shown && config_.picture_caption)
+        kept.caption = caption_text(shown->query, arrays_.file()->array(shown->query.array).info());
     return kept;
-}
-
-std::size_t Session::draw_views(const ScenePlace& place, std::span<const render::View> views,
-                                const Picture& picture, const ScenePart& part) {
-    return scene_.draw(place.kept ? kept(picture) : picture, views, part);
-}
-
-void Session::warm_up() {
-    if (outputs_.headset())
-        return;
-    Picture picture;
-    picture.audience.viewers =
-        viewer_poses(config_.installation, {}, state_.eye_separation, parallel_center());
-    picture.audience.stereo = state_.stereo;
-    picture.room_from_physical = state_.room_from_physical;
-    picture.isosurfaces = state_.isosurfaces;
-    picture.look = state_.look;
-    picture.mark = state_.mark;
-    picture.bounding_box = state_.bounding_box;
-    outputs_.draw(picture.audience,
-                  [this, picture](const ScenePlace&, std::span<const render::View> views) {
-                      scene_.warm_up(picture, views);
-                  },
-                  {});
-    Outputs::SlicePlace place; // what is drawn over several frames has a place of its own
-    const auto nothing = [](const ScenePlace&, std::span<const render::View>) { return true; };
-    for (bool whole = false; !whole;)
-        whole = outputs_.draw_slice(place, nothing);
-}
-
-/// Where mouse and keyboard play the wand, it points while the cursor does.
-Aids Session::aids(const interaction::InputState& input) const {
-    const bool points =
-        !head_is_emulated() || room_panel_.touched() || input.find("pointer") != nullptr;
-    const interaction::DeviceState* wand =
-        config_.wand_ray && points ? input.find("wand") : nullptr;
-    return {wand ? wand->pose : std::nullopt,
-            picker_.pointed(input, !room_panel_.touched(), state_, scene_.cells().shown())};
-}
-
-/// At a desktop only the cursor moves for long: the picture below it stays as it is.
-bool Session::aids_lie_over() const {
-    const bool one_picture_each = !stereo::Multiplex::shows(state_.stereo) &&
-                                  stereo::upright(state_.stereo) != stereo::StereoMode::quadbuffer;
-    return head_is_emulated() && !outputs_.room() && !config_.picture_ray &&
-           outputs_.displays() == 1 && one_picture_each;
-}
-
-void Session::draw_aids() {
-    if (!over_.wand && !over_.pointed)
-        return;
-    for (const render::View& view : outputs_.display().views_in_window(outputs_.audience().viewers))
-        scene_.draw_aids(*drawn_, over_, view);
-}
-
-/// Whether the windows are on a desktop rather than walls: there users need help with orientation.
-bool Session::on_desktop(const Audience& audience) const {
-    const auto& screens = config_.installation.windows.front().viewports;
-    return outputs_.windows().first().has_window() && outputs_.shows_windows(audience) &&
-           !outputs_.room() && screens.front().screen.fit_aspect;
-}
-
-PictureNote Session::note() const {
-    PictureNote note;
-    note.data = data_name_;
-    note.recorded_on = recorded_on_;
-    note.data_hash = fmt::format("{:016x}", file_->content_hash());
-    note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
-    ExplorerState state = state_;
-    if (const index::ExtractionPtr& shown =
-            scene_.cells().shown()) { // may lag behind while time plays
-        state.step = shown->query.step;
-        for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
-             ++i)
-            state.isosurfaces[i].isovalue = shown->query.isovalues[i];
-    }
-    note.state = state.as_commands();
-    note.input = input_;
-    note.latched = latched_;
-    return note;
 }
 
 } // namespace isochron::app

@@ -1,10 +1,13 @@
 // One session: brings data, search, devices and displays together, frame by frame.
 #include "app/session/session.h"
 
+#include "app/frame/stop_watch.h"
+#include "app/scene/color_scale.h"
 #include "app/session/start_state.h"
-#include "interaction/input/device_reading.h"
-#include "interaction/navigation/navigator.h"
+#include "index/file/index_watch.h"
 #include "interaction/tools/tool_table.h"
+
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -13,28 +16,25 @@ namespace {
 
 using interaction::Commands;
 
+/// Frames over which the panel summarizes frame times.
+constexpr std::size_t kShownFrames = 120;
+
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  stereo::Windows windows, index::Extract extract,
                  std::unique_ptr<stereo::Headset> headset)
-    : config_(std::move(config)), file_(std::move(file)),
-      newest_(std::make_shared<index::NewestIndex>(file_)), times_(file_->info().times),
-      outputs_(config_, std::move(windows), std::move(headset)),
-      state_(start_state(config_, file_)), home_(state_), gate_(config_.stillness),
-      comfort_(config_.comfort),
-      extractor_(extract ? std::move(extract)
-                         : index::extract_from_newest(
-                               newest_, render::CellBuffers::wanted_shading(outputs_.gl())),
-                 file_->cache_bytes() / 2),
-      scene_(outputs_.gl(), file_->info(), config_),
-      details_(file_->info().grid, static_cast<std::uint64_t>(config_.most_cells)),
-      panel_(outputs_.gl(), outputs_.windows(), config_.panel.font_scale),
-      room_panel_(outputs_.gl(), config_.panel), picker_(file_),
-      // Beside a headset the window's refresh rate does not count.
-      quality_(outputs_.gl(), config_,
-               outputs_.headset() ? std::nullopt : outputs_.windows().first().refresh_rate()) {
-    take_arrays();
+    : config_(std::move(config)), outputs_(config_, std::move(windows), std::move(headset)),
+      state_(start_state(config_, file)), home_(state_), arrays_(config_, file, home_),
+      times_(file->info().times), gate_(config_.stillness), comfort_(config_.comfort),
+      scene_(outputs_.gl(), file->info(), config_), panel_(config_, outputs_), picker_(file),
+      supply_(config_, file, scene_.cells(), std::move(extract),
+              render::CellBuffers::wanted_shading(outputs_.gl())),
+      pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
+      choice_(config_, outputs_, log_, scene_.cells(), supply_, pictures_),
+      sliced_(scene_, outputs_, choice_.quality()) {
+    for (std::size_t number = 1; number < file->arrays(); ++number)
+        scene_.cells().prepare_for(file->array(number).info());
 }
 
 bool Session::should_close() const {
@@ -42,7 +42,35 @@ bool Session::should_close() const {
 }
 
 std::string Session::failure() const {
-    return frames_->failure(extractor_);
+    return frames_->failure(supply_.extractor());
+}
+
+std::string Session::drawing() const {
+    std::string text = outputs_.windows().drawing().description();
+    for (const std::string& line : scene_.given_up())
+        text += "; " + line;
+    return text;
+}
+
+void Session::set_state(const ExplorerState& state) {
+    expect_array(state.array);
+    state_ = state;
+    picker_.set_file(arrays_.held(state_));
+}
+
+void Session::grow(std::shared_ptr<const index::IndexFile> file) {
+    arrays_.set_file(file);
+    picker_.set_file(arrays_.held(state_));
+    supply_.set_file(std::move(file));
+}
+
+/// In a cluster rank 0 reports that there are more steps, and the other processes look for them.
+void Session::grow_with(const Commands& commands) {
+    const index::IndexFile& file = *arrays_.file();
+    if (!commands.steps || *commands.steps <= file.info().steps())
+        return;
+    if (auto grown = index::grown(file.name(), file))
+        grow(std::move(grown));
 }
 
 interaction::ControlContext Session::control_context() const {
@@ -52,31 +80,31 @@ interaction::ControlContext Session::control_context() const {
     context.picked = state_.picked;
     context.coloring = state_.coloring;
     context.bounding_box = state_.bounding_box;
-    context.color_arrays = &color_names_;
-    context.color_array = color_array(state_, *file_);
+    context.color_arrays = &arrays_.color_names();
+    context.color_array = color_array(state_, *arrays_.file());
     context.next_array = next_array_ ? &*next_array_ : nullptr;
-    context.low = array().stats().low;
-    context.high = array().stats().high;
+    context.low = arrays_.shown(state_).stats().low;
+    context.high = arrays_.shown(state_).stats().high;
     context.step = state_.step;
     context.times = &times_;
     context.follow = state_.follow;
     context.playback = state_.playback;
     context.room_from_physical = state_.room_from_physical;
     context.home = home_.room_from_physical;
-    context.pivot = physical_center(file_->info().grid);
+    context.pivot = physical_center(arrays_.file()->info().grid);
     context.quality = state_.quality;
     context.eye_separation = state_.eye_separation;
     context.stereo = stereo::name_of(state_.stereo);
     context.panel = state_.panel;
     context.room_panel = state_.room_panel;
-    context.panel_distance = room_panel_.distance();
-    context.panel_place = panel_place();
+    context.panel_distance = panel_.in_room().distance();
+    context.panel_place = panel_.place();
     context.grid = state_.grid;
     context.views = &state_.views;
     context.stereo_modes = &outputs_.stereo_modes();
     context.tools = state_.tools;
     context.state = {state_.mark, state_.clip, state_.ruler};
-    context.data = data_frame(file_->info());
+    context.data = data_frame(arrays_.file()->info());
     context.find_surface = [this](const interaction::Pose& ray) {
         return picker_.hit_by(ray, state_, scene_.cells().shown());
     };
@@ -101,11 +129,12 @@ Commands Session::way_to_start() const {
 }
 
 Commands Session::commands_from(const interaction::InputState& input) {
+    const std::size_t arrays = arrays_.names().size();
     start_ = way_to_start();
     next_array_.reset();
-    if (file_->arrays() > 1)
-        next_array_ = way_to_array((array_number() + 1) % file_->arrays());
-    PanelInRoom::Outcome panel = room_panel_.outcome(input, state_.room_panel);
+    if (arrays > 1)
+        next_array_ = way_to_array((arrays_.number(state_) + 1) % arrays);
+    PanelInRoom::Outcome panel = panel_.in_room().outcome(input, state_.room_panel);
     interaction::ControlContext context = control_context();
     if (panel.touched) // the wand points at the panel, which is in front of the data
         context.find_surface = {};
@@ -113,77 +142,24 @@ Commands Session::commands_from(const interaction::InputState& input) {
     interaction::merge(commands, panel.commands);
     // What is found depends on what is shown, so it is recorded like the operator's panel's
     // commands.
-    interaction::merge(panel_commands_, controls_.found());
-    interaction::merge(panel_commands_, picker_.update(panel.rest, state_, scene_.cells().shown()));
+    panel_.add(controls_.found());
+    panel_.add(picker_.update(panel.rest, state_, scene_.cells().shown()));
     show_messages(controls_.notes());
     return commands;
 }
 
-/// Whether the drawn cells have the current coloring. Before that, their color coordinates have
-/// another meaning.
-bool Session::colored_as_asked() const {
-    const index::ExtractionPtr& shown = scene_.cells().shown();
-    const index::SurfacesQuery wanted = surfaces();
-    return shown && shown->query.coloring == wanted.coloring &&
-           shown->query.colors == wanted.colors && shown->query.array == wanted.array;
-}
-
-std::optional<ColorScale> Session::scale() const {
-    return color_scale(state_, *file_,
-                       colored_as_asked() ? scene_.cells().shown() : index::ExtractionPtr(),
-                       percentiles_);
-}
-
-/// The color scale of the drawn cells. Empty until these have the current coloring.
-std::optional<ColorScale> Session::shown_scale() const {
-    return colored_as_asked() ? scale() : std::nullopt;
+std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEvent& cursor,
+                                                 const interaction::Pose& head) const {
+    if (panel_.over().covers(cursor))
+        return std::nullopt;
+    interaction::InputState emulated;
+    emulated.devices.push_back({.name = "head", .pose = head, .valuators = {}});
+    return outputs_.ray_at(cursor, pictures_.viewers(emulated, state_));
 }
 
 void Session::set_headset_period(std::optional<interaction::Seconds> period) {
-    quality_.set_headset_period(period ? std::optional(Milliseconds(*period)) : std::nullopt);
-}
-
-/// The picture of this frame, with the footprint of the last one.
-Picture Session::picture(const interaction::InputState& input, const FrameReport& report) {
-    const bool in_windows = this->in_windows(report);
-    const Aids all = aids(input), none;
-    const bool over = aids_lie_over();
-    const Aids& seen = over ? none : all;
-    over_ = over ? all : none;
-    Picture picture{
-        .audience = {.viewers = viewer_poses(config_.installation, input, state_.eye_separation,
-                                             parallel_center()),
-                     .eyes = outputs_.headset_eyes(),
-                     .wand = seen.wand,
-                     .panel = room_panel_.shown(state_.room_panel),
-                     .stereo = state_.stereo,
-                     .aids = seen.wand || seen.pointed,
-                     .in_windows = in_windows},
-        .mark = state_.mark,
-        .pointed = seen.pointed,
-        .tools = drawing_of({state_.mark, state_.clip, state_.ruler}, data_frame(file_->info())),
-        .clip = state_.clip,
-        .guides = {state_.grid, interaction::teleport_target(input)},
-        .veil = {static_cast<float>(report.comfort.fade),
-                 static_cast<float>(report.comfort.vignette)},
-        .room_from_physical = state_.room_from_physical,
-        .footprint = drawn_ ? drawn_->footprint : render::Footprint{},
-        .cells = scene_.cells().shown(),
-        .isosurfaces = state_.isosurfaces,
-        .value_unit = array().info().value_unit,
-        .look = state_.look,
-        .scale = shown_scale(),
-        .bounding_box = state_.bounding_box,
-        .orientation = false,
-        .caption = {},
-        .layout = {
-            .windows = outputs_.window_sizes(),
-            .free = flat_panel() ? panel_.covered(outputs_.windows()[0].framebuffer_size().x /
-                                                  panel_places().x)
-                                 : 0,
-            .aside = stands_beside(interaction::Reading(input).viewer()) ? kPanelShare : 0.0f}};
-    picture.orientation = on_desktop(picture.audience) && !state_.room_panel.shown;
-    return picture;
+    choice_.quality().set_headset_period(period ? std::optional(Milliseconds(*period))
+                                                : std::nullopt);
 }
 
 /// The devices that the views are made from, polled as late as possible.
@@ -191,113 +167,125 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
                                       FrameReport& report) {
     const interaction::InputState newest =
         latch ? latch() : interaction::InputState{input.time, {}};
-    latched_ = viewers_heads(newest, config_.installation);
-    interaction::InputState seen = with_heads(input, latched_);
+    note_.latched = viewers_heads(newest, config_.installation);
+    interaction::InputState seen = with_heads(input, note_.latched);
     report.pose_age = pose_age(seen, newest.time, config_.installation);
     return seen;
 }
 
-/// Learns the draw costs of the slowest process, as all draw with the same footprint.
-void Session::learn_costs() {
-    quality_.learn(frames_->samples(quality_.collect(log_)));
-    quality_.charge(frames_->largest(quality_.view()));
+PanelModel Session::panel_model(const FrameReport& report) const {
+    static const std::vector<interaction::ControlGroup> controls =
+        interaction::Controls::documentation();
+    const index::IndexFile& array = arrays_.shown(state_);
+    const auto scale = pictures_.scale(state_);
+    return {.info = array.info(),
+            .stats = array.stats(),
+            .asked = state_,
+            .arrays = arrays_.names(),
+            .array = arrays_.number(state_),
+            .color_arrays = arrays_.color_names(),
+            .color_array = color_array(state_, *arrays_.file()),
+            .way_to_array = [this](std::size_t number) { return way_to_array(number); },
+            .scale_range = scale ? scale->range : std::array{0.0, 0.0},
+            .color_maps = config_.color_maps,
+            .frame = report,
+            .frame_times = log_.stage(&FrameReport::total, kShownFrames),
+            .frames_per_second = log_.frames_per_second(kShownFrames),
+            .reading = reading(),
+            .at_hand_steps = supply_.extractor().at_hand(),
+            .searching = supply_.extractor().busy(),
+            .failure = failure(),
+            .message = {},
+            .standing = {},
+            .controls = controls,
+            .at_hand = devices_at_hand(),
+            .undo = history_.undo(),
+            .redo = history_.redo(),
+            .data = data_frame(arrays_.file()->info()),
+            .head = outputs_.audience().viewers.empty() ? interaction::Pose{}
+                                                        : outputs_.audience().viewers.front().head,
+            .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
 }
 
-/// Takes over rank 0's choice. @return whether rank 0 wants this frame measured
-bool Session::agree(bool measure, const index::DetailQuery& detail, FrameReport& report) {
-    // More cells than a frame can draw come in slices alone, which may begin some frames later; also
-    // far more than those that were drawn, of which the time is not known well.
-    constexpr std::size_t kFarMore = 4;
-    const bool near =
-        !drawn_ || !drawn_->cells || report.cells <= kFarMore * drawn_->cells->cells();
-    const bool fits = near && report.expected && *report.expected <= report.budget;
-    const FrameChoice choice = frames_->agree({report.footprint, report.reason, report.final,
-                                               measure, quality_.wants_mesh(), detail,
-                                               report.in_slices, frames_->slices_are_whole(),
-                                               quality_.ends_in_slices() && !fits, all_at_rest_});
-    mesh_wanted_ = choice.mesh;
-    detail_ = choice.detail;
-    all_at_rest_ = choice.all_at_rest;
-    shows_slices_ = choice.shows_slices;
-    comes_in_slices_ = choice.holds_finer;
-    report.in_slices = choice.in_slices;
-    report.footprint = choice.footprint;
-    report.reason = choice.reason;
-    report.final = choice.final;
-    return choice.measure;
+std::vector<interaction::DeviceKind> Session::devices_at_hand() const {
+    using enum interaction::DeviceKind;
+    std::vector<interaction::DeviceKind> kinds{mouse, keyboard};
+    if (!config_.devices.empty() || outputs_.headset())
+        kinds.push_back(hands);
+    if (note_.input.find("gamepad"))
+        kinds.push_back(gamepad);
+    return kinds;
 }
 
-void Session::choose_quality(Picture& now, Waiting waiting, FrameReport& report) {
-    learn_costs();
-    choose_set(now, waiting, report);
-    const bool live = waiting == Waiting::never;
-    if (live && !log_.frames().empty())
-        report.missed = quality_.missed(report.time - log_.frames().back().time);
-    const bool finer = only_gets_finer(now, waiting);
-    const bool changed = now != drawn_ && !finer;
-    render::FootprintSet footprints = scene_.cells().footprints();
-    render::FootprintSet possible = scene_.cells().possible_footprints();
-    if (report.cells > frames_->surface_limit())
-        for (render::FootprintSet* set : {&footprints, &possible})
-            set->remove(render::Footprint::surface);
-    const Choosing how = choosing(waiting);
-    const bool had_mesh = mesh_wanted_;
-    const index::DetailQuery had_detail = detail_;
-    bool measure = quality_.choose(state_, changed, how, footprints, possible, report);
-    report.final &= is_finest(waiting);
-    const index::DetailQuery wanted = wanted_detail(waiting, report);
-    report.final &= !live || wanted == detail_;
-    measure = agree(measure, wanted, report);
-    // A replay's picture is as good as it gets at once.
-    if (!live && ((mesh_wanted_ && !had_mesh) || detail_ != had_detail)) {
-        request_cells(waiting);
-        take_newest_cells(waiting, report);
-        now.cells = scene_.cells().shown();
-        footprints = scene_.cells().footprints();
-        measure = agree(quality_.choose(state_, changed, how, footprints, footprints, report),
-                        detail_, report);
-    }
-    now.footprint = report.footprint;
-    rest_in_slices(now, waiting, report);
-    comes_in_slices_ &= finer;
-    // While a headset wants no picture, there is nothing to draw or to measure.
-    report.redrawn = outputs_.want(now.audience) && (now != drawn_ || measure) && !comes_in_slices_;
+void Session::warm_up() {
+    if (outputs_.headset())
+        return;
+    const Picture picture = pictures_.first(state_);
+    outputs_.draw(picture.audience,
+                  [this, picture](const ScenePlace&, std::span<const render::View> views) {
+                      scene_.warm_up(picture, views);
+                  },
+                  {});
+    Outputs::SlicePlace place; // what is drawn over several frames has a place of its own
+    const auto nothing = [](const ScenePlace&, std::span<const render::View>) { return true; };
+    for (bool whole = false; !whole;)
+        whole = outputs_.draw_slice(place, nothing);
 }
 
-void Session::draw_eyes(const Picture& now, const interaction::InputState& input,
-                        FrameReport& report) {
-    const Outputs::Overlay panel = frames_->leads()
-                                       ? [&](glm::ivec2 size) {
-                                             draw_aids();
-                                             draw_panel_overlay(size, report);
-                                         }
-                                       : Outputs::Overlay();
-    slices_whole_ = report.in_slices && now.footprint == *report.in_slices;
-    if (report.in_slices && !report.redrawn && now.footprint != *report.in_slices &&
-        outputs_.want(now.audience)) {
-        draw_slices(now, panel, report);
-        return outputs_.draw_room(input, panel);
-    }
-    if (!comes_in_slices_)
-        drawn_ = now;
-    StopWatch watch;
-    if (report.redrawn) {
-        slices_.reset();
-        views_.clear();
-        outputs_.leave_free(now.layout.free);
-        outputs_.show_aside(now.layout.aside);
-        quality_.begin(log_.next());
-        const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
-            if (!place.kept)
-                views_.insert(views_.end(), views.begin(), views.end());
-            draw_views(place, views, *drawn_);
-        };
-        const DrawLoad of_cell = outputs_.draw(now.audience, scene, panel);
-        quality_.end(report, of_cell, report.upload + watch.lap());
+void Session::draw_eyes(const Frame& frame, const Picture& now,
+                        const interaction::InputState& input, const SessionPanel::Facts& facts) {
+    const Outputs::Overlay overlay =
+        frames_->leads() ? [&](glm::ivec2 size) {
+            draw_aids();
+            panel_.draw_over(size, state_, facts, frame.report.time);
+        } : Outputs::Overlay();
+    const bool in_slices = plan_.in_slices && now.footprint == *plan_.in_slices;
+    sliced_.begin_frame(in_slices);
+    if (plan_.in_slices && !frame.report.redrawn && !in_slices && outputs_.want(now.audience)) {
+        if (auto whole = sliced_.draw(frame, now, overlay)) {
+            drawn_ = std::move(whole);
+            frame.report.footprint = drawn_->footprint;
+            frame.report.redrawn = true;
+        } else {
+            outputs_.draw_again(now.audience, overlay);
+        }
     } else {
-        outputs_.draw_again(now.audience, panel);
+        if (!plan_.holds_finer)
+            drawn_ = now;
+        if (frame.report.redrawn)
+            draw_anew(frame, now, overlay);
+        else
+            outputs_.draw_again(now.audience, overlay);
     }
-    outputs_.draw_room(input, panel);
+    outputs_.draw_room(input, overlay);
+}
+
+void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay) {
+    StopWatch watch;
+    sliced_.give_up();
+    supply_.forget_views();
+    outputs_.leave_free(now.layout.free);
+    outputs_.show_aside(now.layout.aside);
+    choice_.quality().begin(log_.next());
+    const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
+        if (place.kept) {
+            scene_.draw(pictures_.kept(*drawn_), views);
+        } else {
+            supply_.note_views(views);
+            scene_.draw(*drawn_, views);
+        }
+    };
+    const DrawLoad of_cell = outputs_.draw(now.audience, scene, overlay);
+    choice_.quality().end(frame.report, of_cell, frame.report.upload + watch.lap());
+}
+
+/// Over the last picture, which lacks them.
+void Session::draw_aids() {
+    const Aids& over = pictures_.over();
+    if (!over.wand && !over.pointed)
+        return;
+    for (const render::View& view : outputs_.display().views_in_window(outputs_.audience().viewers))
+        scene_.draw_aids(*drawn_, over, view);
 }
 
 /// The answer that other processes get before a frame is shown.
@@ -305,12 +293,11 @@ FrameAnswer Session::answer() const {
     outputs_.gl().Finish(); // a frame that is still being drawn would be shown late
     FrameAnswer answer;
     answer.close = outputs_.windows().should_close();
-    answer.failure = extractor_.failure().value_or("");
-    answer.view = quality_.view();
+    answer.failure = supply_.extractor().failure().value_or("");
+    answer.view = choice_.quality().view();
     answer.surface_limit = scene_.cells().surface_limit();
-    answer.slices_whole = slices_whole_;
-    if (slices_ && slices_->whole)
-        answer.slices_took = slices_->pace.whole();
+    answer.slices_whole = sliced_.are_whole();
+    answer.slices_took = sliced_.took();
     return answer;
 }
 
@@ -318,15 +305,38 @@ bool Session::captures(const FrameReport& report) {
     return captures_.take({.time = report.time,
                            .asked = report.asked,
                            .shown = report.shown,
-                           .failed = frames_->has_no_answer(extractor_),
+                           .failed = frames_->has_no_answer(supply_.extractor()),
                            .final = report.final});
 }
 
-void Session::show_messages(std::vector<std::string> messages) {
-    if (messages.empty())
-        return;
-    message_ = std::move(messages.back());
-    messages_ += messages.size();
+PictureNote Session::note() const {
+    PictureNote note = note_;
+    note.data_hash = fmt::format("{:016x}", arrays_.file()->content_hash());
+    note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
+    ExplorerState state = state_;
+    if (const index::ExtractionPtr& shown = scene_.cells().shown()) { // may lag while time plays
+        state.step = shown->query.step;
+        for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
+             ++i)
+            state.isosurfaces[i].isovalue = shown->query.isovalues[i];
+    }
+    note.state = state.as_commands();
+    return note;
+}
+
+/// Takes the commands over into the state, and into what depends on it.
+void Session::obey(const Commands& commands, const interaction::InputState& input) {
+    const ExplorerState before = state_;
+    grow_with(commands);
+    const std::vector<double>& times = arrays_.file()->info().times;
+    state_.apply(commands, times.size());
+    if (arrays_.turn(before, state_))
+        picker_.set_file(arrays_.held(state_));
+    if (times_.size() != steps())
+        times_.assign(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(steps()));
+    history_.add(before, state_, commands, input);
+    if (commands.screenshot)
+        captures_.ask();
 }
 
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
@@ -337,34 +347,33 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
-    panel_commands_ = {}; // nobody takes them in a replay
-    const interaction::InputState rest = room_panel_.update(input, state_.room_panel);
-    const ExplorerState before = state_;
-    grow_with(commands);
-    state_.apply(commands, file_->info().steps());
-    turn_to_array(before);
-    if (times_.size() != steps())
-        times_.assign(file_->info().times.begin(),
-                      file_->info().times.begin() + static_cast<std::ptrdiff_t>(steps()));
-    history_.add(before, state_, commands, input);
-    if (commands.screenshot)
-        captures_.ask();
+    panel_.take_commands(); // nobody takes them in a replay
+    const interaction::InputState rest = panel_.in_room().update(input, state_.room_panel);
+    obey(commands, input);
     report.comfort = comfort_.update(input, state_.room_from_physical);
-    report.asked = surfaces();
+    report.asked = arrays_.surfaces(state_);
     report.pace = gate_.update(rest, commands, state_.quality);
-    request_cells(waiting);
-    report.extracting = extractor_.busy();
-    take_newest_cells(waiting, report);
-    if (state_.room_panel.shown)
-        room_panel_.lay_out(panel_model(PanelPlace::in_room, report), report.time);
-    else
-        room_panel_.leave_out();
-    Picture now = picture(seen(rest, heads, report), report);
-    choose_quality(now, waiting, report);
+    const Frame frame{.state = state_,
+                      .file = *arrays_.file(),
+                      .steps = steps(),
+                      .waiting = waiting,
+                      .is_kept = captures_.wanted() > 0,
+                      .drawn = drawn_,
+                      .sharing = *frames_,
+                      .plan = plan_,
+                      .report = report};
+    const SessionPanel::Facts facts = [&] { return panel_model(report); };
+    supply_.request(frame);
+    report.extracting = supply_.extractor().busy();
+    supply_.take_newest(frame);
+    show_messages(supply_.take_messages());
+    panel_.lay_out_room(state_, facts, report.time);
+    Picture now = pictures_.make(frame, seen(rest, heads, report));
+    choice_.choose(frame, now);
 
     StopWatch stages;
-    draw_eyes(now, input, report);
-    interaction::merge(panel_commands_, panel_.draw_alone(panel_models(report), report.time));
+    draw_eyes(frame, now, input, facts);
+    panel_.draw_alone(facts, report.time);
     report.draw = stages.lap();
     frames_->swap_barrier([this] { return answer(); });
     report.barrier = stages.lap();
@@ -372,13 +381,13 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.present();
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
-    measure_unseen(now, whole, report);
-    input_ = input;
+    sliced_.measure_unseen(frame, now, whole);
+    note_.input = input;
     if (captures(report))
         outputs_.take_screenshots(note());
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());
-    report.extracting |= extractor_.busy();
+    report.extracting |= supply_.extractor().busy();
     report.processor = processor_time() - worked;
     report.total = whole.lap();
     log_.add(report);

@@ -14,26 +14,26 @@
 #include "app/frame/frame_log.h"
 #include "app/frame/history.h"
 #include "app/frame/late_latch.h"
-#include "app/frame/stop_watch.h"
 #include "app/output/outputs.h"
-#include "app/panel/operator_panel.h"
-#include "app/panel/panel_in_room.h"
 #include "app/quality/capture_wait.h"
-#include "app/quality/detail_choice.h"
+#include "app/quality/frame_plan.h"
 #include "app/quality/frame_quality.h"
-#include "app/quality/slice_pace.h"
 #include "app/scene/scene.h"
+#include "app/session/cell_supply.h"
 #include "app/session/picker.h"
+#include "app/session/picture_choice.h"
+#include "app/session/picture_maker.h"
+#include "app/session/session_panel.h"
+#include "app/session/shown_arrays.h"
+#include "app/session/sliced_pictures.h"
 #include "index/extraction/extractor.h"
 #include "interaction/controls/controls.h"
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -60,13 +60,15 @@ class Session {
     void set_state(const ExplorerState& state);
     /// Commands that show an array as it was left, or as at a first look.
     /// @param number as `index::IndexFile::array` takes it
-    interaction::Commands way_to_array(std::size_t number) const;
+    interaction::Commands way_to_array(std::size_t number) const {
+        return arrays_.way_to(number, state_);
+    }
     /// For `SavedSession`: how arrays that are not shown were left; `recall_arrays` sets it again.
-    std::vector<interaction::Commands> left_arrays() const;
-    void recall_arrays(const std::vector<interaction::Commands>& left);
+    std::vector<interaction::Commands> left_arrays() const { return arrays_.left(state_); }
+    void recall_arrays(const std::vector<interaction::Commands>& left) { arrays_.recall(left); }
     /// @param name of an array of the surfaces; empty: the first
     /// @throws index::Error when the index has no such array
-    void expect_array(const std::string& name) const;
+    void expect_array(const std::string& name) const { arrays_.expect(name); }
     const ExplorerState& home() const { return home_; }
     /// Continues with the same data that have more steps. The command `steps` makes them visible.
     void grow(std::shared_ptr<const index::IndexFile> file);
@@ -82,18 +84,20 @@ class Session {
                                             const interaction::Pose& head) const;
 
     /// Size of the panel in the room, for the emulation of a wand.
-    interaction::PanelSize room_panel_size() const { return room_panel_.size(); }
+    interaction::PanelSize room_panel_size() const { return panel_.in_room().size(); }
 
     /// Commands that a replay could not compute from the devices: those of the operator's panel
     /// during the last frame, and what picking found in the shown picture. Take them once, before
     /// the next frame.
-    interaction::Commands take_panel_commands();
+    interaction::Commands take_panel_commands() { return panel_.take_commands(); }
 
-    OperatorPanel& panel() { return panel_; }
+    OperatorPanel& panel() { return panel_.over(); }
 
     /// Passes window events to the panel. @return the events that it does not use
     std::vector<interaction::WindowEvent>
-    panel_events(std::span<const interaction::WindowEvent> events);
+    panel_events(std::span<const interaction::WindowEvent> events) {
+        return panel_.feed(events, state_);
+    }
 
     /// Draws once what nobody sees, before the first frame: drivers compile what they draw with
     /// when it is first used, which takes longer than a frame may.
@@ -104,7 +108,7 @@ class Session {
                              const interaction::Commands& commands, Waiting waiting,
                              const Latch& latch = {});
     /// The heads from the last frame's latch, for its recording; may be none.
-    const interaction::InputState& latched() const { return latched_; }
+    const interaction::InputState& latched() const { return note_.latched; }
     /// Sets the function that returns session time, to measure the latency from input to picture.
     /// Without it a frame's input counts as polled when the frame begins.
     void set_clock(std::function<interaction::Seconds()> clock) { clock_ = std::move(clock); }
@@ -113,21 +117,22 @@ class Session {
     void set_headset_period(std::optional<interaction::Seconds> period);
 
     /// Shows the last of these messages on the panel until there is a newer one.
-    void show_messages(std::vector<std::string> messages);
+    void show_messages(std::vector<std::string> messages) {
+        panel_.show_messages(std::move(messages));
+    }
     /// Shows this on the picture as long as it is not empty.
-    void set_standing(std::string note) { standing_ = std::move(note); }
-    void say_refused(const index::ExtractionPtr& set, FrameReport& report);
-    void set_recording(bool recording) { recording_ = recording; }
+    void set_standing(std::string note) { panel_.set_standing(std::move(note)); }
+    void set_recording(bool recording) { panel_.set_recording(recording); }
     /// Sets what the panel shows about movies from now on.
-    void set_movies(const MovieState& movies) { movies_ = movies; }
+    void set_movies(const MovieState& movies) { panel_.set_movies(movies); }
     /// Times of the known steps.
     std::span<const double> times() const { return times_; }
 
     /// Sets the file name of the data, for the notes in pictures.
     /// @param recorded_on hash of the recording's data, if those are others
     void set_data_name(const std::string& name, const std::string& recorded_on = {}) {
-        data_name_ = name;
-        recorded_on_ = recorded_on;
+        note_.data = name;
+        note_.recorded_on = recorded_on;
     }
     /// Note about the last frame.
     PictureNote note() const;
@@ -141,145 +146,51 @@ class Session {
     /// The context, its driver, and the driver's features that do not work; one line for reports.
     std::string drawing() const;
     /// What has been read from the index since it was opened.
-    index::ReadUse reading() const { return file_->reading(); }
+    index::ReadUse reading() const { return arrays_.file()->reading(); }
 
   private:
-    /// Share of a window's width for the panel in the room, if the head is emulated.
-    static constexpr float kPanelShare = 0.4f;
-
-    /// A picture that is drawn over several frames, and how far it has come.
-    struct Slices {
-        explicit Slices(const Picture& wanted) : picture(wanted) {}
-        Picture picture;
-        SlicePace pace;
-        Outputs::SlicePlace place;
-        std::size_t done = 0;     ///< units of work done at `place`
-        Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
-        bool whole = false;
-    };
-
-    void take_arrays();
-    void turn_to_array(const ExplorerState& before);
-    std::size_t array_number() const { return file_->array_called(state_.array).value_or(0); }
-    /// The array whose surfaces are asked for.
-    const index::IndexFile& array() const { return file_->array(array_number()); }
-    index::SurfacesQuery surfaces() const;
+    std::size_t steps() const { return state_.known_steps(arrays_.file()->info().steps()); }
     interaction::ControlContext control_context() const;
-    void grow_with(const interaction::Commands& commands);
-    std::size_t steps() const { return state_.known_steps(file_->info().steps()); }
     interaction::Commands way_to_start() const;
-    void request_cells(Waiting waiting);
-    void take_newest_cells(Waiting waiting, FrameReport& report);
-    bool colored_as_asked() const;
-    std::optional<ColorScale> scale() const;
-    std::optional<ColorScale> shown_scale() const;
-    Picture picture(const interaction::InputState& input, const FrameReport& report);
-    Aids aids(const interaction::InputState& input) const;
-    bool aids_lie_over() const;
-    void draw_aids();
+    void obey(const interaction::Commands& commands, const interaction::InputState& input);
+    void grow_with(const interaction::Commands& commands);
     interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
                                  FrameReport& report);
-    bool in_windows(const FrameReport& report);
-    void learn_costs();
-    void choose_quality(Picture& now, Waiting waiting, FrameReport& report);
-    bool agree(bool measure, const index::DetailQuery& detail, FrameReport& report);
-    bool is_finest(Waiting waiting) const;
-    void choose_set(Picture& now, Waiting waiting, FrameReport& report);
-    index::DetailQuery wanted_detail(Waiting waiting, const FrameReport& report);
-    index::DetailQuery detail_for_live(Waiting waiting, const FrameReport& report);
-    index::DetailQuery detail_at_rest(Waiting waiting, std::uint64_t moving,
-                                      interaction::Seconds rested);
-    bool waits_its_turn(const index::ExtractionPtr& set) const;
-    bool comes_too_late(const index::ExtractionPtr& set, Waiting waiting) const;
-    bool comes_late(const index::ExtractionPtr& set) const;
-    bool is_half_sent() const;
-    bool set_comes() const;
-    bool give_way(const index::ExtractionPtr& set);
-    void report_cells(FrameReport& report) const;
+    void draw_eyes(const Frame& frame, const Picture& now, const interaction::InputState& input,
+                   const SessionPanel::Facts& facts);
+    void draw_anew(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay);
+    void draw_aids();
+    PanelModel panel_model(const FrameReport& report) const;
+    std::vector<interaction::DeviceKind> devices_at_hand() const;
     FrameAnswer answer() const;
     bool captures(const FrameReport& report);
-    void draw_eyes(const Picture& now, const interaction::InputState& input, FrameReport& report);
-    PanelModel panel_model(PanelPlace place, const FrameReport& report) const;
-    Choosing choosing(Waiting waiting) const;
-    bool may_be_sliced(Waiting waiting) const;
-    bool only_gets_finer(const Picture& now, Waiting waiting) const;
-    void rest_in_slices(Picture& now, Waiting waiting, FrameReport& report);
-    void draw_slices(const Picture& now, const Outputs::Overlay& overlay, FrameReport& report);
-    void draw_pieces(Slices& slices);
-    bool draw_slice(Slices& slices, const ScenePlace& place, std::span<const render::View> views,
-                    std::size_t work, std::size_t& done);
-    void measure_unseen(const Picture& now, const StopWatch& frame, const FrameReport& report);
-    std::size_t draw_views(const ScenePlace& place, std::span<const render::View> views,
-                           const Picture& picture, const ScenePart& slice = {});
-    std::vector<interaction::DeviceKind> devices_at_hand() const;
-    OperatorPanel::Model panel_models(const FrameReport& report) const;
-    glm::ivec2 panel_places() const;
-    bool on_desktop(const Audience& audience) const;
-    Picture kept(const Picture& picture) const;
-    /// Center of the data in the room while they are shown in parallel projection; else empty.
-    std::optional<glm::dvec3> parallel_center() const;
-    bool flat_panel() const; ///< the operator's panel is shown over the first window
-    bool head_is_emulated() const;
-    std::optional<interaction::Pose> panel_place() const;
-    bool stands_beside(const interaction::Pose& head) const;
-    void draw_panel_overlay(glm::ivec2 size, const FrameReport& report);
 
     Config config_;
-    std::shared_ptr<const index::IndexFile> file_;
-    std::shared_ptr<index::NewestIndex> newest_; ///< the same file, for the worker
-    std::vector<double> times_;                  ///< of the known steps
     Outputs outputs_;
     ExplorerState state_;
-    ExplorerState home_;
+    const ExplorerState home_;
+    ShownArrays arrays_;
+    std::vector<double> times_;   ///< of the known steps
     interaction::Commands start_; ///< commands that lead back to home_
-    std::vector<std::string> array_names_, color_names_;
-    /// The surfaces at the first look at an array, for each array but the first.
-    std::vector<std::vector<interaction::Isosurface>> first_surfaces_;
-    /// How arrays that were shown before were left, by number.
-    std::map<std::size_t, interaction::Commands> left_;
     std::optional<interaction::Commands> next_array_;
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;
-    index::Extractor extractor_;
     Scene scene_;
-    DetailChoice details_;
-    std::vector<render::View> views_;     ///< of the last pictures in windows or a headset
-    mutable PercentileRange percentiles_; ///< keeps what it has sorted
-    std::optional<Picture> drawn_;        ///< last picture
-    std::optional<Slices> slices_;        ///< the next one, if it is made in slices
-    std::optional<Slices> unseen_;        ///< one that is made only to measure it
-    Aids over_;                           ///< drawn over the last picture, if they are
-    OperatorPanel panel_;
-    PanelInRoom room_panel_;
+    SessionPanel panel_;
     Picker picker_;
     History history_;
-    const std::vector<interaction::ControlGroup> documentation_ =
-        interaction::Controls::documentation();
-    interaction::Commands panel_commands_;
-    interaction::InputState input_; ///< of the last frame
-    interaction::InputState latched_;
-    std::string data_name_, recorded_on_;
-    std::function<interaction::Seconds()> clock_;
     FrameLog log_;
-    FrameQuality quality_;
+    CellSupply supply_;
+    PictureMaker pictures_;
+    PictureChoice choice_;
+    SlicedPictures sliced_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
+    FramePlan plan_;               ///< of the last frame
+    std::optional<Picture> drawn_; ///< last picture
     CaptureWait captures_;
-    std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
-    index::DetailQuery detail_;                      ///< of the sets that are asked for
-    interaction::Seconds constant_since_{0};         ///< when the eyes last saw something change
-    bool comes_in_slices_ = false;                   ///< the newest picture is drawn in slices only
-    bool shows_slices_ = false;                      ///< slices that are whole may be shown
-    bool slices_whole_ = false;                      ///< those of the last frame are, or are shown
-    bool rests_ = false;                             ///< the set for pictures at rest may be drawn
-    std::uint64_t cells_at_first_ = 0;               ///< of the first set for this picture at rest
-    bool all_at_rest_ = false; ///< all cells are wanted for this picture at rest
-    bool mesh_wanted_ = false; ///< by the last frame's choice of quality
-    bool recording_ = false;
-    MovieState movies_;
-    std::string message_, standing_;
-    index::ExtractionPtr refused_; ///< the newest set if it is not shown; else null
-    std::size_t messages_ = 0;
+    std::function<interaction::Seconds()> clock_;
+    PictureNote note_; ///< of the last frame: the data's names and the devices
 };
 
 } // namespace isochron::app

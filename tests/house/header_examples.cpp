@@ -304,6 +304,12 @@ void cell_sets_example(CellSets& sets, const index::ExtractionPtr& newest, bool 
 #include "app/scene/cell_sets.example"
 }
 
+void cell_supply_example(CellSupply& supply, const Frame& frame, Picture& picture,
+                         const PictureMaker& pictures, const FrameQuality& quality,
+                         FramePlan& plan) {
+#include "app/session/cell_supply.example"
+}
+
 void scene_example(Scene& scene, const index::ExtractionPtr& newest, const Picture& picture,
                    std::span<const render::View> views) {
 #include "app/scene/scene.example"

@@ -65,19 +65,19 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
         EXPECT_EQ(decode_order(view(encoded(order))), order);
         const FrameAnswer answer = rich_answer(random);
         EXPECT_EQ(decode_answer(view(encoded(answer))), answer);
-        const FrameChoice choice{
-            render::Footprint::gaussian,
-            QualityReason::over_budget,
-            true,
-            i % 2 == 0,
-            i % 3 == 0,
-            {random() % 1000, i % 5 == 0,
-             std::vector<std::int8_t>(i % 7, static_cast<std::int8_t>(-i % 9))},
-            i % 2 == 0 ? std::nullopt : std::optional(render::Footprint::surface),
-            i % 3 == 1,
-            i % 5 == 1,
-            i % 7 == 1};
-        EXPECT_EQ(decode_choice(view(encoded(choice))), choice);
+        const FramePlan plan{render::Footprint::gaussian,
+                             QualityReason::over_budget,
+                             true,
+                             i % 2 == 0,
+                             i % 3 == 0,
+                             {random() % 1000, i % 5 == 0,
+                              std::vector<std::int8_t>(i % 7, static_cast<std::int8_t>(-i % 9))},
+                             i % 2 == 0 ? std::nullopt : std::optional(render::Footprint::surface),
+                             i % 3 == 1,
+                             i % 5 == 1,
+                             i % 7 == 1,
+                             i % 4 == 0 ? std::nullopt : std::optional(render::Footprint::mesh)};
+        EXPECT_EQ(decode_plan(view(encoded(plan))), plan);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);
 }
@@ -105,8 +105,8 @@ TEST(ClusterMessages, DamagedBytesAreAnErrorOrAnotherMessageAndNothingElse) {
         attempt([&] { decode_order(view(order)); });
         const MessageBytes answer = damage(encoded(rich_answer(random)));
         attempt([&] { decode_answer(view(answer)); });
-        const MessageBytes choice = damage(encoded(FrameChoice{}));
-        attempt([&] { decode_choice(view(choice)); });
+        const MessageBytes plan = damage(encoded(FramePlan{}));
+        attempt([&] { decode_plan(view(plan)); });
     }
     EXPECT_GT(refused, kTries);
 }
@@ -115,8 +115,8 @@ TEST(ClusterMessages, OneMessageIsNotTakenForAnother) {
     std::mt19937 random(test_seed());
     EXPECT_THROW(decode_order(view(encoded(rich_answer(random)))), interaction::Error);
     EXPECT_THROW(decode_answer(view(encoded(rich_order(random)))), interaction::Error);
-    EXPECT_THROW(decode_choice(view(encoded_end())), interaction::Error);
-    EXPECT_THROW(decode_choice({}), interaction::Error);
+    EXPECT_THROW(decode_plan(view(encoded_end())), interaction::Error);
+    EXPECT_THROW(decode_plan({}), interaction::Error);
 }
 
 TEST(ClusterMessages, WhatNestsWithoutEndIsRefusedBeforeTheStackEnds) {

@@ -337,6 +337,20 @@ TEST_P(SessionRestInColors, AFinerSetInSlicesHasTheColorsAndTheLegendOfItsOwnPer
     EXPECT_TRUE(picture(session) == picture(whole));
 }
 
+TEST_P(SessionRestInColors, AReplayThatTurnsToOtherCellsWithinAFrameShowsTheirPercentilesInIt) {
+    Config config = config_with(1e-6);
+    config.most_cells = 100'000; // so all cells, which are found first, give way
+    Session session(config, large_, *context_);
+    const FrameReport first =
+        session.frame(head_at_rest(0), between_percentiles(), Waiting::for_cells);
+    ASSERT_GT(first.coarsest, 0u);
+    const auto shown = picture(session);
+    const FrameReport second = session.frame(head_at_rest(0.01), {}, Waiting::for_cells);
+    ASSERT_EQ(second.footprint, first.footprint);
+    ASSERT_EQ(second.cells, first.cells);
+    EXPECT_TRUE(picture(session) == shown);
+}
+
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionRestInColors,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);

@@ -15,7 +15,7 @@ using render::Footprint;
 
 /// What two processes have told each other.
 struct Told {
-    FrameChoice choice;
+    FramePlan plan;
     std::array<FrameAnswer, 2> answers;
 };
 
@@ -31,8 +31,8 @@ class InTurn final : public FramesAlone {
     Milliseconds slices_took(Milliseconds) const override {
         return std::ranges::max(told_.answers, {}, &FrameAnswer::slices_took).slices_took;
     }
-    FrameChoice agree(const FrameChoice& mine) override {
-        return rank_ == 0 ? told_.choice = mine : told_.choice;
+    FramePlan agree(const FramePlan& mine) override {
+        return rank_ == 0 ? told_.plan = mine : told_.plan;
     }
     void swap_barrier(const std::function<FrameAnswer()>& mine) override {
         told_.answers[rank_] = mine();

@@ -1,0 +1,31 @@
+// What is decided about a frame: how it is drawn, and which cells are asked for after it.
+#pragma once
+
+#include "app/frame/quality_reason.h"
+#include "index/volume/query.h"
+#include "render/cells/footprints.h"
+
+#include <optional>
+
+namespace isochron::app {
+
+/// Rank 0 of a cluster makes one for each frame, and all processes follow it. The last one is kept
+/// for the next frame.
+struct FramePlan {
+    render::Footprint footprint = render::Footprint::quad;
+    QualityReason reason = QualityReason::moving; ///< for the footprint
+    bool final = false;          ///< the picture is as good as it gets for these cells
+    bool measure = false;        ///< draw even if nothing has changed, so that the cost gets known
+    bool mesh = false;           ///< the sets asked for from now on come with a mesh
+    index::DetailQuery detail{}; ///< of the sets asked for from now on
+    /// Footprint of the picture at rest that is made in slices, or shown; empty: none is.
+    std::optional<render::Footprint> in_slices{};
+    bool shows_slices = false; ///< slices are whole everywhere, and shown
+    bool holds_finer = false;  ///< finer cells of the same picture come in slices alone
+    bool all_at_rest = false;  ///< all cells are wanted for this picture at rest
+    /// Footprint to measure where nobody sees it, in the time that frames leave; empty: none.
+    std::optional<render::Footprint> unseen{};
+    bool operator==(const FramePlan&) const = default;
+};
+
+} // namespace isochron::app

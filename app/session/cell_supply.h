@@ -1,0 +1,87 @@
+// Which cells a session asks for, how fine they are, and how they come to the GPU.
+//
+//     supply.request(frame);              // every frame
+//     supply.take_newest(frame);
+//     if (supply.choose_set(frame, picture))
+//         pictures.show_cells(picture, frame.state);
+//     plan.detail = supply.wanted_detail(frame, quality);   // of the sets that come next
+#pragma once
+
+#include "app/config/config.h"
+#include "app/quality/detail_choice.h"
+#include "app/scene/cell_sets.h"
+#include "app/session/frame.h"
+#include "index/extraction/extractor.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+class CellSupply {
+  public:
+    /// @param config, sets outlive the supply
+    /// @param extract replaces the extraction from `file`; empty: the real one
+    CellSupply(const Config& config, std::shared_ptr<const index::IndexFile> file, CellSets& sets,
+               index::Extract extract, index::Shading shading);
+
+    /// Continues with the same data that have more steps.
+    void set_file(std::shared_ptr<const index::IndexFile> file);
+    const index::Extractor& extractor() const { return extractor_; }
+
+    void request(const Frame& frame);
+    /// Uploads what has been found, and chooses the set to draw.
+    void take_newest(const Frame& frame);
+    /// Why sets are not shown, each once; taken by the call.
+    std::vector<std::string> take_messages();
+
+    /// The set for pictures at rest takes longer to draw than a frame may. So it is drawn once
+    /// nothing has changed for a while: a head that sways is shown the set for motion.
+    /// @param now picture of this frame @return whether the other set is shown in it from now on
+    bool choose_set(const Frame& frame, const Picture& now);
+    /// Whether the set for pictures at rest may be drawn in this frame.
+    bool rests() const { return rests_; }
+    /// Whether no finer cells than those that are drawn will come for this picture.
+    bool is_finest(const Frame& frame) const;
+    /// Whether a set that was asked for is not on the GPU yet.
+    bool set_comes() const;
+
+    /// The detail of the sets that are asked for next.
+    index::DetailQuery wanted_detail(const Frame& frame, const FrameQuality& quality);
+    /// The views of the last pictures, where the volume's regions are seen in.
+    void forget_views() { views_.clear(); }
+    void note_views(std::span<const render::View> views) {
+        views_.insert(views_.end(), views.begin(), views.end());
+    }
+
+  private:
+    void report_cells(FrameReport& report) const;
+    bool is_half_sent(const Frame& frame) const;
+    bool waits_its_turn(const index::ExtractionPtr& set, const Frame& frame) const;
+    bool comes_too_late(const index::ExtractionPtr& set, const Frame& frame) const;
+    bool comes_late(const index::ExtractionPtr& set) const;
+    bool give_way(const index::ExtractionPtr& set, FramePlan& plan);
+    void say_refused(const index::ExtractionPtr& set, const Frame& frame);
+    bool may_be_sliced(const Frame& frame) const;
+    index::DetailQuery detail_for_live(const Frame& frame, const FrameQuality& quality);
+    index::DetailQuery detail_at_rest(const Frame& frame, const FrameQuality& quality,
+                                      std::uint64_t moving);
+
+    const Config& config_;
+    CellSets& sets_;
+    std::shared_ptr<index::NewestIndex> newest_; ///< the index, for the worker
+    index::Extractor extractor_;
+    DetailChoice details_;
+    std::vector<render::View> views_;
+    index::ExtractionPtr refused_; ///< the newest set if it is not shown; else null
+    std::vector<std::string> messages_;
+    interaction::Seconds constant_since_{0}; ///< when the eyes last saw something change
+    std::uint64_t cells_at_first_ = 0;       ///< of the first set for this picture at rest
+    bool rests_ = false;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,32 @@
+// A frame that is being made, as a session's parts share it.
+#pragma once
+
+#include "app/cluster/frame_sharing.h"
+#include "app/frame/explorer_state.h"
+#include "app/frame/frame_report.h"
+#include "app/quality/frame_plan.h"
+#include "app/quality/frame_quality.h"
+#include "app/scene/picture.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace isochron::app {
+
+struct Frame {
+    const ExplorerState& state; ///< after this frame's commands
+    const index::IndexFile& file;
+    std::size_t steps; ///< that can be shown
+    Waiting waiting;
+    bool is_kept;                        ///< a capture waits for this picture
+    const std::optional<Picture>& drawn; ///< last picture; empty: none yet
+    FrameSharing& sharing;
+    FramePlan& plan;     ///< of the last frame until this one's is agreed
+    FrameReport& report; ///< `asked`, `time` and `pace` are known from the start
+
+    bool is_live() const { return waiting == Waiting::never; }
+    /// How footprints are chosen. The frames of a replay are each drawn at once.
+    Choosing choosing() const { return is_live() ? Choosing::with_slices : Choosing::by_pace; }
+};
+
+} // namespace isochron::app

@@ -1,0 +1,116 @@
+// Chooses how a frame's picture is drawn.
+#include "app/session/picture_choice.h"
+
+#include <utility>
+
+namespace isochron::app {
+
+PictureChoice::PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log,
+                             const CellSets& sets, CellSupply& supply, const PictureMaker& pictures)
+    : outputs_(outputs), log_(log), sets_(sets), supply_(supply), pictures_(pictures),
+      // Beside a headset the window's refresh rate does not count.
+      quality_(outputs.gl(), config,
+               outputs.headset() ? std::nullopt : outputs.windows().first().refresh_rate()) {}
+
+/// Learns the draw costs of the slowest process, as all draw with the same footprint.
+void PictureChoice::learn_costs(const Frame& frame) {
+    quality_.learn(frame.sharing.samples(quality_.collect(log_)));
+    quality_.charge(frame.sharing.largest(quality_.view()));
+}
+
+/// Whether a picture at rest differs from the one that is shown in nothing but more detail, and may
+/// be made in slices.
+bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) const {
+    if (!supply_.rests() || !frame.drawn || frame.choosing() != Choosing::with_slices ||
+        now.cells == frame.drawn->cells || now.cells != sets_.held(CellSets::Use::at_rest))
+        return false;
+    Picture same = now;
+    same.cells = frame.drawn->cells;
+    same.footprint = frame.drawn->footprint;
+    same.scale = frame.drawn->scale; // whose range may be percentiles of the cells
+    return same == frame.drawn;
+}
+
+PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) const {
+    Options options{changed, sets_.footprints(), sets_.possible_footprints()};
+    if (frame.report.cells > frame.sharing.surface_limit())
+        for (render::FootprintSet* set : {&options.available, &options.possible})
+            set->remove(render::Footprint::surface);
+    return options;
+}
+
+/// Rank 0's plan, before the others follow it.
+FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
+    return quality_.choose(frame.state, options.changed, frame.choosing(), options.available,
+                           options.possible, frame.report);
+}
+
+/// Takes over rank 0's plan.
+void PictureChoice::agree(const Frame& frame, FramePlan plan) {
+    // More cells than a frame can draw come in slices alone, which may begin some frames later; also
+    // far more than those that were drawn, of which the time is not known well.
+    constexpr std::size_t kFarMore = 4;
+    FrameReport& report = frame.report;
+    const bool near = !frame.drawn || !frame.drawn->cells ||
+                      report.cells <= kFarMore * frame.drawn->cells->cells();
+    const bool fits = near && report.expected && *report.expected <= report.budget;
+    plan.shows_slices = frame.sharing.slices_are_whole();
+    plan.holds_finer &= !fits;
+    plan.all_at_rest = frame.plan.all_at_rest;
+    frame.plan = frame.sharing.agree(plan);
+    report.in_slices = frame.plan.in_slices;
+    report.footprint = frame.plan.footprint;
+    report.reason = frame.plan.reason;
+    report.final = frame.plan.final;
+}
+
+void PictureChoice::choose(const Frame& frame, Picture& now) {
+    FrameReport& report = frame.report;
+    learn_costs(frame);
+    if (supply_.choose_set(frame, now))
+        pictures_.show_cells(now, frame.state);
+    if (frame.is_live() && !log_.frames().empty())
+        report.missed = quality_.missed(report.time - log_.frames().back().time);
+    const bool finer = only_gets_finer(frame, now);
+    const Options options = this->options(frame, now != frame.drawn && !finer);
+    const bool had_mesh = frame.plan.mesh;
+    const index::DetailQuery had_detail = frame.plan.detail;
+    FramePlan plan = wanted(frame, options);
+    plan.detail = supply_.wanted_detail(frame, quality_);
+    plan.final &= supply_.is_finest(frame) && (!frame.is_live() || plan.detail == had_detail);
+    agree(frame, plan);
+    // A replay's picture is as good as it gets at once.
+    if (!frame.is_live() && ((frame.plan.mesh && !had_mesh) || frame.plan.detail != had_detail)) {
+        supply_.request(frame);
+        supply_.take_newest(frame);
+        pictures_.show_cells(now, frame.state);
+        const render::FootprintSet available = sets_.footprints();
+        plan = wanted(frame, {options.changed, available, available});
+        plan.detail = frame.plan.detail;
+        agree(frame, plan);
+    }
+    now.footprint = report.footprint;
+    rest_in_slices(frame, now);
+    frame.plan.holds_finer &= finer;
+    // While a headset wants no picture, there is nothing to draw or to measure.
+    report.redrawn = outputs_.want(now.audience) && (now != frame.drawn || frame.plan.measure) &&
+                     !frame.plan.holds_finer;
+}
+
+/// Shows the picture at rest that was made in slices for as long as nothing changes.
+void PictureChoice::rest_in_slices(const Frame& frame, Picture& now) const {
+    FrameReport& report = frame.report;
+    if (!report.in_slices || !frame.drawn)
+        return;
+    now.footprint = *report.in_slices;
+    const bool shown = now == frame.drawn;
+    if (!shown)
+        now.footprint = report.footprint;
+    report.footprint = now.footprint;
+    report.reason = QualityReason::in_slices;
+    report.final = shown && supply_.is_finest(frame);
+    if (shown)
+        report.expected = std::exchange(report.better, std::nullopt);
+}
+
+} // namespace isochron::app

@@ -1,0 +1,48 @@
+// Chooses how a frame's picture is drawn, and agrees on it with the other processes of a cluster:
+// the frame's plan.
+#pragma once
+
+#include "app/frame/frame_log.h"
+#include "app/output/outputs.h"
+#include "app/session/cell_supply.h"
+#include "app/session/frame.h"
+#include "app/session/picture_maker.h"
+
+namespace isochron::app {
+
+class PictureChoice {
+  public:
+    /// All outlive the choice.
+    PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log, const CellSets& sets,
+                  CellSupply& supply, const PictureMaker& pictures);
+
+    FrameQuality& quality() { return quality_; }
+    const FrameQuality& quality() const { return quality_; }
+
+    /// Makes the plan of a frame, and completes its picture and its report by it.
+    /// @param now gets its footprint, and the cells that it shows
+    void choose(const Frame& frame, Picture& now);
+
+  private:
+    /// What a plan is made from.
+    struct Options {
+        bool changed; ///< what the eyes see has changed, apart from the footprint
+        render::FootprintSet available, possible;
+    };
+
+    void learn_costs(const Frame& frame);
+    bool only_gets_finer(const Frame& frame, const Picture& now) const;
+    Options options(const Frame& frame, bool changed) const;
+    FramePlan wanted(const Frame& frame, const Options& options);
+    void agree(const Frame& frame, FramePlan plan);
+    void rest_in_slices(const Frame& frame, Picture& now) const;
+
+    const Outputs& outputs_;
+    FrameLog& log_;
+    const CellSets& sets_;
+    CellSupply& supply_;
+    const PictureMaker& pictures_;
+    FrameQuality quality_;
+};
+
+} // namespace isochron::app

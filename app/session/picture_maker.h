@@ -1,0 +1,62 @@
+// Makes the picture of a frame: from the state, the viewers and the cells that are shown.
+#pragma once
+
+#include "app/config/config.h"
+#include "app/output/outputs.h"
+#include "app/scene/cell_sets.h"
+#include "app/scene/picture.h"
+#include "app/session/frame.h"
+#include "app/session/picker.h"
+#include "app/session/session_panel.h"
+#include "app/session/shown_arrays.h"
+
+#include <optional>
+#include <vector>
+
+namespace isochron::app {
+
+class PictureMaker {
+  public:
+    /// All outlive the maker.
+    PictureMaker(const Config& config, const ShownArrays& arrays, const CellSets& sets,
+                 const Outputs& outputs, const SessionPanel& panel, const Picker& picker)
+        : config_(config), arrays_(arrays), sets_(sets), outputs_(outputs), panel_(panel),
+          picker_(picker) {}
+
+    /// The picture of this frame, with the footprint of the last one.
+    /// @param seen devices that the views are made from
+    Picture make(const Frame& frame, const interaction::InputState& seen);
+    /// One before the first frame, without anything that devices or data give.
+    Picture first(const ExplorerState& state) const;
+    /// Continues with the cells that are shown now.
+    void show_cells(Picture& picture, const ExplorerState& state) const;
+    /// The same picture as it is kept.
+    Picture kept(const Picture& picture) const;
+    /// What is to be drawn over the last picture, which lacks it.
+    const Aids& over() const { return over_; }
+
+    std::optional<ColorScale> scale(const ExplorerState& state) const;
+    /// Where the viewers' eyes are.
+    std::vector<stereo::ViewerPose> viewers(const interaction::InputState& input,
+                                            const ExplorerState& state) const;
+
+  private:
+    std::optional<ColorScale> shown_scale(const ExplorerState& state) const;
+    bool colored_as_asked(const ExplorerState& state) const;
+    bool in_windows(const FrameReport& report);
+    bool on_desktop(const Audience& audience) const;
+    Aids aids(const interaction::InputState& input, const ExplorerState& state) const;
+    bool aids_lie_over(const ExplorerState& state) const;
+
+    const Config& config_;
+    const ShownArrays& arrays_;
+    const CellSets& sets_;
+    const Outputs& outputs_;
+    const SessionPanel& panel_;
+    const Picker& picker_;
+    mutable PercentileRange percentiles_; ///< keeps what it has sorted
+    Aids over_;
+    std::optional<interaction::Seconds> in_headset_; ///< when a headset last wanted a picture
+};
+
+} // namespace isochron::app

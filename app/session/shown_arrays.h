@@ -1,0 +1,63 @@
+// Which array of the index a session shows, by which it colors, and how others were left.
+#pragma once
+
+#include "app/config/config.h"
+#include "app/frame/explorer_state.h"
+#include "index/file/index_file.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+class ShownArrays {
+  public:
+    /// Reads the step that is shown first.
+    /// @param home the start state
+    ShownArrays(const Config& config, std::shared_ptr<const index::IndexFile> file,
+                const ExplorerState& home);
+
+    const std::shared_ptr<const index::IndexFile>& file() const { return file_; }
+    /// Continues with the same data that have more steps.
+    void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
+    std::span<const std::string> names() const { return names_; }
+    const std::vector<std::string>& color_names() const { return color_names_; }
+
+    /// The array whose surfaces are asked for, as `index::IndexFile::array` takes it.
+    std::size_t number(const ExplorerState& state) const {
+        return file_->array_called(state.array).value_or(0);
+    }
+    const index::IndexFile& shown(const ExplorerState& state) const {
+        return file_->array(number(state));
+    }
+    /// The same array, sharing the ownership of the file.
+    std::shared_ptr<const index::IndexFile> held(const ExplorerState& state) const;
+    /// What is asked for: the state's surfaces, of its arrays.
+    index::SurfacesQuery surfaces(const ExplorerState& state) const;
+
+    /// @param name of an array of the surfaces; empty: the first
+    /// @throws index::Error when the index has no such array
+    void expect(const std::string& name) const;
+    /// Remembers how the array before was left. @return whether there is another now
+    /// @throws index::Error when the index lacks the array of the surfaces
+    bool turn(const ExplorerState& before, const ExplorerState& now);
+    /// How arrays that are not shown were left; `recall` sets it again.
+    std::vector<interaction::Commands> left(const ExplorerState& state) const;
+    void recall(const std::vector<interaction::Commands>& left);
+    /// Commands that show an array as it was left, or as at a first look.
+    interaction::Commands way_to(std::size_t number, const ExplorerState& state) const;
+
+  private:
+    std::shared_ptr<const index::IndexFile> file_;
+    std::vector<std::string> names_, color_names_;
+    /// The surfaces at the first look at each array.
+    std::vector<std::vector<interaction::Isosurface>> first_surfaces_;
+    /// How arrays that were shown before were left, by number.
+    std::map<std::size_t, interaction::Commands> left_;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,74 @@
+// Pictures that are drawn over several frames beside the one that is shown: the exact one at rest,
+// and those that only tell what a footprint would cost.
+#pragma once
+
+#include "app/frame/stop_watch.h"
+#include "app/output/outputs.h"
+#include "app/quality/slice_pace.h"
+#include "app/scene/scene.h"
+#include "app/session/frame.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace isochron::app {
+
+class SlicedPictures {
+  public:
+    /// All outlive these pictures.
+    SlicedPictures(Scene& scene, Outputs& outputs, FrameQuality& quality)
+        : scene_(scene), outputs_(outputs), quality_(quality) {}
+
+    /// Begins a frame, whose picture is `now`.
+    /// @param shown the picture in slices is shown already
+    void begin_frame(bool shown) { whole_ = shown; }
+    /// Draws as much of the picture at rest as this frame has time for, and shows it once it is
+    /// whole, in a cluster: once it is whole in all processes, which show it in the same frame.
+    /// @param now picture of this frame, which gets the footprint of the plan
+    /// @return the picture if it is shown; else empty, and what was shown stays to be shown
+    std::optional<Picture> draw(const Frame& frame, const Picture& now,
+                                const Outputs::Overlay& overlay);
+    /// Gives up the picture at rest: another one is drawn.
+    void give_up() { slices_.reset(); }
+
+    /// A footprint that might serve moving pictures is drawn where nobody sees it, to find out its
+    /// time: in the time that frames leave, each piece for the views of its own frame. Where light
+    /// shines through, every view needs an order of its own: then it is not done.
+    /// @param begun with the frame, which is on show now
+    void measure_unseen(const Frame& frame, const Picture& now, const StopWatch& begun);
+
+    /// Whether the picture in slices is whole, or shown.
+    bool are_whole() const { return whole_; }
+    /// The time that it took, while it is whole and not shown.
+    Milliseconds took() const {
+        return slices_ && slices_->whole ? slices_->pace.whole() : Milliseconds(0);
+    }
+    /// Whether there is more to be drawn of one in the next frame.
+    bool are_made() const { return (slices_ && !slices_->whole) || unseen_; }
+
+  private:
+    /// A picture that is drawn over several frames, and how far it has come.
+    struct Slices {
+        explicit Slices(const Picture& wanted) : picture(wanted) {}
+        Picture picture;
+        SlicePace pace;
+        Outputs::SlicePlace place;
+        std::size_t done = 0;     ///< units of work done at `place`
+        Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
+        bool whole = false;
+    };
+
+    void draw_pieces(Slices& slices);
+    bool draw_slice(Slices& slices, std::span<const render::View> views, std::size_t work,
+                    std::size_t& done);
+
+    Scene& scene_;
+    Outputs& outputs_;
+    FrameQuality& quality_;
+    std::optional<Slices> slices_; ///< the next picture, if it is made in slices
+    std::optional<Slices> unseen_; ///< one that is made only to measure it
+    bool whole_ = false;
+};
+
+} // namespace isochron::app

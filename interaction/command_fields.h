@@ -1,37 +1,20 @@
 // The list of all fields of commands: their keys in recordings and the values they may have.
 //
-// A new field is a member of Commands and one line here. Merging, JSON, the check for finite
-// numbers, the comparison of replays, ExplorerState::apply and the random recordings of the tests
-// follow from that line; docs/FORMATS.md is held against it.
+// Settings and their list are in settings.h. A further field of commands is a member of Commands and
+// one line here. Merging, JSON, the check for finite numbers, the comparison of replays and the
+// random recordings of the tests follow from that line; docs/FORMATS.md is held against it.
 //
 //     each_field([](const Field& field, auto& into, const auto& later) { use(field, into, later); },
 //                commands, others);
 #pragma once
 
 #include "interaction/commands.h"
+#include "interaction/field.h"
 
 #include <concepts>
-#include <cstddef>
-#include <limits>
 #include <type_traits>
 
 namespace isochron::interaction {
-
-inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
-inline constexpr std::size_t kLongestText = 256;       ///< [byte]
-inline constexpr std::size_t kLongestArrayName = 4096; ///< [byte] of an array
-inline constexpr std::size_t kMostEvents = 64;         ///< stamps, or haptic pulses, of one frame
-
-/// The properties of a field, which are the same in every record that has it.
-struct Field {
-    const char* key;
-    double low = -kAnyNumber, high = kAnyNumber; ///< range of a number, or of each number of a list
-    std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
-    const char* old_key = nullptr;               ///< the key in recordings of older versions
-    bool undone = true;                          ///< changes of the setting can be undone
-    bool may_lack = false; ///< older recordings may lack it: then it has its default
-    bool dragged = false;  ///< changes in quick succession are undone as one
-};
 
 template <class T, class Record>
 concept Of = std::same_as<std::remove_const_t<T>, Record>;
@@ -117,38 +100,6 @@ void each_field(Visit&& visit, Records&... r) {
 template <class Visit, Of<Ruler>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
-}
-
-/// The settings: what a session keeps and commands change. Commands and the records that keep
-/// settings have members of the same names.
-template <class Visit, class... Records>
-void each_setting(Visit&& visit, Records&... r) {
-    visit(Field{.key = "array", .most = kLongestArrayName}, r.array...);
-    visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces, .dragged = true},
-          r.isosurfaces...);
-    visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
-    visit(Field{.key = "coloring", .dragged = true}, r.coloring...);
-    visit(Field{.key = "look", .dragged = true}, r.look...);
-    visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
-    visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
-    visit(Field{.key = "step", .dragged = true}, r.step...);
-    visit(Field{.key = "follow"}, r.follow...);
-    visit(Field{"playback"}, r.playback...);
-    visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
-    visit(Field{"quality"}, r.quality...);
-    visit(Field{.key = "eye_separation", .low = 0, .high = kWidestEyes, .dragged = true},
-          r.eye_separation...);
-    visit(Field{"stereo"}, r.stereo...);
-    visit(Field{.key = "panel", .undone = false}, r.panel...);
-    visit(Field{"grid"}, r.grid...);
-    visit(Field{.key = "views", .most = kMostViews}, r.views...);
-    visit(Field{.key = "room_panel", .undone = false}, r.room_panel...);
-    visit(Field{"mark"}, r.mark...);
-    visit(Field{"tools"}, r.tools...);
-    visit(Field{.key = "clip", .dragged = true}, r.clip...);
-    visit(Field{"ruler"}, r.ruler...);
-    visit(Field{"orthographic"}, r.orthographic...);
-    visit(Field{.key = "leaving", .undone = false}, r.leaving...);
 }
 
 /// The settings, the isovalue of the picked surface, and the commands that happen once.

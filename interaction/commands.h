@@ -1,165 +1,13 @@
 // Commands: what input led to in one frame. Recordings store them, replays obey them.
 #pragma once
 
-#include "interaction/enum_names.h"
-#include "interaction/pose.h"
+#include "interaction/settings.h"
 
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace isochron::interaction {
-
-enum class QualityMode : std::uint8_t { automatic, fast, quality, paper };
-template <>
-inline constexpr std::array<std::string_view, 4> kNames<QualityMode>{"auto", "fast", "quality",
-                                                                     "paper"};
-
-inline constexpr double kSlowest = 1.0 / 64.0, kFastest = 64.0; ///< playback speeds
-inline constexpr float kWidestEyes = 0.1f;                      ///< [m]
-
-/// How time plays. `speed` is a factor of the base speed, at which the whole series takes 10 s; it
-/// counts physical time, not steps.
-struct PlaybackState {
-    bool playing = false;
-    bool reverse = false;
-    bool loop = true;
-    double speed = 1.0; ///< kSlowest to kFastest
-    bool operator==(const PlaybackState&) const = default;
-};
-
-/// A place in the data to come back to.
-struct Viewpoint {
-    std::string name;
-    Similarity room_from_physical;
-    bool operator==(const Viewpoint&) const = default;
-};
-inline constexpr std::size_t kMostViews = 64;
-
-inline constexpr std::size_t kMostIsosurfaces = 8;
-
-/// One of the surfaces that are shown together.
-struct Isosurface {
-    double isovalue = 0;
-    glm::vec3 color{0.94f, 0.86f, 0.70f}; ///< sRGB, 0 to 1
-    float opacity = 1.0f;                 ///< 0 to 1
-    bool operator==(const Isosurface&) const = default;
-};
-
-/// What the colors on the surfaces show.
-enum class ColorBy : std::uint8_t {
-    surface,       ///< which surface it is
-    value,         ///< an array to color by
-    first_crossing ///< when a surface of this isovalue first crossed the place
-};
-template <>
-inline constexpr std::array<std::string_view, 3> kNames<ColorBy>{"surface", "value",
-                                                                 "first_crossing"};
-
-inline constexpr std::uint32_t kMostBands = 64;
-inline constexpr std::size_t kMostMapColors = 256;
-
-struct Coloring {
-    ColorBy by = ColorBy::surface;
-    std::string map = "viridis"; ///< a color map's name
-    /// Values at the ends of the map, ascending; empty: the range of the series, or `percentiles`.
-    std::optional<std::array<double, 2>> range = {};
-    bool reversed = false;
-    std::uint32_t bands =
-        0; ///< number of equal parts with one color each; 0: colors change smoothly
-    bool logarithmic = false; ///< equal ratios of values, all above 0, are equally far on the map
-    /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
-    /// program knows the map by its name.
-    std::vector<std::uint32_t> colors = {};
-    /// If `range` is empty: the map goes from one of these percentiles of the values on the shown
-    /// surfaces to the other, 0 to 100, ascending. Empty: the range of the series.
-    std::optional<std::array<double, 2>> percentiles = {};
-    /// Name of the array of `value`; empty: the one that the index carries for colors, or else its
-    /// first that is not the surfaces'.
-    std::string array = {};
-    bool operator==(const Coloring&) const = default;
-};
-
-/// What is behind the data.
-enum class Background : std::uint8_t {
-    dark,    ///< the configuration's color
-    light,   ///< nearly white, as paper
-    gradient ///< from a dark floor to a lighter sky, which stands still in the room
-};
-template <>
-inline constexpr std::array<std::string_view, 3> kNames<Background>{"dark", "light", "gradient"};
-
-/// How surfaces shine.
-enum class Material : std::uint8_t {
-    satin,  ///< as the configuration lights it
-    matte,  ///< no highlights
-    glossy, ///< small and bright ones
-    metal   ///< the surface mirrors more than it scatters
-};
-template <>
-inline constexpr std::array<std::string_view, 4> kNames<Material>{"satin", "matte", "glossy",
-                                                                  "metal"};
-
-/// How the picture is lit.
-struct Look {
-    Background background = Background::dark;
-    Material material = Material::satin;
-    float occlusion = 0.6f; ///< how much darker the surface is where it is surrounded by itself
-    bool operator==(const Look&) const = default;
-};
-
-/// The panel that stands in the room.
-struct RoomPanel {
-    bool shown = false;
-    Pose pose; ///< of its middle: +X to its right, +Y up, +Z towards the reader
-    bool operator==(const RoomPanel&) const = default;
-};
-
-/// A place in the data that the user picked, and the value there.
-struct MarkedPoint {
-    glm::dvec3 position{0.0}; ///< physical space
-    std::uint32_t step = 0;   ///< shown when it was picked
-    double value = 0;         ///< of the data there
-    bool operator==(const MarkedPoint&) const = default;
-};
-/// The one place that is marked, or none.
-struct Mark {
-    std::optional<MarkedPoint> point;
-    bool operator==(const Mark&) const = default;
-};
-
-/// The tools: what a hand's button does.
-enum class ToolKind : std::uint8_t { grab, pick, clip, ruler };
-template <>
-inline constexpr std::array<std::string_view, 4> kNames<ToolKind>{"grab", "pick", "clip", "ruler"};
-
-/// The tool that each hand holds.
-struct Tools {
-    ToolKind wand = ToolKind::grab, other = ToolKind::grab;
-    ToolKind mouse = ToolKind::pick;
-    bool operator==(const Tools&) const = default;
-};
-
-/// A plane that cuts the surfaces, in physical space.
-struct ClipPlane {
-    bool shown = false;
-    glm::dvec3 point{0.0};            ///< on it
-    glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit; points to the side that is cut away
-    bool operator==(const ClipPlane&) const = default;
-};
-
-inline constexpr std::size_t kMostRulerPlaces = 2;
-/// Places between which a distance is measured, in physical space.
-struct Ruler {
-    std::vector<glm::dvec3> places; ///< at most kMostRulerPlaces
-    bool operator==(const Ruler&) const = default;
-};
 
 /// A vibration for a hand whose device can vibrate.
 struct HapticPulse {
@@ -170,33 +18,10 @@ struct HapticPulse {
 };
 inline constexpr double kLongestPulse = 1.0; ///< [s]
 
-/// Absolute results, not increments: applying them again changes nothing.
-struct Commands {
-    std::optional<std::string> array; ///< of the surfaces, by name; empty: the index's first
-    std::optional<std::vector<Isosurface>> isosurfaces; ///< all of them, 1 to kMostIsosurfaces
-    std::optional<std::uint32_t> picked; ///< the surface that `isovalue` moves, counted from 0
-    std::optional<double> isovalue;
-    std::optional<std::uint32_t> step;
-    std::optional<std::uint32_t> steps; ///< number of steps from now on; 0: all that the index has
-    std::optional<bool> follow;         ///< show the last step whenever a new one arrives
-    std::optional<PlaybackState> playback;
-    std::optional<Similarity> room_from_physical; ///< navigation's result
-    std::optional<QualityMode> quality;
-    std::optional<float> eye_separation;         ///< meters, 0 to kWidestEyes
-    std::optional<std::string> stereo;           ///< a stereo mode's name
-    std::optional<bool> panel;                   ///< panel shown
-    std::optional<bool> grid;                    ///< floor grid shown
-    std::optional<std::vector<Viewpoint>> views; ///< all saved ones, at most kMostViews
-    std::optional<bool> bounding_box;            ///< the box, its ticks and numbers shown
-    std::optional<Coloring> coloring;
-    std::optional<Look> look;
-    std::optional<RoomPanel> room_panel;
-    std::optional<Mark> mark;
-    std::optional<Tools> tools;
-    std::optional<ClipPlane> clip;
-    std::optional<Ruler> ruler;
-    std::optional<bool> orthographic; ///< desktop screens show the data in parallel projection
-    std::optional<bool> leaving;      ///< the program asks the user whether to quit
+/// Changes of settings, and what happens once. Changes are absolute results, not increments:
+/// applying them again changes nothing.
+struct Commands : SettingChanges {
+    std::optional<double> isovalue; ///< of the picked surface
     bool screenshot = false;
     bool quit = false;
     bool undo = false; ///< the settings in these commands undo the newest change

@@ -1,4 +1,4 @@
-// The session's current state, from which controls and tools make commands.
+// The session's settings and what surrounds them, from which controls and tools make commands.
 #pragma once
 
 #include "interaction/commands.h"
@@ -11,18 +11,12 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace isochron::interaction {
-
-/// What tools have made.
-struct ToolState {
-    Mark mark;
-    ClipPlane clip;
-    Ruler ruler;
-};
 
 /// The box of the data in its physical space.
 struct DataFrame {
@@ -43,46 +37,46 @@ struct DataFrame {
     }
 };
 
-/// The state that new commands start from; owned by the session, passed in every frame.
-struct ControlContext {
-    double isovalue = 0;
-    double low = 0, high = 1; ///< value range of the data
-    std::uint32_t step = 0;
-    std::vector<double> const* times = nullptr; ///< physical times of the steps, increasing
-    PlaybackState playback;
-    bool follow = false;
-    Similarity room_from_physical;
-    Similarity home;       ///< what reset returns to
+/// The series as controls move through it.
+struct ControlledSeries {
+    double low = 0, high = 1;                   ///< range of its values
+    const std::vector<double>* times = nullptr; ///< physical times of the steps, increasing
     glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: orbit turns about it
-    QualityMode quality = QualityMode::automatic;
-    float eye_separation = 0.063f;
-    std::string stereo;
-    bool panel = true;
-    RoomPanel room_panel;
-    float panel_distance = 0.65f; ///< [m] from the eyes to the room's panel, where it appears
-    /// Where the panel appears for an emulated head, in the head's frame; nothing: `beside`.
-    std::optional<Pose> panel_place;
-    bool grid = false;
-    std::vector<Viewpoint> const* views = nullptr; ///< saved so far; may be null
-    bool bounding_box = true;
-    std::uint32_t isosurfaces = 1, picked = 0; ///< their number, and the one the isovalue moves
-    Coloring coloring;
-    /// Names of the arrays to color by, which may be null or empty; and the number of the one whose
-    /// values are the colors, or would be if surfaces were colored by an array.
-    std::vector<std::string> const* color_arrays = nullptr;
-    std::size_t color_array = 0;
-    const Commands* next_array =
-        nullptr; ///< commands that show the next array; null: there is none
-    std::vector<std::string> const* stereo_modes = nullptr; ///< what V cycles through; may be null
-    Tools tools;
-    ToolState state;
-    DataFrame data;
-    SurfaceFinder find_surface; ///< on the surfaces that are shown; may be empty
-    bool orthographic = false;
-    const Commands* start = nullptr; ///< commands that restore the view of the start; may be null
-    bool leaving = false;            ///< the program is asking whether to quit
-    const Commands* undo = nullptr;  ///< commands that undo the newest change; null: none
-    const Commands* redo = nullptr;  ///< commands that redo what was undone last; null: none
+    Similarity home;       ///< room from physical space: what reset returns to
+};
+
+/// The arrays to color by.
+struct ColorArrays {
+    const std::vector<std::string>* names = nullptr; ///< may be null or empty
+    std::size_t chosen = 0; ///< number of the one whose values are the colors, or would be if
+                            ///< surfaces were colored by an array
+};
+
+/// Where the room's panel appears when it is called.
+struct CalledPanel {
+    float distance = 0.65f; ///< [m] from the eyes
+    /// For an emulated head, in the head's frame; empty: as `called` puts it.
+    std::optional<Pose> place;
+};
+
+/// Commands that lead to other states; null: there is no such way.
+struct Ways {
+    const Commands* next_array = nullptr; ///< shows the next array
+    const Commands* start = nullptr;      ///< restores the view of the start
+    const Commands* undo = nullptr;       ///< undoes the newest change
+    const Commands* redo = nullptr;       ///< redoes what was undone last
+};
+
+/// What new commands start from; made by the session and passed in every frame.
+struct ControlContext {
+    const Settings& settings;
+    ControlledSeries series{};
+    ColorArrays color_arrays{};
+    CalledPanel called_panel{};
+    Ways ways{};
+    const std::vector<std::string>* stereo_modes = nullptr; ///< what V cycles through; may be null
+    DataFrame data{};
+    SurfaceFinder find_surface{}; ///< on the surfaces that are shown; may be empty
 };
 
 } // namespace isochron::interaction

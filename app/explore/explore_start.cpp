@@ -111,7 +111,7 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     state.step = options.step || options.follow ? first_step(options, steps) : state.step;
     state.panel = state.panel && !options.no_panel;
     if (options.stereo)
-        state.stereo = *stereo::stereo_mode_from_name(*options.stereo);
+        state.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));
     return state;
 }
 

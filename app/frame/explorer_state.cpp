@@ -1,4 +1,4 @@
-// Everything a user can set while exploring.
+// The settings of a session, and what they ask of the data.
 #include "app/frame/explorer_state.h"
 
 #include "interaction/command_fields.h"
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <concepts>
 #include <numeric>
+#include <string_view>
 
 namespace isochron::app {
 namespace {
@@ -87,18 +88,18 @@ bool take(const Field& field, const T& given, T& kept) {
         kept = given;
     return taken;
 }
-bool take(const Field&, const std::string& given, stereo::StereoMode& kept) {
-    const auto mode = stereo::stereo_mode_from_name(given);
-    kept = mode.value_or(kept);
-    return mode.has_value();
-}
 
-template <class T>
-const T& as_command(const T& kept) {
-    return kept;
-}
-std::string as_command(stereo::StereoMode kept) {
-    return std::string(stereo::name_of(kept));
+/// The text is a name: a stereo mode with several names is kept by the first of them. Whether the
+/// data have an array is known elsewhere.
+bool take(const Field& field, const std::string& given, std::string& kept) {
+    if (std::string_view(field.key) != "stereo") {
+        kept = given;
+        return true;
+    }
+    const auto mode = stereo::stereo_mode_from_name(given);
+    if (mode)
+        kept = stereo::name_of(*mode);
+    return mode.has_value();
 }
 
 } // namespace
@@ -147,9 +148,8 @@ index::SurfacesQuery ExplorerState::surfaces() const {
 
 interaction::Commands ExplorerState::as_commands() const {
     interaction::Commands all;
-    interaction::each_setting(
-        [](const Field&, auto& command, const auto& kept) { command = as_command(kept); }, all,
-        *this);
+    interaction::each_setting([](const Field&, auto& command, const auto& kept) { command = kept; },
+                              all, *this);
     all.isovalue = isovalue();
     return all;
 }
@@ -159,7 +159,7 @@ interaction::Commands ExplorerState::commands_to(const ExplorerState& target) co
     interaction::each_setting(
         [](const Field& field, auto& command, const auto& mine, const auto& other) {
             if (field.undone && !(mine == other))
-                command = as_command(other);
+                command = other;
         },
         changes, *this, target);
     return changes;

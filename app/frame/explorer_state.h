@@ -1,4 +1,4 @@
-// Everything that a user can set while exploring; commands change it, recordings start from it.
+// The settings of a session; commands change them, recordings start from them.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -9,34 +9,9 @@
 
 namespace isochron::app {
 
-struct ExplorerState {
-    std::string array; ///< of the surfaces; empty: the first of the index
-    std::vector<interaction::Isosurface> isosurfaces{{}}; ///< 1 to kMostIsosurfaces
-    std::uint32_t picked = 0;                             ///< surface whose isovalue is moved
-    interaction::Coloring coloring;
-    interaction::Look look;
-    bool bounding_box = true; ///< the box with its ticks and numbers
-    std::uint32_t steps = 0;  ///< number that the session shows; 0: all steps of the index
-    std::uint32_t step = 0;
-    bool follow = false; ///< show a new step when it comes
-    interaction::PlaybackState playback;
-    interaction::Similarity room_from_physical;
-    interaction::QualityMode quality = interaction::QualityMode::automatic;
-    float eye_separation = 0.063f;
-    stereo::StereoMode stereo = stereo::StereoMode::mono;
-    bool panel = true;
-    interaction::RoomPanel room_panel;
-    interaction::Mark mark;
-    interaction::Tools tools;
-    interaction::ClipPlane clip;
-    interaction::Ruler ruler;
-    bool orthographic = false; ///< desktop screens show a parallel projection
-    bool leaving = false;      ///< the user is asked whether to leave
-    bool grid = false;         ///< of the floor
-    std::vector<interaction::Viewpoint> views;
-
-    double isovalue() const { return isosurfaces[picked].isovalue; }
-    void set_isovalue(double isovalue) { isosurfaces[picked].isovalue = isovalue; }
+struct ExplorerState : interaction::Settings {
+    stereo::StereoMode stereo_mode() const { return *stereo::stereo_mode_from_name(stereo); }
+    void set_stereo(stereo::StereoMode mode) { stereo = stereo::name_of(mode); }
 
     /// Sets the values that the commands hold. An invalid value (a step beyond the series, an
     /// unknown stereo mode, a number that is not finite) is refused and changes nothing.

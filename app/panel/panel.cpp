@@ -237,7 +237,7 @@ void view_section(const PanelModel& model, Commands& commands) {
                                                   : quality_line(model.frame),
                settled ? ImVec4(0.47f, 0.86f, 0.63f, 1.0f) : ImVec4(1.0f, 0.77f, 0.36f, 1.0f));
     ImGui::SetNextItemWidth(-60.0f);
-    const std::string current(stereo::name_of(model.asked.stereo));
+    const std::string& current = model.asked.stereo;
     const bool open = ImGui::BeginCombo("stereo", current.c_str());
     if (!open)
         tip("stereo mode (V)");
@@ -246,7 +246,7 @@ void view_section(const PanelModel& model, Commands& commands) {
             if (upright(candidate) == stereo::StereoMode::quadbuffer && !model.quad_buffered)
                 continue;
             const std::string name(stereo::name_of(candidate));
-            if (ImGui::Selectable(name.c_str(), candidate == model.asked.stereo))
+            if (ImGui::Selectable(name.c_str(), candidate == model.asked.stereo_mode()))
                 commands.stereo = name;
         }
         ImGui::EndCombo();

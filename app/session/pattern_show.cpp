@@ -20,11 +20,11 @@ void PatternShow::obey(const Commands& commands) {
 }
 
 Commands PatternShow::commands_from(const InputState& input) {
-    interaction::ControlContext context;
-    context.eye_separation = eye_separation_;
-    context.stereo = stereo::name_of(mode_);
-    context.stereo_modes = &outputs_.stereo_modes();
-    interaction::Commands commands = controls_.update(input, context);
+    interaction::Settings settings;
+    settings.eye_separation = eye_separation_;
+    settings.stereo = stereo::name_of(mode_);
+    interaction::Commands commands =
+        controls_.update(input, {.settings = settings, .stereo_modes = &outputs_.stereo_modes()});
     commands.quit = commands.leaving.has_value(); // there is nothing to lose
     return commands;
 }

@@ -67,8 +67,9 @@ Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerStat
 
 /// At a desktop only the cursor moves for long: the picture below it stays as it is.
 bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
-    const bool one_picture_each = !stereo::Multiplex::shows(state.stereo) &&
-                                  stereo::upright(state.stereo) != stereo::StereoMode::quadbuffer;
+    const bool one_picture_each =
+        !stereo::Multiplex::shows(state.stereo_mode()) &&
+        stereo::upright(state.stereo_mode()) != stereo::StereoMode::quadbuffer;
     return panel_.head_is_emulated() && !outputs_.room() && !config_.picture_ray &&
            outputs_.displays() == 1 && one_picture_each;
 }
@@ -84,12 +85,12 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                      .eyes = outputs_.headset_eyes(),
                      .wand = within.wand,
                      .panel = panel_.in_room().shown(state.room_panel),
-                     .stereo = state.stereo,
+                     .stereo = state.stereo_mode(),
                      .aids = within.wand || within.pointed,
                      .in_windows = in_windows(frame.report)},
         .mark = state.mark,
         .pointed = within.pointed,
-        .tools = drawing_of({state.mark, state.clip, state.ruler}, data_frame(frame.file.info())),
+        .tools = drawing_of(state, data_frame(frame.file.info())),
         .clip = state.clip,
         .guides = {state.grid, interaction::teleport_target(seen)},
         .veil = {static_cast<float>(frame.report.comfort.fade),
@@ -116,7 +117,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
 Picture PictureMaker::first(const ExplorerState& state) const {
     Picture picture;
     picture.audience.viewers = viewers({}, state);
-    picture.audience.stereo = state.stereo;
+    picture.audience.stereo = state.stereo_mode();
     picture.mark = state.mark;
     picture.room_from_physical = state.room_from_physical;
     picture.isosurfaces = state.isosurfaces;

@@ -46,7 +46,8 @@ ExplorerState start_of(const interaction::RecordingHeader& header, const Explore
     if (!state.resume(header.start, steps))
         throw interaction::Error(
             fmt::format("the recording's start state does not fit the data ({} steps)", steps));
-    state.stereo = options.stereo.value_or(state.stereo);
+    if (options.stereo)
+        state.set_stereo(*options.stereo);
     state.quality = options.quality.value_or(state.quality);
     return state;
 }

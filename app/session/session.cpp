@@ -74,46 +74,24 @@ void Session::grow_with(const Commands& commands) {
 }
 
 interaction::ControlContext Session::control_context() const {
-    interaction::ControlContext context;
-    context.isovalue = state_.isovalue();
-    context.isosurfaces = static_cast<std::uint32_t>(state_.isosurfaces.size());
-    context.picked = state_.picked;
-    context.coloring = state_.coloring;
-    context.bounding_box = state_.bounding_box;
-    context.color_arrays = &arrays_.color_names();
-    context.color_array = color_array(state_, *arrays_.file());
-    context.next_array = next_array_ ? &*next_array_ : nullptr;
-    context.low = arrays_.shown(state_).stats().low;
-    context.high = arrays_.shown(state_).stats().high;
-    context.step = state_.step;
-    context.times = &times_;
-    context.follow = state_.follow;
-    context.playback = state_.playback;
-    context.room_from_physical = state_.room_from_physical;
-    context.home = home_.room_from_physical;
-    context.pivot = physical_center(arrays_.file()->info().grid);
-    context.quality = state_.quality;
-    context.eye_separation = state_.eye_separation;
-    context.stereo = stereo::name_of(state_.stereo);
-    context.panel = state_.panel;
-    context.room_panel = state_.room_panel;
-    context.panel_distance = panel_.in_room().distance();
-    context.panel_place = panel_.place();
-    context.grid = state_.grid;
-    context.views = &state_.views;
-    context.stereo_modes = &outputs_.stereo_modes();
-    context.tools = state_.tools;
-    context.state = {state_.mark, state_.clip, state_.ruler};
-    context.data = data_frame(arrays_.file()->info());
-    context.find_surface = [this](const interaction::Pose& ray) {
-        return picker_.hit_by(ray, state_, scene_.cells().shown());
-    };
-    context.orthographic = state_.orthographic;
-    context.start = &start_;
-    context.leaving = state_.leaving;
-    context.undo = history_.undo();
-    context.redo = history_.redo();
-    return context;
+    const index::IndexFile& array = arrays_.shown(state_);
+    return {.settings = state_,
+            .series = {.low = array.stats().low,
+                       .high = array.stats().high,
+                       .times = &times_,
+                       .pivot = physical_center(arrays_.file()->info().grid),
+                       .home = home_.room_from_physical},
+            .color_arrays = {&arrays_.color_names(), color_array(state_, *arrays_.file())},
+            .called_panel = {panel_.in_room().distance(), panel_.place()},
+            .ways = {.next_array = next_array_ ? &*next_array_ : nullptr,
+                     .start = &start_,
+                     .undo = history_.undo(),
+                     .redo = history_.redo()},
+            .stereo_modes = &outputs_.stereo_modes(),
+            .data = data_frame(arrays_.file()->info()),
+            .find_surface = [this](const interaction::Pose& ray) {
+                return picker_.hit_by(ray, state_, scene_.cells().shown());
+            }};
 }
 
 /// Commands that lead back to the start state, except for displays, viewpoints and tools.

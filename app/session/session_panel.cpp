@@ -99,7 +99,7 @@ bool SessionPanel::stands_beside(const interaction::Pose& head, const ExplorerSt
 
 /// How many times the panel appears in the window (x, y): once in each eye's part.
 glm::ivec2 SessionPanel::places(const ExplorerState& state) const {
-    const stereo::StereoMode mode = stereo::upright(state.stereo);
+    const stereo::StereoMode mode = stereo::upright(state.stereo_mode());
     if (outputs_.room() || !outputs_.shows_windows())
         return glm::ivec2(1);
     return {mode == stereo::StereoMode::side_by_side ? 2 : 1,

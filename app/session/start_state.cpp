@@ -85,7 +85,7 @@ ExplorerState start_state(const Config& config, const std::shared_ptr<const Inde
     state.bounding_box = config.bounding_box;
     const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
     state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
-    state.stereo = config.installation.windows.front().stereo;
+    state.set_stereo(config.installation.windows.front().stereo);
     return state;
 }
 

@@ -47,16 +47,16 @@ struct KeyRepeat {
 };
 
 bool has_colors(const ControlContext& context) {
-    return context.color_arrays && !context.color_arrays->empty();
+    return context.color_arrays.names && !context.color_arrays.names->empty();
 }
 
 /// Colors by an array: at first by the one that was chosen before, then by the one after it.
 Coloring by_next_array(const ControlContext& context) {
-    const std::vector<std::string>& names = *context.color_arrays;
-    const bool goes_on = context.coloring.by == ColorBy::value;
-    Coloring changed = context.coloring;
+    const std::vector<std::string>& names = *context.color_arrays.names;
+    const bool goes_on = context.settings.coloring.by == ColorBy::value;
+    Coloring changed = context.settings.coloring;
     changed.by = ColorBy::value;
-    changed.array = names[(context.color_array + (goes_on ? 1 : 0)) % names.size()];
+    changed.array = names[(context.color_arrays.chosen + (goes_on ? 1 : 0)) % names.size()];
     changed.range.reset();
     return changed;
 }
@@ -85,7 +85,7 @@ struct Controls::State {
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
                     double seconds) {
         const bool shift = now.key(Action::shift);
-        const double range = context.high - context.low;
+        const double range = context.series.high - context.series.low;
         // In recordings of older versions the same keys also move the wand's valuator.
         const bool moved = now.wand_rate(WandValuator::isovalue) != 0;
         const auto down = [&](Action key, Action page) {
@@ -102,19 +102,19 @@ struct Controls::State {
         const double change =
             keys * (shift ? kFine : kCoarse) + wheel * kFine + rate * seconds / kRangeSeconds;
         if (change == 0 || !(range > 0) || !std::isfinite(range))
-            return context.isovalue;
-        const double from =
-            std::isfinite(context.isovalue) ? context.isovalue : context.low + range / 2;
-        return std::clamp(from + change * range, context.low, context.high);
+            return context.settings.isovalue();
+        const double now_shown = context.settings.isovalue();
+        const double from = std::isfinite(now_shown) ? now_shown : context.series.low + range / 2;
+        return std::clamp(from + change * range, context.series.low, context.series.high);
     }
 
     /// Sets `step`, `playback` and `follow` if they change.
     void play(const Reading& now, const ControlContext& context, Seconds time, Seconds elapsed,
               Commands& commands) {
         static const std::vector<double> kNone;
-        const std::vector<double>& times = context.times ? *context.times : kNone;
+        const std::vector<double>& times = context.series.times ? *context.series.times : kNone;
         const auto steps = static_cast<std::int64_t>(times.size());
-        PlaybackState state = context.playback;
+        PlaybackState state = context.settings.playback;
         const bool toggle = now.pressed(Action::play) || now.pressed(GamepadButton::a);
         if (toggle)
             state.playing = !state.playing;
@@ -127,7 +127,7 @@ struct Controls::State {
         if (now.pressed(Action::slower))
             state.speed = std::max(state.speed / 2, kSlowest);
 
-        std::int64_t step = context.step;
+        std::int64_t step = context.settings.step;
         const int forward = step_forward.presses(
             now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper), time);
         const int back = step_back.presses(
@@ -141,35 +141,36 @@ struct Controls::State {
         const Playback::Result reached =
             playback.advance(times, static_cast<std::uint32_t>(step), state, elapsed);
         state.playing = reached.playing;
-        if (reached.step != context.step)
+        if (reached.step != context.settings.step)
             commands.step = reached.step;
         if (now.pressed(Action::follow)) {
-            commands.follow = !context.follow;
+            commands.follow = !context.settings.follow;
             if (*commands.follow && steps > 0)
                 commands.step = static_cast<std::uint32_t>(steps - 1);
         }
-        if (state != context.playback)
+        if (state != context.settings.playback)
             commands.playback = state;
     }
 
     /// Saves the volume's place in this frame under the next free name; drops the oldest view if
     /// there are `kMostViews`.
     static void save_view(const ControlContext& context, Commands& commands) {
-        std::vector<Viewpoint> views = context.views ? *context.views : std::vector<Viewpoint>{};
+        std::vector<Viewpoint> views = context.settings.views;
         std::size_t number = 1;
         const auto name = [&] { return fmt::format("view-{}", number); };
         while (std::ranges::find(views, name(), &Viewpoint::name) != views.end())
             ++number;
         if (views.size() == kMostViews)
             views.erase(views.begin());
-        views.push_back({name(), commands.room_from_physical.value_or(context.room_from_physical)});
+        views.push_back(
+            {name(), commands.room_from_physical.value_or(context.settings.room_from_physical)});
         commands.views = std::move(views);
     }
 
     void switches(const Reading& now, const ControlContext& context, Seconds time,
                   Commands& commands) {
         const auto choose = [&](Action action, QualityMode mode) {
-            if (now.pressed(action) && context.quality != mode)
+            if (now.pressed(action) && context.settings.quality != mode)
                 commands.quality = mode;
         };
         choose(Action::quality_auto, QualityMode::automatic);
@@ -179,43 +180,45 @@ struct Controls::State {
 
         const int eyes = eyes_apart.presses(now.key(Action::eyes_apart), time) -
                          eyes_together.presses(now.key(Action::eyes_together), time);
-        const float separation = std::clamp(
-            context.eye_separation + static_cast<float>(eyes) * kEyeStep, 0.0f, kWidestEyes);
-        if (eyes != 0 && separation != context.eye_separation)
+        const float separation =
+            std::clamp(context.settings.eye_separation + static_cast<float>(eyes) * kEyeStep, 0.0f,
+                       kWidestEyes);
+        if (eyes != 0 && separation != context.settings.eye_separation)
             commands.eye_separation = separation;
 
         if (now.pressed(Action::next_stereo) && context.stereo_modes &&
             !context.stereo_modes->empty()) {
             const std::vector<std::string>& modes = *context.stereo_modes;
-            const auto found = std::ranges::find(modes, context.stereo);
+            const auto found = std::ranges::find(modes, context.settings.stereo);
             const bool wraps = found == modes.end() || found + 1 == modes.end();
             commands.stereo = wraps ? modes.front() : *(found + 1);
         }
         if (now.pressed(Action::orthographic))
-            commands.orthographic = !context.orthographic;
+            commands.orthographic = !context.settings.orthographic;
         if (now.pressed(Action::bounding_box))
-            commands.bounding_box = !context.bounding_box;
-        if (now.pressed(Action::next_surface) && context.isosurfaces > 1)
-            commands.picked = (context.picked + 1) % context.isosurfaces;
+            commands.bounding_box = !context.settings.bounding_box;
+        if (now.pressed(Action::next_surface) && context.settings.isosurfaces.size() > 1)
+            commands.picked = (context.settings.picked + 1) %
+                              static_cast<std::uint32_t>(context.settings.isosurfaces.size());
         if (now.pressed(Action::next_coloring))
-            commands.coloring = after(context.coloring, has_colors(context));
+            commands.coloring = after(context.settings.coloring, has_colors(context));
         if (now.pressed(Action::next_color_array) && has_colors(context))
             commands.coloring = by_next_array(context);
-        if (now.pressed(Action::next_array) && context.next_array) {
+        if (now.pressed(Action::next_array) && context.ways.next_array) {
             commands.isovalue.reset(); // it was of the array before
-            merge(commands, *context.next_array);
+            merge(commands, *context.ways.next_array);
         }
         if (now.pressed(Action::panel))
-            commands.panel = !context.panel;
+            commands.panel = !context.settings.panel;
         if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||
             now.pressed(GamepadButton::back))
-            commands.room_panel = called(context.room_panel, now.viewer(), context.panel_distance,
-                                         context.panel_place);
+            commands.room_panel = called(context.settings.room_panel, now.viewer(),
+                                         context.called_panel.distance, context.called_panel.place);
         // The panel at arm's length can only be read in perspective projection.
-        if (commands.room_panel && commands.room_panel->shown && context.orthographic)
+        if (commands.room_panel && commands.room_panel->shown && context.settings.orthographic)
             commands.orthographic = false;
         if (now.pressed(Action::grid))
-            commands.grid = !context.grid;
+            commands.grid = !context.settings.grid;
         if (now.pressed(Action::save_view))
             save_view(context, commands);
         if (now.pressed(Action::stamp))
@@ -226,13 +229,13 @@ struct Controls::State {
     /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
     /// answer in the same frame as the question counts.
     static void leave(const Reading& now, const ControlContext& context, Commands& commands) {
-        const bool asks = now.pressed(Action::quit) && context.tools == Tools{};
-        if (now.pressed(Action::pick) && context.leaving != asks)
+        const bool asks = now.pressed(Action::quit) && context.settings.tools == Tools{};
+        if (now.pressed(Action::pick) && context.settings.leaving != asks)
             commands.quit = true;
         if (!now.pressed(Action::quit))
             return;
-        if (context.leaving || asks)
-            commands.leaving = !context.leaving;
+        if (context.settings.leaving || asks)
+            commands.leaving = !context.settings.leaving;
         else
             commands.tools = Tools{};
     }
@@ -240,7 +243,7 @@ struct Controls::State {
     /// Keys choose the tool of mouse and wand; the wand's button chooses for the wand alone.
     static void choose_tools(const Reading& now, const ControlContext& context,
                              Commands& commands) {
-        Tools tools = context.tools;
+        Tools tools = context.settings.tools;
         if (now.pressed(Action::first_tools))
             tools = {};
         for (const auto& [action, kind] : {std::pair(Action::clip_tool, ToolKind::clip),
@@ -250,16 +253,16 @@ struct Controls::State {
         if (now.pressed(WandButton::next_tool))
             tools.wand = static_cast<ToolKind>((static_cast<std::size_t>(tools.wand) + 1) %
                                                kNames<ToolKind>.size());
-        if (tools != context.tools)
+        if (tools != context.settings.tools)
             commands.tools = tools;
         if (now.pressed(Action::snap_clip))
-            commands.clip = snapped_next(context.state.clip, context.data);
+            commands.clip = snapped_next(context.settings.clip, context.data);
         if (now.pressed(Action::remove_made))
             remove_made(context, commands);
     }
 
     static void remove_made(const ControlContext& context, Commands& commands) {
-        switch (context.tools.mouse) {
+        switch (context.settings.tools.mouse) {
         case ToolKind::clip: commands.clip = ClipPlane{}; break;
         case ToolKind::ruler: commands.ruler = Ruler{}; break;
         default: commands.mark = Mark{};
@@ -272,13 +275,13 @@ struct Controls::State {
             if (change && (now.pressed(action) || now.pressed(button)))
                 merge(commands, *change);
         };
-        obey(Action::undo, WandButton::undo, context.undo);
-        obey(Action::redo, WandButton::redo, context.redo);
+        obey(Action::undo, WandButton::undo, context.ways.undo);
+        obey(Action::redo, WandButton::redo, context.ways.redo);
     }
 
     ToolBox::Outcome with_tools(const Reading& now, const ControlContext& context,
                                 const Similarity& volume) {
-        return context.leaving ? ToolBox::Outcome() : tools.update(now, {context, volume});
+        return context.settings.leaving ? ToolBox::Outcome() : tools.update(now, {context, volume});
     }
 };
 
@@ -296,10 +299,10 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     Commands commands;
     const Similarity volume =
         s.navigator.update(now, context, seconds, s.tools.takes_drag(now, context));
-    if (volume != context.room_from_physical)
+    if (volume != context.settings.room_from_physical)
         commands.room_from_physical = volume;
     const double isovalue = s.isovalue(now, context, input.time, seconds);
-    if (isovalue != context.isovalue && std::isfinite(isovalue))
+    if (isovalue != context.settings.isovalue() && std::isfinite(isovalue))
         commands.isovalue = isovalue;
     s.play(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)), commands);
     s.switches(now, context, input.time, commands);
@@ -307,8 +310,8 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     s.choose_tools(now, context, commands);
     s.made = s.with_tools(now, context, volume);
     merge(commands, s.made.commands);
-    if (now.pressed(Action::reset) && context.start)
-        merge(commands, *context.start);
+    if (now.pressed(Action::reset) && context.ways.start)
+        merge(commands, *context.ways.start);
     s.take_back(now, context, commands);
     return commands;
 }

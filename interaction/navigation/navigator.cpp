@@ -31,7 +31,7 @@ Similarity dragged(const Reading& now, const ControlContext& context, bool left_
                    Similarity volume) {
     const glm::dquat view = glm::normalize(glm::dquat(now.viewer().orientation));
     const glm::dvec3 right = view * glm::dvec3(1, 0, 0);
-    const glm::dvec3 center = transform(volume, context.pivot);
+    const glm::dvec3 center = transform(volume, context.series.pivot);
     glm::dvec2 orbit(0.0);
     if (!left_taken)
         orbit = {now.drag(MouseBit::left, 0), now.drag(MouseBit::left, 1)};
@@ -79,8 +79,8 @@ Similarity resized(const Reading& now, const ControlContext& context, const Simi
     if (notches == 0 && rate == 0)
         return volume;
     const double factor = std::pow(kNotch, notches) * std::pow(kGrowth, rate * seconds);
-    return scaled(volume, transform(volume, context.pivot), factor,
-                  context.home.scale / kScaleRange, context.home.scale * kScaleRange);
+    return scaled(volume, transform(volume, context.series.pivot), factor,
+                  context.series.home.scale / kScaleRange, context.series.home.scale * kScaleRange);
 }
 
 /// `home` moved and turned so that it lies to the viewer's present place and heading as it lies to
@@ -91,13 +91,14 @@ Similarity recentered(const Similarity& home, const Pose& viewer) {
 }
 
 /// The saved viewpoint after the current one; the first if the volume is at none of them.
-std::optional<Similarity> next_view(const ControlContext& context) {
-    if (!context.views || context.views->empty())
+std::optional<Similarity> next_view(const Settings& settings) {
+    const std::vector<Viewpoint>& views = settings.views;
+    if (views.empty())
         return std::nullopt;
-    const auto at = std::ranges::find(*context.views, context.room_from_physical,
-                                      &Viewpoint::room_from_physical);
-    const bool first = at == context.views->end() || at + 1 == context.views->end();
-    return (first ? context.views->begin() : at + 1)->room_from_physical;
+    const auto at =
+        std::ranges::find(views, settings.room_from_physical, &Viewpoint::room_from_physical);
+    const bool first = at == views.end() || at + 1 == views.end();
+    return (first ? views.begin() : at + 1)->room_from_physical;
 }
 
 bool aims(const Reading& now) {
@@ -115,7 +116,7 @@ std::optional<glm::dvec3> aimed_at(const Reading& now) {
 /// the viewer. A viewer who stands in the data, or nearly, sees them anyway.
 Similarity kept_in_sight(const Similarity& volume, const ControlContext& context,
                          const Pose& viewer) {
-    glm::dvec3 way = transform(volume, context.pivot) - glm::dvec3(viewer.position);
+    glm::dvec3 way = transform(volume, context.series.pivot) - glm::dvec3(viewer.position);
     way.y = 0;
     const double size = context.data.longest_side() * volume.scale;
     if (glm::length(way) < 0.75 * size)
@@ -137,24 +138,24 @@ std::optional<glm::dvec3> teleport_target(const InputState& input) {
 /// same with other heights.
 std::optional<Similarity> Navigator::chosen(const Reading& now, const ControlContext& context) {
     if (now.pressed(Action::reset) || now.pressed(GamepadButton::x))
-        return context.home;
+        return context.series.home;
     if (can_see(now) && (now.pressed(Action::recenter) || now.pressed(WandButton::recenter) ||
                          now.pressed(GamepadButton::left_thumb)))
-        return recentered(context.home, now.viewer());
+        return recentered(context.series.home, now.viewer());
     if (now.pressed(Action::next_view) || now.pressed(WandButton::next_view) ||
         now.pressed(GamepadButton::right_thumb))
-        return next_view(context);
+        return next_view(context.settings);
     const bool axis = now.pressed(Action::axis_view);
     if (can_see(now) && (axis || now.pressed(Action::isometric_view))) {
         const std::size_t view =
-            axis ? axis_view_after(context.room_from_physical, now.viewer()) : kIsometric;
-        return seen_from(axis_views()[view], context.room_from_physical, context.pivot,
-                         now.viewer());
+            axis ? axis_view_after(context.settings.room_from_physical, now.viewer()) : kIsometric;
+        return seen_from(axis_views()[view], context.settings.room_from_physical,
+                         context.series.pivot, now.viewer());
     }
     const bool higher = now.pressed(Action::exaggerate);
     if (higher || now.pressed(Action::flatten)) {
-        const double exaggeration = context.room_from_physical.exaggeration;
-        return exaggerated(context.room_from_physical, context.pivot,
+        const double exaggeration = context.settings.room_from_physical.exaggeration;
+        return exaggerated(context.settings.room_from_physical, context.series.pivot,
                            higher ? exaggeration * kHigher : exaggeration / kHigher);
     }
     return std::nullopt;
@@ -196,7 +197,7 @@ Similarity Navigator::teleported(const Reading& now, const ControlContext& conte
 
 Similarity Navigator::update(const Reading& now, const ControlContext& context, double seconds,
                              bool drag_taken) {
-    Similarity volume = context.room_from_physical;
+    Similarity volume = context.settings.room_from_physical;
     if (const auto place = chosen(now, context)) {
         teleport_target_.reset();
         volume = *place;
@@ -207,7 +208,7 @@ Similarity Navigator::update(const Reading& now, const ControlContext& context, 
         volume = teleported(now, context, volume);
         volume = resized(now, context, volume, seconds);
     }
-    return is_valid(volume) ? volume : context.room_from_physical;
+    return is_valid(volume) ? volume : context.settings.room_from_physical;
 }
 
 } // namespace isochron::interaction

@@ -61,7 +61,7 @@ glm::dvec3 across(int axis, const DataFrame& data) {
 
 void ClipTool::move_with(const ToolHand& hand, const ToolContext& now, Commands& commands) {
     if (hand.pressed)
-        held_ = Held{*hand.ray, now.session.state.clip};
+        held_ = Held{*hand.ray, now.session.settings.clip};
     if (!held_)
         return;
     const Similarity& room = now.room_from_physical;
@@ -72,13 +72,13 @@ void ClipTool::move_with(const ToolHand& hand, const ToolContext& now, Commands&
     plane.point = in_physical(room, after.translation);
     plane.normal = glm::normalize(
         normal_in_physical(room, after.rotation * normal_in_room(room, held_->plane.normal)));
-    if (plane != now.session.state.clip)
+    if (plane != now.session.settings.clip)
         commands.clip = plane;
 }
 
 void ClipTool::pull_with(const ToolHand& hand, const ToolContext& now, Commands& commands) {
     const Similarity& room = now.room_from_physical;
-    const ClipPlane& shown = now.session.state.clip;
+    const ClipPlane& shown = now.session.settings.clip;
     if (hand.pressed) {
         const auto at = met(*hand.ray, shown, now);
         pulled_.reset();
@@ -102,7 +102,7 @@ ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext&
     for (const ToolHand& hand : hands) {
         if (!hand.ray)
             continue;
-        if (!now.session.state.clip.shown) {
+        if (!now.session.settings.clip.shown) {
             const auto found = hand.chosen && now.session.find_surface
                                    ? now.session.find_surface(*hand.ray)
                                    : std::nullopt;
@@ -175,11 +175,11 @@ std::vector<glm::dvec3> outline(const ClipPlane& plane, const DataFrame& data) {
     return corners;
 }
 
-ToolDrawing draw_clip(const ToolState& state, const DataFrame& data) {
+ToolDrawing draw_clip(const Settings& settings, const DataFrame& data) {
     ToolDrawing drawing;
-    if (!state.clip.shown)
+    if (!settings.clip.shown)
         return drawing;
-    const std::vector<glm::dvec3> corners = outline(state.clip, data);
+    const std::vector<glm::dvec3> corners = outline(settings.clip, data);
     for (std::size_t i = 0; i < corners.size(); ++i)
         drawing.lines.push_back({corners[i], corners[(i + 1) % corners.size()], kClipColor});
     return drawing;

@@ -40,7 +40,7 @@ ClipPlane snapped(const ClipPlane& plane, int axis, const DataFrame& data);
 ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data);
 
 /// Its outline on the data's box.
-ToolDrawing draw_clip(const ToolState& state, const DataFrame& data);
+ToolDrawing draw_clip(const Settings& settings, const DataFrame& data);
 
 /// The polygon in which a plane cuts the data's box: its corners in order, in physical space; empty
 /// if they do not meet.

@@ -8,9 +8,10 @@ namespace isochron::interaction {
 Similarity GrabTool::held(const Pose& first, const std::optional<Span>& both,
                           const ToolContext& now) {
     const Similarity& volume = now.room_from_physical;
-    const double home = now.session.home.scale;
+    const double home = now.session.series.home.scale;
     const bool goes_on = grab_ && grab_->span.has_value() == both.has_value() &&
-                         volume == now.session.room_from_physical && grab_->result == volume;
+                         volume == now.session.settings.room_from_physical &&
+                         grab_->result == volume;
     if (!goes_on) {
         grab_ = Grab{first, both, both, {1, 0, 0, 0}, volume, volume};
     } else if (both) {
@@ -43,7 +44,7 @@ ToolOutcome GrabTool::update(std::span<const ToolHand> hands, const ToolContext&
         return outcome;
     }
     const Similarity volume = held(*first, both, now);
-    if (is_valid(volume) && volume != now.session.room_from_physical)
+    if (is_valid(volume) && volume != now.session.settings.room_from_physical)
         outcome.commands.room_from_physical = volume;
     return outcome;
 }

@@ -19,7 +19,7 @@ ToolOutcome PickTool::update(std::span<const ToolHand> hands, const ToolContext&
         else
             outcome.note = "no surface there";
         // A click beside the surfaces removes the mark; without a mark it gives no command.
-        if (found || now.session.state.mark.point)
+        if (found || now.session.settings.mark.point)
             outcome.commands.mark = found ? Mark{found->point} : Mark{};
     }
     return outcome;

@@ -32,7 +32,7 @@ ToolOutcome RulerTool::update(std::span<const ToolHand> hands, const ToolContext
             outcome.note = "no surface there: the ruler measures between places on surfaces";
             continue;
         }
-        Ruler ruler = now.session.state.ruler;
+        Ruler ruler = now.session.settings.ruler;
         if (ruler.places.size() == kMostRulerPlaces)
             ruler.places.clear();
         ruler.places.push_back(found->point.position);
@@ -41,9 +41,9 @@ ToolOutcome RulerTool::update(std::span<const ToolHand> hands, const ToolContext
     return outcome;
 }
 
-ToolDrawing draw_ruler(const ToolState& state, const DataFrame& data) {
+ToolDrawing draw_ruler(const Settings& settings, const DataFrame& data) {
     ToolDrawing drawing;
-    const auto& places = state.ruler.places;
+    const auto& places = settings.ruler.places;
     for (const glm::dvec3& place : places)
         add_cross(place, data, drawing);
     if (places.size() == kMostRulerPlaces) {

@@ -12,6 +12,6 @@ class RulerTool final : public Tool {
 };
 
 /// A line between the two places and its length in the data's unit, with a cross at each place.
-ToolDrawing draw_ruler(const ToolState& state, const DataFrame& data);
+ToolDrawing draw_ruler(const Settings& settings, const DataFrame& data);
 
 } // namespace isochron::interaction

@@ -61,9 +61,9 @@ std::vector<ToolHand> ToolBox::hands_with(ToolKind kind, const Reading& now,
 }
 
 bool ToolBox::takes_drag(const Reading& now, const ControlContext& context) const {
-    const auto& tool = tools_[static_cast<std::size_t>(context.tools.mouse)];
-    const bool may_begin = context.tools.mouse == ToolKind::clip && context.state.clip.shown &&
-                           left_down(now) && !left_before(now);
+    const auto& tool = tools_[static_cast<std::size_t>(context.settings.tools.mouse)];
+    const bool may_begin = context.settings.tools.mouse == ToolKind::clip &&
+                           context.settings.clip.shown && left_down(now) && !left_before(now);
     return tool->takes_drag() || may_begin;
 }
 
@@ -72,7 +72,7 @@ ToolBox::Outcome ToolBox::update(const Reading& now, const ToolContext& context)
     Outcome all;
     for (const ToolRow& row : tool_table()) {
         ToolOutcome outcome = tools_[static_cast<std::size_t>(row.kind)]->update(
-            hands_with(row.kind, now, context.session.tools), context);
+            hands_with(row.kind, now, context.session.settings.tools), context);
         merge(row.looks_at_surfaces ? all.found : all.commands, outcome.commands);
         if (!outcome.note.empty())
             all.notes.push_back(std::move(outcome.note));

@@ -29,12 +29,12 @@ const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
     return rows;
 }
 
-ToolDrawing drawing_of(const ToolState& state, const DataFrame& data) {
+ToolDrawing drawing_of(const Settings& settings, const DataFrame& data) {
     ToolDrawing all;
     for (const ToolRow& row : tool_table()) {
         if (!row.draw)
             continue;
-        ToolDrawing drawing = row.draw(state, data);
+        ToolDrawing drawing = row.draw(settings, data);
         all.lines.insert(all.lines.end(), drawing.lines.begin(), drawing.lines.end());
         all.labels.insert(all.labels.end(), drawing.labels.begin(), drawing.labels.end());
     }

@@ -17,13 +17,13 @@ struct ToolRow {
     bool looks_at_surfaces;
     std::unique_ptr<Tool> (*make)();
     /// The drawing for it, also while no hand holds it; null: none.
-    ToolDrawing (*draw)(const ToolState& state, const DataFrame& data);
+    ToolDrawing (*draw)(const Settings& settings, const DataFrame& data);
 };
 
 /// In the order of `ToolKind`.
 const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table();
 
 /// The drawings of all tools together.
-ToolDrawing drawing_of(const ToolState& state, const DataFrame& data);
+ToolDrawing drawing_of(const Settings& settings, const DataFrame& data);
 
 } // namespace isochron::interaction

@@ -4,6 +4,7 @@
 #include "interaction/controls/controls.h"
 #include "interaction/navigation/navigation.h"
 #include "tests/interaction/input_builders.h"
+#include "tests/interaction/obeyed.h"
 
 #include <gtest/gtest.h>
 
@@ -14,63 +15,26 @@ class Desk {
   public:
     Desk(const Desk&) = delete; // the context points into it
     Desk& operator=(const Desk&) = delete;
-    ControlContext context;
     std::vector<double> times{0, 1, 2, 3, 4};
-    std::vector<Viewpoint> views;
     std::vector<std::string> modes{"mono", "side_by_side", "top_bottom"};
+    Settings settings;
+    ControlContext context{.settings = settings};
 
     Desk() {
-        context.times = &times;
-        context.isovalue = 50;
-        context.high = 100;
-        context.stereo = "mono";
+        settings.set_isovalue(50);
+        context.series.times = &times;
+        context.series.high = 100;
         context.stereo_modes = &modes;
-        context.views = &views;
-        context.home = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.01};
-        context.room_from_physical = context.home;
-        context.pivot = {30, 25, 30};
+        context.series.home = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.01};
+        settings.room_from_physical = context.series.home;
+        context.series.pivot = {30, 25, 30};
         context.data = {glm::dmat4(60, 0, 0, 0, 0, 50, 0, 0, 0, 0, 60, 0, 0, 0, 0, 1), "mm"};
     }
     Commands frame(std::vector<DeviceState> devices, double elapsed = 1.0 / 60) {
         now_ += elapsed;
         Commands commands = controls_.update({Seconds(now_), std::move(devices)}, context);
-        if (commands.isovalue)
-            context.isovalue = *commands.isovalue;
-        if (commands.step)
-            context.step = *commands.step;
-        if (commands.playback)
-            context.playback = *commands.playback;
-        if (commands.room_from_physical)
-            context.room_from_physical = *commands.room_from_physical;
-        if (commands.quality)
-            context.quality = *commands.quality;
-        if (commands.eye_separation)
-            context.eye_separation = *commands.eye_separation;
-        if (commands.stereo)
-            context.stereo = *commands.stereo;
-        if (commands.panel)
-            context.panel = *commands.panel;
-        if (commands.grid)
-            context.grid = *commands.grid;
-        if (commands.views)
-            views = *commands.views;
-        if (commands.bounding_box)
-            context.bounding_box = *commands.bounding_box;
-        if (commands.picked)
-            context.picked = *commands.picked;
-        if (commands.coloring)
-            context.coloring = *commands.coloring;
-        if (commands.leaving)
-            context.leaving = *commands.leaving;
-        if (commands.tools)
-            context.tools = *commands.tools;
         merge(commands, controls_.found());
-        if (commands.clip)
-            context.state.clip = *commands.clip;
-        if (commands.ruler)
-            context.state.ruler = *commands.ruler;
-        if (commands.mark)
-            context.state.mark = *commands.mark;
+        obey(commands, settings);
         return commands;
     }
     /// Presses keys for one frame and lets go for another.
@@ -79,8 +43,8 @@ class Desk {
         merge(commands, frame({head_at(kStanding), keys_down(0)}));
         return commands;
     }
-    const Similarity& volume() const { return context.room_from_physical; }
-    glm::dvec3 center() const { return transform(volume(), context.pivot); }
+    const Similarity& volume() const { return settings.room_from_physical; }
+    glm::dvec3 center() const { return transform(volume(), context.series.pivot); }
 
   private:
     Controls controls_;

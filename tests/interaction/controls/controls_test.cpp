@@ -11,14 +11,14 @@ namespace {
 TEST(Controls, KeysStepTheIsovalueByOnePercentOrAThousandth) {
     Desk desk;
     desk.tap(bit(Action::isovalue_up));
-    EXPECT_NEAR(desk.context.isovalue, 51, 1e-9);
+    EXPECT_NEAR(desk.settings.isovalue(), 51, 1e-9);
     desk.tap(bit(Action::isovalue_down) | bit(Action::shift));
-    EXPECT_NEAR(desk.context.isovalue, 50.9, 1e-9);
+    EXPECT_NEAR(desk.settings.isovalue(), 50.9, 1e-9);
     std::vector<float> wheel(kMouseValuators, 0.0f);
     wheel[kMouseWheel] = 2;
     desk.frame({keys_down(bit(Action::control)), mouse_dragged(wheel)});
-    EXPECT_NEAR(desk.context.isovalue, 51.1, 1e-9);
-    EXPECT_EQ(desk.volume(), desk.context.home);
+    EXPECT_NEAR(desk.settings.isovalue(), 51.1, 1e-9);
+    EXPECT_EQ(desk.volume(), desk.context.series.home);
 }
 
 TEST(Controls, AHeldKeyRepeatsAfterADelayAtAnyFrameRate) {
@@ -26,21 +26,21 @@ TEST(Controls, AHeldKeyRepeatsAfterADelayAtAnyFrameRate) {
         Desk desk;
         for (int frame = 0; frame < 2 * rate; ++frame)
             desk.frame({keys_down(bit(Action::isovalue_up))}, 1.0 / rate);
-        EXPECT_NEAR(desk.context.isovalue, 50 + 1 + 1.6 / 0.05, 2) << rate;
+        EXPECT_NEAR(desk.settings.isovalue(), 50 + 1 + 1.6 / 0.05, 2) << rate;
     }
 }
 
 TEST(Controls, TheWandValuatorRunsThroughTheRangeInFourSeconds) {
     for (const int rate : {20, 60, 144}) {
         Desk desk;
-        desk.context.isovalue = 0;
+        desk.settings.set_isovalue(0);
         desk.frame({});
         for (int frame = 0; frame < 2 * rate; ++frame)
             desk.frame({wand_at(kStanding, 0, 1)}, 1.0 / rate);
-        EXPECT_NEAR(desk.context.isovalue, 50, 1e-6);
+        EXPECT_NEAR(desk.settings.isovalue(), 50, 1e-6);
         for (int frame = 0; frame < 3 * rate; ++frame)
             desk.frame({wand_at(kStanding, 0, 1)}, 1.0 / rate);
-        EXPECT_EQ(desk.context.isovalue, 100);
+        EXPECT_EQ(desk.settings.isovalue(), 100);
         EXPECT_TRUE(desk.frame({wand_at(kStanding, 0, 1)}).empty());
     }
 }
@@ -49,35 +49,35 @@ TEST(Controls, GamepadTriggersChangeTheIsovalueAndSticksFly) {
     Desk desk;
     desk.frame({});
     desk.frame({{"gamepad", std::nullopt, true, 0, {0, 0, 0, 0, 0, 1}}}, 0.1);
-    EXPECT_NEAR(desk.context.isovalue, 52.5, 1e-9);
+    EXPECT_NEAR(desk.settings.isovalue(), 52.5, 1e-9);
     desk.frame({{"gamepad", std::nullopt, true, 0, {0, 0, 0, 0, 1, 0}}}, 0.1);
-    EXPECT_NEAR(desk.context.isovalue, 50, 1e-9);
+    EXPECT_NEAR(desk.settings.isovalue(), 50, 1e-9);
     const glm::dvec3 before = desk.center();
     desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, -1, 0, 0, 0, 0}}}, 0.1);
     expect_near(desk.center() - before, {0, 0, 0.1}, 1e-7); // ahead: it comes nearer
     desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, 0, 1, 0, 0, 0}}}, 0.1);
     EXPECT_LT(desk.center().x, before.x); // turning right: it swings to the left
     desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::right_bumper), {}}});
-    EXPECT_EQ(desk.context.step, 1u);
+    EXPECT_EQ(desk.settings.step, 1u);
     desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::a), {}}});
-    EXPECT_TRUE(desk.context.playback.playing);
+    EXPECT_TRUE(desk.settings.playback.playing);
 }
 
 TEST(Controls, SteppingWrapsWithLoopStopsWithoutAndPauses) {
     Desk desk;
     desk.tap(bit(Action::step_back));
-    EXPECT_EQ(desk.context.step, 4u);
+    EXPECT_EQ(desk.settings.step, 4u);
     desk.tap(bit(Action::step_forward));
-    EXPECT_EQ(desk.context.step, 0u);
+    EXPECT_EQ(desk.settings.step, 0u);
     desk.tap(bit(Action::loop));
-    EXPECT_FALSE(desk.context.playback.loop);
+    EXPECT_FALSE(desk.settings.playback.loop);
     desk.tap(bit(Action::step_back));
-    EXPECT_EQ(desk.context.step, 0u);
+    EXPECT_EQ(desk.settings.step, 0u);
     desk.tap(bit(Action::play));
-    EXPECT_TRUE(desk.context.playback.playing);
+    EXPECT_TRUE(desk.settings.playback.playing);
     desk.tap(bit(Action::step_forward));
-    EXPECT_FALSE(desk.context.playback.playing);
-    EXPECT_EQ(desk.context.step, 1u);
+    EXPECT_FALSE(desk.settings.playback.playing);
+    EXPECT_EQ(desk.settings.step, 1u);
 }
 
 TEST(Controls, PlayingRunsThroughTheSeriesInTenSeconds) {
@@ -86,7 +86,7 @@ TEST(Controls, PlayingRunsThroughTheSeriesInTenSeconds) {
     std::vector<int> frames(5, 0);
     for (int frame = 0; frame < 600; ++frame) {
         desk.frame({head_at(kStanding)});
-        ++frames[desk.context.step];
+        ++frames[desk.settings.step];
     }
     for (const int count : frames)
         EXPECT_NEAR(count, 120, 3);
@@ -95,15 +95,15 @@ TEST(Controls, PlayingRunsThroughTheSeriesInTenSeconds) {
 TEST(Controls, PlaybackKeysReverseAndChangeSpeedWithinBounds) {
     Desk desk;
     desk.tap(bit(Action::reverse));
-    EXPECT_TRUE(desk.context.playback.reverse);
+    EXPECT_TRUE(desk.settings.playback.reverse);
     desk.tap(bit(Action::faster));
-    EXPECT_EQ(desk.context.playback.speed, 2.0);
+    EXPECT_EQ(desk.settings.playback.speed, 2.0);
     for (int i = 0; i < 20; ++i)
         desk.tap(bit(Action::faster));
-    EXPECT_EQ(desk.context.playback.speed, kFastest);
+    EXPECT_EQ(desk.settings.playback.speed, kFastest);
     for (int i = 0; i < 20; ++i)
         desk.tap(bit(Action::slower));
-    EXPECT_EQ(desk.context.playback.speed, kSlowest);
+    EXPECT_EQ(desk.settings.playback.speed, kSlowest);
 }
 
 TEST(Controls, FollowingGoesToTheLastStep) {
@@ -111,7 +111,7 @@ TEST(Controls, FollowingGoesToTheLastStep) {
     const Commands on = desk.tap(bit(Action::follow));
     EXPECT_EQ(on.follow, true);
     EXPECT_EQ(on.step, 4u);
-    desk.context.follow = true;
+    desk.settings.follow = true;
     const Commands off = desk.tap(bit(Action::follow));
     EXPECT_EQ(off.follow, false);
     EXPECT_FALSE(off.step);
@@ -122,9 +122,9 @@ TEST(Controls, OneStepDoesNotPlay) {
     desk.times = {7};
     EXPECT_TRUE(desk.tap(bit(Action::play)).empty());
     EXPECT_TRUE(desk.tap(bit(Action::step_forward)).empty());
-    desk.context.playback.playing = true; // the panel's doing
+    desk.settings.playback.playing = true; // the panel's doing
     desk.frame({});
-    EXPECT_FALSE(desk.context.playback.playing);
+    EXPECT_FALSE(desk.settings.playback.playing);
 }
 
 TEST(Controls, SwitchesReportOnlyChanges) {
@@ -134,7 +134,7 @@ TEST(Controls, SwitchesReportOnlyChanges) {
     EXPECT_NEAR(*desk.tap(bit(Action::eyes_apart)).eye_separation, 0.064f, 1e-7f);
     for (int i = 0; i < 100; ++i)
         desk.tap(bit(Action::eyes_together));
-    EXPECT_EQ(desk.context.eye_separation, 0.0f);
+    EXPECT_EQ(desk.settings.eye_separation, 0.0f);
     EXPECT_TRUE(desk.tap(bit(Action::eyes_together)).empty());
     EXPECT_EQ(desk.tap(bit(Action::next_stereo)).stereo, "side_by_side");
     desk.tap(bit(Action::next_stereo));
@@ -155,16 +155,16 @@ TEST(Controls, LooksGoRoundByKeys) {
     EXPECT_EQ(desk.tap(bit(Action::bounding_box)).bounding_box, false);
     EXPECT_EQ(desk.tap(bit(Action::bounding_box)).bounding_box, true);
     EXPECT_TRUE(desk.tap(bit(Action::next_surface)).empty()); // there is but one
-    desk.context.isosurfaces = 3;
+    desk.settings.isosurfaces.resize(3);
     EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 1u);
     EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 2u);
     EXPECT_EQ(desk.tap(bit(Action::next_surface)).picked, 0u);
-    desk.context.coloring = {ColorBy::surface, "dusk", std::array{1.0, 2.0}};
+    desk.settings.coloring = {ColorBy::surface, "dusk", std::array{1.0, 2.0}};
     EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
               (Coloring{ColorBy::first_crossing, "dusk", {}}));
     desk.tap(bit(Action::next_coloring));
     const std::vector<std::string> arrays{"u"};
-    desk.context.color_arrays = &arrays;
+    desk.context.color_arrays.names = &arrays;
     EXPECT_EQ(desk.tap(bit(Action::next_coloring)).coloring,
               (Coloring{ColorBy::value, "dusk", {}}));
 }

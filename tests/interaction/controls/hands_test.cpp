@@ -203,7 +203,7 @@ TEST(Navigator, RecenterPutsTheVolumeAheadOfTheViewer) {
     desk.frame({head_at(head), keys_down(bit(Action::recenter))});
     // What was 1.5 m ahead (-Z) and 0.1 m to the right is now 1.5 m to -X and 0.1 m to -Z.
     expect_near(desk.volume().translation, {2 - 1.5, 1.3, -3 - 0.1}, 1e-6);
-    EXPECT_NEAR(desk.volume().scale, desk.context.home.scale, 1e-12);
+    EXPECT_NEAR(desk.volume().scale, desk.context.series.home.scale, 1e-12);
 }
 
 TEST(Navigator, ViewpointsAreSavedUnderNewNamesAndComeBackInTurn) {
@@ -217,9 +217,9 @@ TEST(Navigator, ViewpointsAreSavedUnderNewNamesAndComeBackInTurn) {
     const Similarity second = desk.volume();
     ASSERT_NE(first, second);
     desk.tap(save);
-    ASSERT_EQ(desk.views.size(), 2u);
-    EXPECT_EQ(desk.views[0].name, "view-1");
-    EXPECT_EQ(desk.views[1].name, "view-2");
+    ASSERT_EQ(desk.settings.views.size(), 2u);
+    EXPECT_EQ(desk.settings.views[0].name, "view-1");
+    EXPECT_EQ(desk.settings.views[1].name, "view-2");
     desk.tap(next);
     EXPECT_EQ(desk.volume(), first);
     desk.tap(next);
@@ -229,7 +229,7 @@ TEST(Navigator, ViewpointsAreSavedUnderNewNamesAndComeBackInTurn) {
     EXPECT_EQ(desk.volume(), first) << "from elsewhere, the first one";
     for (int i = 0; i < 70; ++i)
         desk.tap(save);
-    EXPECT_EQ(desk.views.size(), kMostViews);
+    EXPECT_EQ(desk.settings.views.size(), kMostViews);
 }
 
 TEST(Navigator, TheGridIsSwitched) {
@@ -263,7 +263,7 @@ TEST(Hands, NoMotionWhateverMakesTheVolumeInvalid) {
             ASSERT_NEAR(glm::length(desk.volume().rotation), 1.0, 1e-9);
             ASSERT_GE(desk.volume().scale, 0.01e-3 * (1 - 1e-9));
             ASSERT_LE(desk.volume().scale, 0.01e3 * (1 + 1e-9));
-            ASSERT_LE(desk.views.size(), kMostViews);
+            ASSERT_LE(desk.settings.views.size(), kMostViews);
         }
     }
 }

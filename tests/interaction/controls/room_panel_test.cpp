@@ -105,12 +105,13 @@ TEST(RoomPanel, KeyAndWandButtonCallItOncePerPress) {
          {InputState{{}, {head_at(kStanding), keys_down(bit(Action::room_panel))}},
           InputState{{}, {head_at(kStanding), wand_at(kStanding, bit(WandButton::room_panel))}}}) {
         Controls controls;
-        ControlContext context;
+        Settings settings;
+        const ControlContext context{.settings = settings};
         EXPECT_FALSE(controls.update({{}, {head_at(kStanding)}}, context).room_panel);
         const Commands commands = controls.update(pressed, context);
         ASSERT_TRUE(commands.room_panel);
         EXPECT_TRUE(commands.room_panel->shown);
-        context.room_panel = *commands.room_panel;
+        settings.room_panel = *commands.room_panel;
         EXPECT_FALSE(controls.update(pressed, context).room_panel) << "still held";
     }
 }

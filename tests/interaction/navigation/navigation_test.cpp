@@ -55,7 +55,7 @@ TEST(Controls, MovingKeepsTheCenterUnderTheCursor) {
             desk.frame({head_at(kStanding), mouse_dragged({0, 0, 0, 0, 0.1f, 0.2f})});
         const double height = 2 * distance * std::tan(0.45);
         expect_near(desk.center() - before, {0.1 * height, -0.2 * height, 0}, 1e-3);
-        EXPECT_EQ(desk.volume().rotation, desk.context.home.rotation);
+        EXPECT_EQ(desk.volume().rotation, desk.context.series.home.rotation);
     }
 }
 
@@ -134,7 +134,8 @@ TEST(Controls, AWandThatIsLostWhileGrabbingDoesNotThrowTheVolume) {
     EXPECT_TRUE(desk.frame({wand}).empty());
     wand.pose->position.x = 2.1f;
     desk.frame({wand});
-    expect_near(desk.volume().translation - desk.context.home.translation, {0.1, 0, 0}, 1e-6);
+    expect_near(desk.volume().translation - desk.context.series.home.translation, {0.1, 0, 0},
+                1e-6);
 }
 
 TEST(Controls, ScalingWhileGrabbingKeepsBoth) {
@@ -153,9 +154,9 @@ TEST(Controls, ScalingWhileGrabbingKeepsBoth) {
 TEST(Controls, ResetReturnsHome) {
     Desk desk;
     desk.frame({head_at(kStanding), mouse_dragged({0.3f, 0.2f, 0.1f, 0.1f, 0, 0, 3})});
-    ASSERT_NE(desk.volume(), desk.context.home);
+    ASSERT_NE(desk.volume(), desk.context.series.home);
     desk.tap(bit(Action::reset));
-    EXPECT_EQ(desk.volume(), desk.context.home);
+    EXPECT_EQ(desk.volume(), desk.context.series.home);
     EXPECT_FALSE(desk.tap(bit(Action::reset)).room_from_physical);
 }
 
@@ -165,7 +166,7 @@ TEST(Controls, ResetLeadsBackToTheStartInEverything) {
     start.isovalue = 12;
     start.orthographic = false;
     start.clip = ClipPlane{};
-    desk.context.start = &start;
+    desk.context.ways.start = &start;
     const Commands commands = desk.tap(bit(Action::reset));
     EXPECT_EQ(commands.isovalue, 12);
     EXPECT_EQ(commands.orthographic, false);
@@ -196,14 +197,14 @@ TEST(Controls, AKeyGoesThroughTheAxisViewsAndOneIsIsometric) {
     for (std::size_t i = 0; i < 2 * kIsometric; ++i) { // at first they are seen from +z
         desk.tap(bit(Action::axis_view));
         const Similarity expected = seen_from(axis_views()[(i + 5) % kIsometric], desk.volume(),
-                                              desk.context.pivot, kStanding);
+                                              desk.context.series.pivot, kStanding);
         EXPECT_LT(glm::length(desk.volume().rotation - expected.rotation), 1e-6) << i;
     }
     desk.tap(bit(Action::isometric_view));
-    EXPECT_EQ(desk.volume(),
-              seen_from(axis_views()[kIsometric], desk.volume(), desk.context.pivot, kStanding));
+    EXPECT_EQ(desk.volume(), seen_from(axis_views()[kIsometric], desk.volume(),
+                                       desk.context.series.pivot, kStanding));
     EXPECT_EQ(desk.tap(bit(Action::orthographic)).orthographic, true);
-    desk.context.orthographic = true;
+    desk.settings.orthographic = true;
     EXPECT_EQ(desk.tap(bit(Action::room_panel)).orthographic, false)
         << "the panel in the room is read in perspective";
 }
@@ -211,13 +212,13 @@ TEST(Controls, AKeyGoesThroughTheAxisViewsAndOneIsIsometric) {
 TEST(Controls, KeysExaggerateHeightsAboutTheCenterAndTakeThatBack) {
     Desk desk;
     const Similarity before = desk.volume();
-    const glm::dvec3 center = transform(before, desk.context.pivot);
+    const glm::dvec3 center = transform(before, desk.context.series.pivot);
     desk.tap(bit(Action::exaggerate));
     desk.tap(bit(Action::exaggerate));
     EXPECT_DOUBLE_EQ(desk.volume().exaggeration, 1.5625);
-    EXPECT_LT(glm::distance(transform(desk.volume(), desk.context.pivot), center), 1e-12);
+    EXPECT_LT(glm::distance(transform(desk.volume(), desk.context.series.pivot), center), 1e-12);
     const glm::dvec3 up =
-        transform(desk.volume(), desk.context.pivot + glm::dvec3(0, 0, 1)) - center;
+        transform(desk.volume(), desk.context.series.pivot + glm::dvec3(0, 0, 1)) - center;
     EXPECT_NEAR(glm::length(up), 1.5625 * before.scale, 1e-12);
     const glm::dvec3 at(3, -7, 11);
     EXPECT_LT(glm::distance(in_physical(desk.volume(), transform(desk.volume(), at)), at), 1e-9);
@@ -231,7 +232,7 @@ TEST(Controls, KeysExaggerateHeightsAboutTheCenterAndTakeThatBack) {
         desk.tap(bit(Action::exaggerate));
     EXPECT_EQ(desk.volume().exaggeration, kMostExaggeration);
     desk.tap(bit(Action::reset));
-    EXPECT_EQ(desk.volume(), desk.context.home);
+    EXPECT_EQ(desk.volume(), desk.context.series.home);
 }
 
 TEST(Navigation, MovingTurningAndScalingKeepHeightsExaggerated) {
@@ -255,16 +256,16 @@ TEST(Navigation, MovingTurningAndScalingKeepHeightsExaggerated) {
 TEST(Controls, PageKeysMoveTheIsovalueByTheSameStepsAsArrows) {
     Desk desk;
     desk.tap(bit(Action::isovalue_rise));
-    EXPECT_DOUBLE_EQ(desk.context.isovalue, 51);
+    EXPECT_DOUBLE_EQ(desk.settings.isovalue(), 51);
     desk.tap(bit(Action::isovalue_fall) | bit(Action::shift));
-    EXPECT_DOUBLE_EQ(desk.context.isovalue, 50.9);
+    EXPECT_DOUBLE_EQ(desk.settings.isovalue(), 50.9);
     // Recordings of before moved the wand's valuator, which counts once.
     Desk old;
     DeviceState wand = wand_at(kStanding);
     wand.valuators = {1.0f};
     old.frame({head_at(kStanding), keys_down(0)});
     old.frame({head_at(kStanding), wand, keys_down(bit(Action::isovalue_rise))}, 0.04);
-    EXPECT_NEAR(old.context.isovalue, 51, 1e-9) << "a quarter of the range in a second";
+    EXPECT_NEAR(old.settings.isovalue(), 51, 1e-9) << "a quarter of the range in a second";
 }
 
 TEST(Controls, NothingEverMakesTheVolumeInvalid) {
@@ -288,9 +289,9 @@ TEST(Controls, NothingEverMakesTheVolumeInvalid) {
                        uniform(random, 0, 1));
             ASSERT_TRUE(is_valid(desk.volume()));
             ASSERT_NEAR(glm::length(desk.volume().rotation), 1.0, 1e-9);
-            ASSERT_GE(desk.context.isovalue, 0);
-            ASSERT_LE(desk.context.isovalue, 100);
-            ASSERT_LT(desk.context.step, 5u);
+            ASSERT_GE(desk.settings.isovalue(), 0);
+            ASSERT_LE(desk.settings.isovalue(), 100);
+            ASSERT_LT(desk.settings.step, 5u);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "interaction/controls/motion_gate.h"
 
 #include "tests/interaction/input_builders.h"
+#include "tests/interaction/obeyed.h"
 #include "tests/interaction/recording/recording_in.h"
 
 #include <gtest/gtest.h>
@@ -15,39 +16,25 @@
 namespace isochron::interaction {
 namespace {
 
-/// What commands set; the least of a session.
+/// The settings and what surrounds them: the least of a session.
 class SimulatedSession {
   public:
-    SimulatedSession() {
-        context_.times = &times_;
-        context_.stereo = "mono";
-        context_.stereo_modes = &modes_;
-        context_.views = &views_;
-        context_.low = -1e-3;
-        context_.high = 17.3;
-        context_.home = {{0, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.03};
-        context_.room_from_physical = context_.home;
-    }
+    SimulatedSession() { settings_.room_from_physical = context_.series.home; }
     const ControlContext& context() const { return context_; }
-    void obey(const Commands& commands) {
-        context_.isovalue = commands.isovalue.value_or(context_.isovalue);
-        context_.step = commands.step.value_or(context_.step);
-        context_.playback = commands.playback.value_or(context_.playback);
-        context_.room_from_physical =
-            commands.room_from_physical.value_or(context_.room_from_physical);
-        context_.quality = commands.quality.value_or(context_.quality);
-        context_.eye_separation = commands.eye_separation.value_or(context_.eye_separation);
-        context_.stereo = commands.stereo.value_or(context_.stereo);
-        context_.panel = commands.panel.value_or(context_.panel);
-        context_.grid = commands.grid.value_or(context_.grid);
-        views_ = commands.views.value_or(views_);
-    }
+    const Settings& settings() const { return settings_; }
+    void obey(const Commands& commands) { interaction::obey(commands, settings_); }
 
   private:
-    std::vector<double> times_{0, 0.1, 0.5, 0.6, 2, 2.5, 2.6, 7};
-    std::vector<Viewpoint> views_;
-    std::vector<std::string> modes_{"mono", "left", "side_by_side"};
-    ControlContext context_;
+    const std::vector<double> times_{0, 0.1, 0.5, 0.6, 2, 2.5, 2.6, 7};
+    const std::vector<std::string> modes_{"mono", "left", "side_by_side"};
+    Settings settings_;
+    const ControlContext context_{
+        .settings = settings_,
+        .series = {.low = -1e-3,
+                   .high = 17.3,
+                   .times = &times_,
+                   .home = {{0, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.03}},
+        .stereo_modes = &modes_};
 };
 
 std::vector<WindowEvent> random_events(Random& random) {
@@ -111,7 +98,7 @@ TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
                 merge(record.commands, record.from_panel);
                 session.obey(record.commands);
                 paces.push_back(
-                    gate.update(record.input, record.commands, session.context().quality));
+                    gate.update(record.input, record.commands, session.settings().quality));
                 navigated += record.commands.room_from_physical.has_value();
                 stepped += record.commands.step.has_value();
                 writer.append(record);
@@ -135,7 +122,7 @@ TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
             merge(commands, record.from_panel);
             ASSERT_EQ(commands, record.commands) << "frame " << frame;
             session.obey(commands);
-            ASSERT_EQ(gate.update(input, commands, session.context().quality), paces[frame]);
+            ASSERT_EQ(gate.update(input, commands, session.settings().quality), paces[frame]);
         }
         EXPECT_TRUE(replay.finished());
     }

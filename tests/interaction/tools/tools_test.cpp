@@ -26,7 +26,7 @@ class ToolDesk : public Desk {
             const glm::dvec3 at = from + along * (to - from);
             if (!(along > 0) || at.x < 0 || at.x > 60 || at.y < 0 || at.y > 50)
                 return std::nullopt;
-            return Pointed{{at, 0, context.isovalue}, 0};
+            return Pointed{{at, 0, settings.isovalue()}, 0};
         };
     }
     /// A click of the mouse, whose ray goes through a place in the room.
@@ -55,12 +55,12 @@ TEST(Tools, TheTableHoldsEachKindOnceInItsOrder) {
 TEST(Tools, KeysChooseThemAndEscapeLeavesThemFirst) {
     ToolDesk desk;
     desk.tap(bit(Action::clip_tool));
-    EXPECT_EQ(desk.context.tools.mouse, ToolKind::clip);
-    EXPECT_EQ(desk.context.tools.wand, ToolKind::clip);
-    EXPECT_EQ(desk.context.tools.other, ToolKind::grab);
+    EXPECT_EQ(desk.settings.tools.mouse, ToolKind::clip);
+    EXPECT_EQ(desk.settings.tools.wand, ToolKind::clip);
+    EXPECT_EQ(desk.settings.tools.other, ToolKind::grab);
     const Commands left = desk.tap(bit(Action::quit));
     EXPECT_FALSE(left.leaving);
-    EXPECT_EQ(desk.context.tools, Tools{});
+    EXPECT_EQ(desk.settings.tools, Tools{});
     EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, true);
 }
 
@@ -79,13 +79,13 @@ TEST(Tools, AClickPicksAndADragDoesNot) {
 
 TEST(Tools, AHandThatHoldsAnotherToolDoesNotMoveTheVolume) {
     ToolDesk desk;
-    desk.context.tools.wand = ToolKind::ruler;
+    desk.settings.tools.wand = ToolKind::ruler;
     Pose hand{{0, 1.3f, 0}, {1, 0, 0, 0}};
     desk.frame({wand_at(hand, kHold)});
     hand.position.x += 0.1f;
     EXPECT_FALSE(desk.frame({wand_at(hand, kHold)}).room_from_physical);
     desk.frame({wand_at(hand)});
-    desk.context.tools.wand = ToolKind::grab;
+    desk.settings.tools.wand = ToolKind::grab;
     desk.frame({wand_at(hand, kHold)});
     hand.position.x += 0.1f;
     EXPECT_TRUE(desk.frame({wand_at(hand, kHold)}).room_from_physical);
@@ -96,25 +96,25 @@ TEST(Tools, TheRulerMeasuresInTheDataUnitsAndBeginsAnew) {
     desk.tap(bit(Action::ruler_tool));
     const glm::dvec3 a(10, 10, 30), b(40, 50, 30);
     desk.click(desk.in_room(a));
-    EXPECT_EQ(desk.context.state.ruler.places.size(), 1u);
+    EXPECT_EQ(desk.settings.ruler.places.size(), 1u);
     desk.click(desk.in_room(b));
-    ASSERT_EQ(desk.context.state.ruler.places.size(), 2u);
-    const ToolDrawing drawing = drawing_of(desk.context.state, desk.context.data);
+    ASSERT_EQ(desk.settings.ruler.places.size(), 2u);
+    const ToolDrawing drawing = drawing_of(desk.settings, desk.context.data);
     ASSERT_EQ(drawing.labels.size(), 1u);
     EXPECT_EQ(drawing.labels[0].text, "50 mm");
     desk.click(desk.in_room(a));
-    EXPECT_EQ(desk.context.state.ruler.places.size(), 1u);
+    EXPECT_EQ(desk.settings.ruler.places.size(), 1u);
     desk.tap(bit(Action::remove_made));
-    EXPECT_TRUE(desk.context.state.ruler.places.empty());
+    EXPECT_TRUE(desk.settings.ruler.places.empty());
 }
 
 TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {
     Random random(test_seed());
     for (int round = 0; round < 100; ++round) {
         ToolDesk desk;
-        desk.context.room_from_physical.exaggeration = round % 2 ? 1.0 : 3.0;
-        desk.context.tools.wand = ToolKind::clip;
-        desk.context.state.clip = {true, {30, 25, 30}, {0, 0, 1}};
+        desk.settings.room_from_physical.exaggeration = round % 2 ? 1.0 : 3.0;
+        desk.settings.tools.wand = ToolKind::clip;
+        desk.settings.clip = {true, {30, 25, 30}, {0, 0, 1}};
         const Pose before{{0.1f, 1.2f, -0.3f}, random_rotation(random)};
         const Pose after{{-0.2f, 1.5f, -0.1f}, random_rotation(random)};
         desk.frame({wand_at(before, kHold)});
@@ -127,7 +127,7 @@ TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {
             return std::pair(at, into * normal_in_room(desk.volume(), plane.normal));
         };
         const auto [place, normal] = seen(before, {true, {30, 25, 30}, {0, 0, 1}});
-        const auto [now_at, now_normal] = seen(after, desk.context.state.clip);
+        const auto [now_at, now_normal] = seen(after, desk.settings.clip);
         expect_near(now_at, place, 1e-5);
         expect_near(now_normal, normal, 1e-5);
     }
@@ -135,10 +135,10 @@ TEST(Tools, AClipPlaneGoesWithTheHandThatHoldsIt) {
 
 TEST(Tools, TheMousePullsTheClipPlaneUnderItsRayAndTurnsNothing) {
     ToolDesk desk;
-    desk.context.tools.mouse = ToolKind::clip;
+    desk.settings.tools.mouse = ToolKind::clip;
     // A plane that faces to the right and upwards, so that its normal can be seen.
-    desk.context.state.clip = {true, {30, 25, 30}, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
-    const glm::dvec3 normal = desk.context.state.clip.normal;
+    desk.settings.clip = {true, {30, 25, 30}, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
+    const glm::dvec3 normal = desk.settings.clip.normal;
     const glm::dvec3 to = glm::dvec3(30, 25, 30) + 8.0 * normal;
     desk.mouse(desk.in_room({30, 25, 30}), bit(MouseBit::left));
     const Commands pulled = desk.mouse(desk.in_room(to), bit(MouseBit::left), 0.1f);
@@ -150,13 +150,13 @@ TEST(Tools, TheMousePullsTheClipPlaneUnderItsRayAndTurnsNothing) {
 
 TEST(Tools, AClipPlaneIsUnderTheMouseWhereHeightsAreExaggerated) {
     ToolDesk desk;
-    desk.context.room_from_physical =
-        exaggerated(desk.context.room_from_physical, desk.context.pivot, 2.5);
-    desk.context.tools.mouse = ToolKind::clip;
+    desk.settings.room_from_physical =
+        exaggerated(desk.settings.room_from_physical, desk.context.series.pivot, 2.5);
+    desk.settings.tools.mouse = ToolKind::clip;
     const glm::dvec3 point(30, 25, 30);
-    desk.context.state.clip = {true, point, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
-    const Similarity& room = desk.context.room_from_physical;
-    const glm::dvec3 normal = normal_in_room(room, desk.context.state.clip.normal);
+    desk.settings.clip = {true, point, glm::normalize(glm::dvec3(1, 0.4, 0.6))};
+    const Similarity& room = desk.settings.room_from_physical;
+    const glm::dvec3 normal = normal_in_room(room, desk.settings.clip.normal);
     const glm::dvec3 to = in_physical(room, transform(room, point) + 0.05 * normal);
     desk.mouse(desk.in_room(point), bit(MouseBit::left));
     const Commands pulled = desk.mouse(desk.in_room(to), bit(MouseBit::left), 0.1f);
@@ -169,12 +169,12 @@ TEST(Tools, AClipPlaneSnapsToTheAxesInTurn) {
     ToolDesk desk;
     for (const int axis : {0, 1, 2, 0}) {
         desk.tap(bit(Action::snap_clip));
-        EXPECT_TRUE(desk.context.state.clip.shown);
+        EXPECT_TRUE(desk.settings.clip.shown);
         glm::dvec3 expected(0.0);
         expected[axis] = 1;
-        expect_near(desk.context.state.clip.normal, expected);
+        expect_near(desk.settings.clip.normal, expected);
     }
-    const ClipPlane other = snapped(desk.context.state.clip, 0, desk.context.data);
+    const ClipPlane other = snapped(desk.settings.clip, 0, desk.context.data);
     expect_near(other.normal, {-1, 0, 0});
 }
 

@@ -1,0 +1,25 @@
+// What is known of a field of a record, such as its key in recordings and the values it may have.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+namespace isochron::interaction {
+
+inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
+inline constexpr std::size_t kLongestText = 256;       ///< [byte]
+inline constexpr std::size_t kLongestArrayName = 4096; ///< [byte] of an array
+inline constexpr std::size_t kMostEvents = 64;         ///< stamps, or haptic pulses, of one frame
+
+/// The properties of a field, which are the same in every record that has it.
+struct Field {
+    const char* key;
+    double low = -kAnyNumber, high = kAnyNumber; ///< range of a number, or of each number of a list
+    std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
+    const char* old_key = nullptr;               ///< the key in recordings of older versions
+    bool undone = true;                          ///< changes of the setting can be undone
+    bool may_lack = false; ///< older recordings may lack it: then it has its default
+    bool dragged = false;  ///< changes in quick succession are undone as one
+};
+
+} // namespace isochron::interaction

@@ -1,0 +1,128 @@
+// Settings: everything that a user can set while exploring, said once.
+//
+// A new setting is a member of SettingsOf and its line in each_setting; without that line this
+// header does not compile. Settings, which sessions keep, SettingChanges, which commands hold, and
+// with them merging, JSON, checks, undo, sessions, the comparison of replays and the random
+// recordings of the tests follow; docs/FORMATS.md is held against it.
+#pragma once
+
+#include "interaction/field.h"
+#include "interaction/setting_values.h"
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// What a setting is at first where `Holds<T>` is a value; where it is a change: none.
+template <template <class> class Holds, class T>
+constexpr Holds<T> at_first(T value) {
+    if constexpr (std::same_as<Holds<T>, T>)
+        return value;
+    else
+        return {};
+}
+
+/// @tparam Holds what is held of a setting whose values are of type T: `Holds<T>`
+template <template <class> class Holds>
+struct SettingsOf {
+    // What is shown.
+    Holds<std::string> array{}; ///< of the surfaces, by name; empty: the index's first
+    Holds<std::vector<Isosurface>> isosurfaces =
+        at_first<Holds>(std::vector<Isosurface>{{}}); ///< all of them, 1 to kMostIsosurfaces
+    Holds<std::uint32_t> picked{}; ///< the surface whose isovalue is moved, counted from 0
+    Holds<Coloring> coloring{};
+    Holds<Look> look{};
+    Holds<bool> bounding_box = at_first<Holds>(true); ///< the box with its ticks and numbers
+
+    // Time.
+    Holds<std::uint32_t> steps{}; ///< number that the session shows; 0: all that the index has
+    Holds<std::uint32_t> step{};
+    Holds<bool> follow{}; ///< show the last step whenever a new one arrives
+    Holds<PlaybackState> playback{};
+
+    // Where and how it is seen.
+    Holds<Similarity> room_from_physical{}; ///< navigation's result
+    Holds<std::vector<Viewpoint>> views{};  ///< all saved ones, at most kMostViews
+    Holds<QualityMode> quality{};
+    Holds<float> eye_separation = at_first<Holds>(0.063f);            ///< meters, 0 to kWidestEyes
+    Holds<std::string> stereo = at_first<Holds>(std::string("mono")); ///< a stereo mode's name
+    Holds<bool> orthographic{}; ///< desktop screens show the data in parallel projection
+    Holds<bool> grid{};         ///< floor grid shown
+
+    // Panels and tools.
+    Holds<bool> panel = at_first<Holds>(true); ///< the operator's panel is shown
+    Holds<RoomPanel> room_panel{};
+    Holds<Mark> mark{};
+    Holds<Tools> tools{};
+    Holds<ClipPlane> clip{};
+    Holds<Ruler> ruler{};
+    Holds<bool> leaving{}; ///< the program asks the user whether to quit
+
+    bool operator==(const SettingsOf&) const = default;
+};
+
+/// Calls `visit(field, members...)` for every setting, with the members of all the records: a
+/// setting that limits another one comes before it.
+template <class Visit, class... Records>
+constexpr void each_setting(Visit&& visit, Records&... r) {
+    visit(Field{.key = "array", .most = kLongestArrayName}, r.array...);
+    visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces, .dragged = true},
+          r.isosurfaces...);
+    visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
+    visit(Field{.key = "coloring", .dragged = true}, r.coloring...);
+    visit(Field{.key = "look", .dragged = true}, r.look...);
+    visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
+    visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
+    visit(Field{.key = "step", .dragged = true}, r.step...);
+    visit(Field{.key = "follow"}, r.follow...);
+    visit(Field{"playback"}, r.playback...);
+    visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
+    visit(Field{"quality"}, r.quality...);
+    visit(Field{.key = "eye_separation", .low = 0, .high = kWidestEyes, .dragged = true},
+          r.eye_separation...);
+    visit(Field{"stereo"}, r.stereo...);
+    visit(Field{.key = "panel", .undone = false}, r.panel...);
+    visit(Field{"grid"}, r.grid...);
+    visit(Field{.key = "views", .most = kMostViews}, r.views...);
+    visit(Field{.key = "room_panel", .undone = false}, r.room_panel...);
+    visit(Field{"mark"}, r.mark...);
+    visit(Field{"tools"}, r.tools...);
+    visit(Field{.key = "clip", .dragged = true}, r.clip...);
+    visit(Field{"ruler"}, r.ruler...);
+    visit(Field{"orthographic"}, r.orthographic...);
+    visit(Field{.key = "leaving", .undone = false}, r.leaving...);
+}
+
+template <class T>
+using SettingValue = T;
+
+/// What a session keeps.
+struct Settings : SettingsOf<SettingValue> {
+    double isovalue() const { return isosurfaces[picked].isovalue; }
+    void set_isovalue(double isovalue) { isosurfaces[picked].isovalue = isovalue; }
+    bool operator==(const Settings&) const = default;
+};
+
+/// What commands change: each setting's new value, or none.
+using SettingChanges = SettingsOf<std::optional>;
+
+/// A byte for each setting, to count them.
+template <class T>
+struct SettingCounted {
+    char byte = 0;
+};
+consteval std::size_t number_of_listed_settings() {
+    SettingsOf<SettingCounted> all;
+    std::size_t number = 0;
+    each_setting([&](const Field&, const auto&) { ++number; }, all);
+    return number;
+}
+static_assert(number_of_listed_settings() == sizeof(SettingsOf<SettingCounted>),
+              "each_setting lists every member of SettingsOf once");
+
+} // namespace isochron::interaction

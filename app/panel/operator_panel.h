@@ -22,13 +22,15 @@ class OperatorPanel {
     OperatorPanel(const render::Gl& gl, const stereo::Windows& windows, float font_scale = 1);
 
     /// Shows the four lines of introduction over the first window until the user begins.
-    void introduce() { over_.introduce(); }
-    bool introduced() { return over_.introduced(); } ///< true once, when those lines have gone
-    /// See PanelLayer.
+    void introduce() { over_.pages().introduce(); }
+    bool introduced() {
+        return over_.pages().introduced();
+    } ///< true once, when those lines have gone
+    /// See OpenPages.
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
-        over_.offer_files(std::move(recent));
+        over_.pages().offer_files(std::move(recent));
     }
-    std::optional<std::filesystem::path> take_chosen() { return over_.take_chosen(); }
+    std::optional<std::filesystem::path> take_chosen() { return over_.pages().take_chosen(); }
 
     std::optional<MovieWish> take_wanted_movie();
 

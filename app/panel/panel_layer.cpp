@@ -64,8 +64,8 @@ struct Taker {
     glm::ivec2 places;   ///< number of panels in the window, see `repeat`
     bool popups = false; ///< a popup or page is open, which Escape closes
     bool& closes_popup;
-    bool& begun;               ///< the user has begun
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
+    bool begun = false;        ///< a key or button went down among these events
     bool clicked = false;      ///< one of them on the panel
     bool typed = false;        ///< characters came among these events
     std::set<Key> changed{};   ///< keys, of those that ImGui reads, with events among these
@@ -225,19 +225,20 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                 .cursor = cursor_,
                 .places = places_,
                 .popups = has_popup(),
-                .closes_popup = closes_popup_,
-                .begun = begun_};
+                .closes_popup = closes_popup_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
-        if (turns_page(event))
+        if (pages_.turn(event, has_popup()))
             continue;
-        const bool open = shown || has_page();
+        const bool open = shown || pages_.any();
         const bool taken = std::visit(taker, event);
         if (!taken || !open)
             left.push_back(event);
     }
+    if (taker.begun)
+        pages_.begin();
     return left;
 }
 
@@ -268,25 +269,44 @@ void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
 Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
     begin_frame(picture, time);
     Commands commands;
-    PanelPages pages{.offers_files = static_cast<bool>(recent_)};
+    PanelPages asked{.offers_files = pages_.offers_files()};
     area_ = {.narrow = area_.narrow};
     // The panel in the room replaces the one over the picture.
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
-        commands = draw_panel(model, area_, pages);
-    if (pages.files)
-        open_files();
-    help_ = help_ || pages.help;
-    if (pages.movie)
-        wanted_movie_ = pages.movie;
+        commands = draw_panel(model, area_, asked);
+    if (asked.files)
+        pages_.open_files();
+    if (asked.help)
+        pages_.open_help();
+    if (asked.movie)
+        wanted_movie_ = asked.movie;
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
-    lay_out_pages(model, time);
+    pages_.lay_out(model, area_, time);
     if (std::exchange(messages_, model.messages) != model.messages)
         said_ = time;
     if (model.place == PanelPlace::over)
         message_window(model.standing, model.message, time - said_);
     ImGui::Render();
     return commands;
+}
+
+void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint, Seconds time) {
+    begin_frame(picture, time);
+    pages_.lay_out_files();
+    message_window(complaint, {}, Seconds(0));
+    ImGui::Render();
+}
+
+void PanelLayer::lay_out_progress(glm::ivec2 picture, const std::string& name,
+                                  const std::string& line, float fraction, Seconds time) {
+    begin_frame(picture, time);
+    progress_window(name, line, fraction);
+    ImGui::Render();
+}
+
+bool PanelLayer::has_popup() const {
+    return imgui_->OpenPopupStack.Size > 0;
 }
 
 bool PanelLayer::covers(glm::vec2 at) const {

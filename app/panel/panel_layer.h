@@ -1,7 +1,7 @@
 // Runs Dear ImGui inside the program: feeds it events and draws its triangles.
 #pragma once
 
-#include "app/panel/file_window.h"
+#include "app/panel/open_pages.h"
 #include "app/panel/panel.h"
 #include "interaction/input/window_event.h"
 #include "interaction/pose.h"
@@ -36,19 +36,7 @@ class PanelLayer {
     /// @param scale target pixels per panel pixel
     void set_scale(float scale);
     float scale() const { return scale_; }
-    /// Shows the four lines of introduction from now on, until the user begins.
-    void introduce() { newcomer_ = true; }
-    /// Whether those lines have gone since the last call.
-    bool introduced() { return std::exchange(introduced_, false); }
-
-    /// Lets the user open other data. @param recent returns the recently opened data
-    void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
-        recent_ = std::move(recent);
-    }
-    /// Opens the page on which they choose.
-    void open_files() { files_.open(recent_()); }
-    /// The data that the user has chosen; returned once.
-    std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
+    OpenPages& pages() { return pages_; }
 
     /// The movie that the user wants made, or given up; returned once.
     std::optional<MovieWish> take_wanted_movie() { return std::exchange(wanted_movie_, {}); }
@@ -93,8 +81,6 @@ class PanelLayer {
 
     /// A hash of all that `draw` would draw: panels that look the same have the same one.
     std::size_t digest() const;
-    /// A page lies over the picture, which Escape closes.
-    bool has_page() const { return help_ || files_.is_open(); }
     const PanelArea& area() const { return area_; } ///< panel pixels
     /// Whether the panel, or a page that it has opened, covers a place.
     /// @param at fractions of the picture from the top left
@@ -105,10 +91,8 @@ class PanelLayer {
 
   private:
     void make_font_texture();
-    bool turns_page(const interaction::WindowEvent& event);
     bool has_popup() const;
     void begin_frame(glm::ivec2 picture, interaction::Seconds time);
-    void lay_out_pages(const PanelModel& model, interaction::Seconds time);
 
     const render::Gl& gl_;
     ImGuiContext* imgui_;
@@ -122,14 +106,8 @@ class PanelLayer {
     std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
     bool closes_popup_ = false;       ///< Escape was pressed
-    bool help_ = false;               ///< the help page is open
-    FileWindow files_;
-    std::function<std::vector<std::filesystem::path>()>
-        recent_; ///< empty: the user cannot open other data
-    std::optional<std::filesystem::path> chosen_;
+    OpenPages pages_;
     std::optional<MovieWish> wanted_movie_;
-    bool newcomer_ = false, begun_ = false, introduced_ = false;
-    std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
     render::Program program_;
     render::VertexArray vertex_array_;
     render::Buffer vertices_, elements_;

@@ -14,14 +14,14 @@ namespace fs = std::filesystem;
 std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataChoice& choice) {
     PageWindow window(windows, choice.window);
     PanelLayer& layer = window.layer();
-    layer.offer_files([&choice] { return choice.recent; });
-    layer.open_files();
+    layer.pages().offer_files([&choice] { return choice.recent; });
+    layer.pages().open_files();
     std::string complaint;
-    while (layer.has_page() && window.goes_on()) {
+    while (layer.pages().any() && window.goes_on()) {
         window.frame([&](glm::ivec2 size, interaction::Seconds time) {
             layer.lay_out_files(size, complaint, time);
         });
-        std::optional<fs::path> wanted = layer.take_chosen();
+        std::optional<fs::path> wanted = layer.pages().take_chosen();
         const std::vector<fs::path> dropped = window.take_dropped();
         if (!dropped.empty()) {
             wanted = one_name_of(dropped);
@@ -32,7 +32,7 @@ std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataCh
         complaint = choice.why_not_open(*wanted);
         if (complaint.empty())
             return wanted;
-        layer.open_files();
+        layer.pages().open_files();
     }
     return std::nullopt;
 }

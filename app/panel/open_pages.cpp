@@ -1,10 +1,9 @@
 // The pages that lie over the picture beside the panel.
+#include "app/panel/open_pages.h"
+
 #include "app/panel/panel_help.h"
-#include "app/panel/panel_layer.h"
-#include "app/panel/panel_tools.h"
 
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <utility>
 #include <variant>
@@ -17,9 +16,7 @@ using interaction::Seconds;
 using interaction::TextEvent;
 using interaction::WindowEvent;
 
-/// F1, `?` and Ctrl + O, wherever the mouse is, and Escape from what they open. @return whether it
-/// was one of them
-bool PanelLayer::turns_page(const WindowEvent& event) {
+bool OpenPages::turn(const WindowEvent& event, bool popup) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto* key = std::get_if<KeyEvent>(&event);
     const auto* typed = std::get_if<TextEvent>(&event);
@@ -31,7 +28,7 @@ bool PanelLayer::turns_page(const WindowEvent& event) {
         return true;
     }
     // At once: what comes after it may open the next page.
-    if (pressed && key->key == Key::escape && has_page() && !io.WantTextInput && !has_popup()) {
+    if (pressed && key->key == Key::escape && any() && !io.WantTextInput && !popup) {
         if (files_.is_open())
             files_.close();
         else
@@ -44,32 +41,16 @@ bool PanelLayer::turns_page(const WindowEvent& event) {
     return true;
 }
 
-void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint, Seconds time) {
-    begin_frame(picture, time);
+void OpenPages::lay_out_files() {
     if (auto file = files_.draw())
         chosen_ = std::move(file);
-    message_window(complaint, {}, Seconds(0));
-    ImGui::Render();
 }
 
-void PanelLayer::lay_out_progress(glm::ivec2 picture, const std::string& name,
-                                  const std::string& line, float fraction, Seconds time) {
-    begin_frame(picture, time);
-    progress_window(name, line, fraction);
-    ImGui::Render();
-}
-
-bool PanelLayer::has_popup() const {
-    return imgui_->OpenPopupStack.Size > 0;
-}
-
-/// Lays out the pages over the picture: help, files and introduction.
-void PanelLayer::lay_out_pages(const PanelModel& model, Seconds time) {
+void OpenPages::lay_out(const PanelModel& model, const PanelArea& panel, Seconds time) {
     if (help_ && model.place != PanelPlace::in_room)
         help_ = help_window(model);
-    if (auto file = files_.draw())
-        chosen_ = std::move(file);
-    if (!newcomer_ || has_page() || model.place != PanelPlace::over)
+    lay_out_files();
+    if (!newcomer_ || any() || model.place != PanelPlace::over)
         return;
     constexpr Seconds kLeast{6.0}; // long enough to be read
     if (!introduced_at_)
@@ -79,8 +60,8 @@ void PanelLayer::lay_out_pages(const PanelModel& model, Seconds time) {
         introduced_ = true;
         return;
     }
-    const bool docked = area_.bottom - area_.top > 2 * area_.title;
-    first_use_window(docked ? area_.right : 0.0f);
+    const bool docked = panel.bottom - panel.top > 2 * panel.title;
+    first_use_window(docked ? panel.right : 0.0f);
 }
 
 } // namespace isochron::app

@@ -1,0 +1,63 @@
+// The pages that lie over the picture beside the panel: help, the choice of data, and the
+// introduction.
+#pragma once
+
+#include "app/panel/file_window.h"
+#include "app/panel/panel.h"
+#include "interaction/input/window_event.h"
+#include "interaction/pose.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace isochron::app {
+
+class OpenPages {
+  public:
+    /// Shows the four lines of introduction from now on, until the user begins.
+    void introduce() { newcomer_ = true; }
+    /// The user has pressed a key or a button.
+    void begin() { begun_ = true; }
+    /// Whether those lines have gone since the last call.
+    bool introduced() { return std::exchange(introduced_, false); }
+
+    /// Lets the user open other data. @param recent returns the recently opened data
+    void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
+        recent_ = std::move(recent);
+    }
+    bool offers_files() const { return static_cast<bool>(recent_); }
+    /// Opens the page on which they choose.
+    void open_files() { files_.open(recent_()); }
+    /// The data that the user has chosen; returned once.
+    std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
+
+    void open_help() { help_ = true; }
+
+    /// A page lies over the picture, which Escape closes.
+    bool any() const { return help_ || files_.is_open(); }
+
+    /// Obeys F1, `?` and Ctrl + O, wherever the mouse is, and Escape, which closes a page.
+    /// @param popup a popup is open, which Escape closes before a page
+    /// @return whether the event was one of them
+    bool turn(const interaction::WindowEvent& event, bool popup);
+
+    /// Lays the pages out in the current Dear ImGui frame.
+    /// @param panel where the panel is
+    void lay_out(const PanelModel& model, const PanelArea& panel, interaction::Seconds time);
+    /// Lays out the choice of data alone.
+    void lay_out_files();
+
+  private:
+    bool help_ = false; ///< the help page is open
+    FileWindow files_;
+    std::function<std::vector<std::filesystem::path>()>
+        recent_; ///< empty: the user cannot open other data
+    std::optional<std::filesystem::path> chosen_;
+    bool newcomer_ = false, begun_ = false, introduced_ = false;
+    std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
+};
+
+} // namespace isochron::app

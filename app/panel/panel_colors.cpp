@@ -106,7 +106,7 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
     if (ImGui::Checkbox("automatic range", &automatic)) {
         coloring.range.reset();
         if (!automatic)
-            coloring.range = model.scale_range;
+            coloring.range = model.colors.range;
     }
     tip("the range is found from the values; off: set it yourself");
     if (automatic) {
@@ -142,13 +142,14 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
 } // namespace
 
 void array_section(const PanelModel& model, Commands& commands) {
-    if (model.arrays.size() < 2)
+    if (model.arrays.names.size() < 2)
         return;
     ImGui::SetNextItemWidth(-60.0f);
-    if (ImGui::BeginCombo("array", model.arrays[model.array].c_str())) {
-        for (std::size_t i = 0; i < model.arrays.size(); ++i)
-            if (ImGui::Selectable(model.arrays[i].c_str(), i == model.array) && i != model.array)
-                interaction::merge(commands, model.way_to_array(i));
+    if (ImGui::BeginCombo("array", model.arrays.names[model.arrays.asked].c_str())) {
+        for (std::size_t i = 0; i < model.arrays.names.size(); ++i)
+            if (ImGui::Selectable(model.arrays.names[i].c_str(), i == model.arrays.asked) &&
+                i != model.arrays.asked)
+                interaction::merge(commands, model.arrays.way_to(i));
         ImGui::EndCombo();
     }
     tip("array whose isosurfaces are shown (Ctrl + A)");
@@ -220,36 +221,36 @@ void coloring_section(const PanelModel& model, Commands& commands) {
                 choose(i);
         ImGui::EndCombo();
     };
-    const bool several = model.color_arrays.size() > 1;
+    const bool several = model.arrays.color_names.size() > 1;
     const std::array<std::string_view, 3> words{
         "which surface", several ? "an array" : "second array", "first crossing"};
     choice("color", std::string(words[static_cast<std::size_t>(coloring.by)]), words,
            "what surfaces are colored by (U)", [&](std::size_t i) {
                const auto by = static_cast<interaction::ColorBy>(i);
-               if (by == interaction::ColorBy::value && model.color_arrays.empty())
+               if (by == interaction::ColorBy::value && model.arrays.color_names.empty())
                    return;
                if (by != coloring.by)
                    coloring.range.reset();
                coloring.by = by;
            });
     if (coloring.by == interaction::ColorBy::value && several)
-        choice("by", model.color_arrays[model.color_array], model.color_arrays,
+        choice("by", model.arrays.color_names[model.arrays.color], model.arrays.color_names,
                "array to color by (Ctrl + U)", [&](std::size_t i) {
-                   if (i != model.color_array)
+                   if (i != model.arrays.color)
                        coloring.range.reset();
-                   coloring.array = model.color_arrays[i];
+                   coloring.array = model.arrays.color_names[i];
                });
     if (coloring.by != interaction::ColorBy::surface) {
         std::vector<std::string> names{render::kColorMapNames.begin(),
                                        render::kColorMapNames.end()};
         const std::size_t own = names.size();
-        for (const LoadedColorMap& map : model.color_maps)
+        for (const LoadedColorMap& map : model.colors.own_maps)
             names.push_back(map.name);
         choice("map", coloring.map, names, "color map, from the lowest to the highest value",
                [&](std::size_t i) {
                    coloring.map = names[i];
-                   coloring.colors =
-                       i < own ? std::vector<std::uint32_t>() : model.color_maps[i - own].colors;
+                   coloring.colors = i < own ? std::vector<std::uint32_t>()
+                                             : model.colors.own_maps[i - own].colors;
                });
         way_of_map(coloring);
         range_of_map(model, coloring);

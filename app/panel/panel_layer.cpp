@@ -283,10 +283,10 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     pages_.lay_out(model, area_, time);
-    if (std::exchange(messages_, model.messages) != model.messages)
+    if (std::exchange(messages_, model.notes.messages) != model.notes.messages)
         said_ = time;
     if (model.place == PanelPlace::over)
-        message_window(model.standing, model.message, time - said_);
+        message_window(model.notes.standing, model.notes.message, time - said_);
     ImGui::Render();
     return commands;
 }

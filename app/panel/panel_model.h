@@ -39,37 +39,56 @@ struct MovieState {
     std::optional<float> progress{}; ///< of the one that is being made, 0 to 1
 };
 
-/// What the panel shows in one frame. The panel changes none of it.
-struct PanelModel {
-    const index::SeriesInfo& info;
-    const index::IndexStats& stats;
-    const ExplorerState& asked;
-    std::span<const std::string> arrays = {};       ///< names, of those with surfaces
-    std::size_t array = 0;                          ///< the one that is asked for
-    std::span<const std::string> color_arrays = {}; ///< names, of those to color by
-    std::size_t color_array = 0;                    ///< whose values are the colors, or would be
-    std::function<interaction::Commands(std::size_t)> way_to_array; ///< shows an array, by number
-    std::array<double, 2> scale_range{};                            ///< of the color scale
-    std::span<const LoadedColorMap> color_maps = {};                ///< of the configuration
-    const FrameReport& frame;
-    TimeSummary frame_times; ///< of the last frames
+/// The arrays of the data.
+struct PanelArrays {
+    std::span<const std::string> names = {};                  ///< of those with surfaces
+    std::size_t asked = 0;                                    ///< number of the one asked for
+    std::function<interaction::Commands(std::size_t)> way_to; ///< shows an array, by number
+    std::span<const std::string> color_names = {};            ///< of those to color by
+    std::size_t color = 0; ///< number of the one whose values are the colors, or would be
+};
+
+/// The color scale, and the maps that it may have.
+struct PanelColors {
+    std::array<double, 2> range{};                 ///< of the scale
+    std::span<const LoadedColorMap> own_maps = {}; ///< of the configuration
+};
+
+/// How the search and the frames go.
+struct PanelWork {
+    TimeSummary frame_times{}; ///< of the last frames
     double frames_per_second = 0;
     index::ReadUse reading{};                   ///< of the index, since it was opened
     std::vector<std::uint32_t> at_hand_steps{}; ///< steps that can be shown without a search
     bool searching = false;                     ///< the worker has not answered yet
+};
+
+/// What the user is told.
+struct PanelNotes {
+    std::string failure{};    ///< of the worker; empty when all is well
+    std::string message{};    ///< newest note, such as a saved screenshot
+    std::size_t messages = 0; ///< number of notes so far
+    std::string standing{};   ///< note that stays in the picture as long as it is true
+};
+
+/// What the panel shows in one frame. The panel changes none of it.
+struct PanelModel {
+    PanelPlace place = PanelPlace::over;
+    const index::SeriesInfo& info;
+    const index::IndexStats& stats;
+    interaction::DataFrame data{};
+    const ExplorerState& asked;
+    const FrameReport& frame;
+    PanelArrays arrays{};
+    PanelColors colors{};
+    PanelWork work{};
+    PanelNotes notes{};
     bool recording = false;
     MovieState movies{};
-    std::string failure;      ///< of the worker; empty when all is well
-    std::string message;      ///< newest note, such as a saved screenshot
-    std::size_t messages = 0; ///< number of notes so far
-    std::string standing;     ///< note that stays in the picture as long as it is true
     const std::vector<interaction::ControlGroup>& controls;
-    std::vector<interaction::DeviceKind> at_hand; ///< connected kinds of devices
-    PanelPlace place = PanelPlace::over;
-    const interaction::Commands* undo = nullptr; ///< null: there is nothing to undo
-    const interaction::Commands* redo = nullptr;
-    interaction::DataFrame data;
-    interaction::Pose head;     ///< of the first viewer
+    std::vector<interaction::DeviceKind> at_hand{}; ///< connected kinds of devices
+    interaction::Ways ways{};
+    interaction::Pose head{};   ///< of the first viewer
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
 };
 

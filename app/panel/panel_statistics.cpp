@@ -25,7 +25,7 @@ void measurements(const PanelModel& model) {
     const FrameReport& frame = model.frame;
     text(words_for_cells(frame));
     ImGui::SameLine();
-    note(model.searching
+    note(model.work.searching
              ? "searching ..."
              : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
          kDim);
@@ -37,27 +37,28 @@ void measurements(const PanelModel& model) {
     note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
                      frame.gather.count()),
          kDim);
-    const index::ReadUse& use = model.reading;
+    const index::ReadUse& use = model.work.reading;
     note(fmt::format("read {}   cache {} of {}   {} of {} steps ready",
                      human_bytes(static_cast<double>(use.bytes)),
                      human_bytes(static_cast<double>(use.held)),
                      human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),
          kDim);
-    note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms", model.frames_per_second,
-                     model.frame_times.median, model.frame_times.p99),
+    note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms",
+                     model.work.frames_per_second, model.work.frame_times.median,
+                     model.work.frame_times.p99),
          kDim);
     for (const DeviceTracking& device : frame.tracking)
         note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
 }
 
 void complaints(const PanelModel& model) {
-    if (!model.failure.empty())
-        note(model.failure, kWarning);
+    if (!model.notes.failure.empty())
+        note(model.notes.failure, kWarning);
 }
 
 void newest_note(const PanelModel& model) {
-    if (!model.message.empty())
-        note(model.message, kDim);
+    if (!model.notes.message.empty())
+        note(model.notes.message, kDim);
 }
 
 } // namespace isochron::app

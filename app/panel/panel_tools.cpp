@@ -66,12 +66,12 @@ void clip_buttons(const PanelModel& model, Commands& commands) {
 
 void mark_steps_at_hand(const PanelModel& model, int last) {
     // The marks may differ from wall to wall, and a single step needs none.
-    if (model.place == PanelPlace::in_room || model.at_hand_steps.size() < 2)
+    if (model.place == PanelPlace::in_room || model.work.at_hand_steps.size() < 2)
         return;
     constexpr float kHeight = 3.0f;
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float width = (high.x - low.x) / static_cast<float>(last + 1);
-    for (const std::uint32_t step : model.at_hand_steps) {
+    for (const std::uint32_t step : model.work.at_hand_steps) {
         const float left = low.x + width * static_cast<float>(step);
         ImGui::GetWindowDrawList()->AddRectFilled({left, high.y - kHeight}, {left + width, high.y},
                                                   ImGui::GetColorU32(ImGuiCol_PlotHistogram));
@@ -79,9 +79,9 @@ void mark_steps_at_hand(const PanelModel& model, int last) {
 }
 
 void history_section(const PanelModel& model, Commands& commands) {
-    step_button("Undo", "undo (Ctrl + Z)", model.undo, commands);
+    step_button("Undo", "undo (Ctrl + Z)", model.ways.undo, commands);
     ImGui::SameLine();
-    step_button("Redo", "redo (Ctrl + Shift + Z)", model.redo, commands);
+    step_button("Redo", "redo (Ctrl + Shift + Z)", model.ways.redo, commands);
 }
 
 void tools_section(const PanelModel& model, Commands& commands) {

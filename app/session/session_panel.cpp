@@ -32,12 +32,12 @@ SessionPanel::feed(std::span<const interaction::WindowEvent> events, const Explo
 PanelModel SessionPanel::told(PanelModel model, PanelPlace place) const {
     model.recording = recording_;
     model.movies = movies_;
-    model.message = message_;
-    model.messages = messages_;
-    model.standing = outputs_.headset() && outputs_.shows_windows()
-                         ? "No picture in the headset: the window shows the data instead. " +
-                               outputs_.headset()->description()
-                         : standing_;
+    model.notes.message = message_;
+    model.notes.messages = messages_;
+    model.notes.standing = outputs_.headset() && outputs_.shows_windows()
+                               ? "No picture in the headset: the window shows the data instead. " +
+                                     outputs_.headset()->description()
+                               : standing_;
     model.place = place;
     return model;
 }

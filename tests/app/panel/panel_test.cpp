@@ -46,11 +46,7 @@ class PanelTest : public testing::Test {
                                    .stats = stats_,
                                    .asked = asked_,
                                    .frame = frame_,
-                                   .frame_times = {},
-                                   .failure = {},
-                                   .message = {},
-                                   .controls = controls_,
-                                   .at_hand = {}},
+                                   .controls = controls_},
                                   area, pages);
             ImGui::Render();
         }
@@ -108,13 +104,10 @@ TEST_F(PanelTest, MeasurementsAreSaidInWords) {
                      .stats = stats_,
                      .asked = asked_,
                      .frame = frame_,
-                     .frame_times = {},
-                     .frames_per_second = 59.6,
-                     .reading = {.bytes = 1 << 21, .held = 1 << 20, .budget = 1 << 30},
-                     .failure = "the disk is gone",
-                     .message = "written to a.png",
-                     .controls = controls_,
-                     .at_hand = {}};
+                     .work = {.frames_per_second = 59.6,
+                              .reading = {.bytes = 1 << 21, .held = 1 << 20, .budget = 1 << 30}},
+                     .notes = {.failure = "the disk is gone", .message = "written to a.png"},
+                     .controls = controls_};
     const auto said = [&] {
         ImGui::NewFrame();
         ImGui::SetNextWindowSize({600, 400});
@@ -134,7 +127,7 @@ TEST_F(PanelTest, MeasurementsAreSaidInWords) {
          {"4321 cells", "of 9000 candidates, 17 reused", "volume 10 x 20 x 5 mm", "60 frames/s",
           "cache 1.00 MiB of 1.00 GiB", "head", "the disk is gone", "written to a.png"})
         EXPECT_THAT(text, testing::HasSubstr(words));
-    model.searching = true;
+    model.work.searching = true;
     EXPECT_THAT(said(), testing::HasSubstr("searching ..."));
 }
 
@@ -152,12 +145,8 @@ class MovieButtons : public PanelTest {
                                          .stats = stats_,
                                          .asked = asked_,
                                          .frame = frame_,
-                                         .frame_times = {},
                                          .movies = movies_,
-                                         .failure = {},
-                                         .message = {},
-                                         .controls = controls_,
-                                         .at_hand = {}});
+                                         .controls = controls_});
         ImGui::End();
         ImGui::Render();
         return wish;

@@ -29,20 +29,16 @@ interaction::TouchedPanel PanelInRoom::touched(const interaction::InputState& in
             interaction::Reading(input).viewer().position};
 }
 
-PanelInRoom::Outcome PanelInRoom::outcome(const interaction::InputState& input,
-                                          const RoomPanel& panel) {
-    interaction::PanelPointer next = pointer_;
-    next.update(input, touched(input, panel));
-    Outcome result{next.rest_of(input), next.touch().hit.has_value(), std::exchange(pending_, {})};
-    if (next.carried() && *next.carried() != panel.pose)
-        result.commands.room_panel = RoomPanel{panel.shown, *next.carried()};
-    return result;
-}
-
-interaction::InputState PanelInRoom::update(const interaction::InputState& input,
-                                            const RoomPanel& panel) {
+const PanelInRoom::Outcome& PanelInRoom::update(const interaction::InputState& input,
+                                                const RoomPanel& panel) {
+    if (outcome_ && outcome_->rest.time == input.time)
+        return *outcome_;
     pointer_.update(input, touched(input, panel));
-    return pointer_.rest_of(input);
+    outcome_ = {pointer_.rest_of(input), std::exchange(pending_, {})};
+    const auto& carried = pointer_.carried();
+    if (carried && *carried != panel.pose)
+        outcome_->commands.room_panel = RoomPanel{panel.shown, *carried};
+    return *outcome_;
 }
 
 void PanelInRoom::feel(Commands& commands) {
@@ -56,11 +52,13 @@ void PanelInRoom::feel(Commands& commands) {
 }
 
 void PanelInRoom::leave_out() {
+    outcome_.reset();
     pending_ = {};
     laid_out_.reset();
 }
 
 void PanelInRoom::lay_out(const PanelModel& model, Seconds time) {
+    outcome_.reset();
     const Seconds elapsed = laid_out_ ? time - *laid_out_ : Seconds(0);
     laid_out_ = time;
     const interaction::PanelTouch& touch = pointer_.touch();

@@ -1,8 +1,7 @@
 // The panel in the room: laid out once a frame, operated by the wand's ray, visible to every eye.
 //
-//     const auto wand = panel.outcome(input, state.room_panel);   // before the frame
+//     const auto& wand = panel.update(input, state.room_panel);
 //     const auto commands = commands_of(wand.rest, wand.commands);
-//     panel.update(input, state.room_panel);                      // in the frame, before commands
 //     panel.lay_out(model, input.time);
 //     picture.audience.panel = panel.shown(state.room_panel);
 #pragma once
@@ -31,16 +30,12 @@ class PanelInRoom {
 
     struct Outcome {
         interaction::InputState rest;   ///< input that the panel does not use
-        bool touched = false;           ///< the wand's ray ends on the panel
         interaction::Commands commands; ///< of the last layout, and the move of a carried panel
     };
-    /// What the input means for the panel. Returns the commands of a layout once.
-    Outcome outcome(const interaction::InputState& input, const interaction::RoomPanel& panel);
-
-    /// Called once a frame, with the panel's pose in the previous frame.
-    /// @return the input that the panel does not use
-    interaction::InputState update(const interaction::InputState& input,
-                                   const interaction::RoomPanel& panel);
+    /// Advances by one frame: what the input means for the panel, with its pose in the previous
+    /// frame. Worked out once for the input of a frame: whoever asks again gets the same.
+    const Outcome& update(const interaction::InputState& input,
+                          const interaction::RoomPanel& panel);
     /// Then one of these: `lay_out` draws the panel's picture if it has changed; `leave_out` if the
     /// panel is not shown.
     void lay_out(const PanelModel& model, interaction::Seconds time);
@@ -62,7 +57,8 @@ class PanelInRoom {
     PanelLayer layer_;
     render::PanelPicture picture_;
     interaction::PanelPointer pointer_;
-    interaction::Commands pending_;
+    std::optional<Outcome> outcome_; ///< of the frame's input, until the panel is laid out
+    interaction::Commands pending_;  ///< of the last layout, for the next `update`
     std::optional<interaction::Seconds> laid_out_;
     std::size_t digest_ = 0;               ///< of the picture's contents
     std::uint32_t hovered_ = 0, held_ = 0; ///< widgets for which the hand has felt a pulse

@@ -105,25 +105,24 @@ std::vector<std::string> Picker::messages() {
     return all;
 }
 
-Commands Picker::update(const InputState& input, const ExplorerState& state,
-                        const index::ExtractionPtr& shown) {
+void Picker::update(const InputState& input, const ExplorerState& state,
+                    const index::ExtractionPtr& shown) {
     const Reading now(input, before_);
     before_ = now.levels();
-    Commands commands;
     if (now.pressed(Action::probe) || now.pressed(WandButton::probe)) {
         if (const auto place = place_to_read(input, state, shown))
             read_at(*place, state);
         else
             notes_.emplace_back("no data there");
     }
+    Commands read;
     {
         const std::lock_guard lock(read_->mutex); // the reader holds it only for one assignment
-        if (const auto read = std::exchange(read_->mark, std::nullopt))
-            commands.mark = *read;
+        read.mark = std::exchange(read_->mark, std::nullopt);
     }
-    if (commands.mark && commands.mark->point)
-        commands.haptics.push_back(kFound);
-    return commands;
+    if (read.mark && read.mark->point)
+        read.haptics.push_back(kFound);
+    merge(found_, read);
 }
 
 } // namespace isochron::app

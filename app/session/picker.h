@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace isochron::app {
 
@@ -29,9 +30,10 @@ class Picker {
     /// Called once a frame.
     /// @param input that the panel in the room does not use
     /// @param shown cells that are drawn; may be null
-    /// @return commands with the mark, if data were read
-    interaction::Commands update(const interaction::InputState& input, const ExplorerState& state,
-                                 const index::ExtractionPtr& shown);
+    void update(const interaction::InputState& input, const ExplorerState& state,
+                const index::ExtractionPtr& shown);
+    /// Commands with the mark, if data were read; kept until they are taken.
+    interaction::Commands take_found() { return std::exchange(found_, {}); }
 
     /// Where a ray first meets a visible surface that is not cut away; empty if it meets none.
     std::optional<interaction::Pointed> hit_by(const interaction::Pose& ray,
@@ -62,6 +64,7 @@ class Picker {
     std::shared_ptr<const index::IndexFile> file_;
     std::shared_ptr<Slot> read_ = std::make_shared<Slot>();
     interaction::ButtonLevels before_;
+    interaction::Commands found_;
     std::vector<std::string> notes_;
     BackgroundWork reading_;
 };

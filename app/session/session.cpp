@@ -73,7 +73,7 @@ void Session::grow_with(const Commands& commands) {
         grow(std::move(grown));
 }
 
-interaction::ControlContext Session::control_context() const {
+interaction::ControlContext Session::control_context(const interaction::Ways& ways) const {
     const index::IndexFile& array = arrays_.shown(state_);
     return {.settings = state_,
             .series = {.low = array.stats().low,
@@ -83,10 +83,7 @@ interaction::ControlContext Session::control_context() const {
                        .home = home_.room_from_physical},
             .color_arrays = {&arrays_.color_names(), color_array(state_, *arrays_.file())},
             .called_panel = {panel_.in_room().distance(), panel_.place()},
-            .ways = {.next_array = next_array_ ? &*next_array_ : nullptr,
-                     .start = &start_,
-                     .undo = history_.undo(),
-                     .redo = history_.redo()},
+            .ways = ways,
             .stereo_modes = &outputs_.stereo_modes(),
             .data = data_frame(arrays_.file()->info()),
             .find_surface = [this](const interaction::Pose& ray) {
@@ -108,21 +105,30 @@ Commands Session::way_to_start() const {
 
 Commands Session::commands_from(const interaction::InputState& input) {
     const std::size_t arrays = arrays_.names().size();
-    start_ = way_to_start();
-    next_array_.reset();
+    const Commands start = way_to_start();
+    std::optional<Commands> next_array;
     if (arrays > 1)
-        next_array_ = way_to_array((arrays_.number(state_) + 1) % arrays);
-    PanelInRoom::Outcome panel = panel_.in_room().outcome(input, state_.room_panel);
-    interaction::ControlContext context = control_context();
-    if (panel.touched) // the wand points at the panel, which is in front of the data
+        next_array = way_to_array((arrays_.number(state_) + 1) % arrays);
+    const PanelInRoom::Outcome& panel = panel_.in_room().update(input, state_.room_panel);
+    interaction::ControlContext context =
+        control_context({.next_array = next_array ? &*next_array : nullptr,
+                         .start = &start,
+                         .undo = history_.undo(),
+                         .redo = history_.redo()});
+    if (panel_.in_room().touched()) // the wand points at the panel, which is in front of the data
         context.find_surface = {};
     Commands commands = controls_.update(panel.rest, context);
     interaction::merge(commands, panel.commands);
+    picker_.update(panel.rest, state_, scene_.cells().shown());
+    return commands;
+}
+
+Commands Session::take_panel_commands() {
+    Commands commands = panel_.take_commands();
     // What is found depends on what is shown, so it is recorded like the operator's panel's
     // commands.
-    panel_.add(controls_.found());
-    panel_.add(picker_.update(panel.rest, state_, scene_.cells().shown()));
-    show_messages(controls_.notes());
+    interaction::merge(commands, controls_.take_found());
+    interaction::merge(commands, picker_.take_found());
     return commands;
 }
 
@@ -322,8 +328,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     FrameReport report;
     report.time = input.time;
     report.tracking = tracking_of(input);
-    panel_.take_commands(); // nobody takes them in a replay
-    const interaction::InputState rest = panel_.in_room().update(input, state_.room_panel);
+    take_panel_commands(); // nobody takes them in a replay
+    show_messages(controls_.take_notes());
+    const interaction::InputState rest = panel_.in_room().update(input, state_.room_panel).rest;
     obey(commands, input);
     report.comfort = comfort_.update(input, state_.room_from_physical);
     report.asked = arrays_.surfaces(state_);

@@ -74,8 +74,8 @@ class Session {
     void grow(std::shared_ptr<const index::IndexFile> file);
     const History& history() const { return history_; }
 
-    /// The commands that the devices lead to in this frame. Advances the controls; changes nothing
-    /// else.
+    /// The commands that the devices lead to in this frame. Advances what turns devices into
+    /// commands (the controls, the panel in the room and the picker) and changes nothing else.
     interaction::Commands commands_from(const interaction::InputState& input);
 
     /// The ray from the eye through the cursor, for a head that mouse and keyboard emulate; empty
@@ -87,9 +87,9 @@ class Session {
     interaction::PanelSize room_panel_size() const { return panel_.in_room().size(); }
 
     /// Commands that a replay could not compute from the devices: those of the operator's panel
-    /// during the last frame, and what picking found in the shown picture. Take them once, before
-    /// the next frame.
-    interaction::Commands take_panel_commands() { return panel_.take_commands(); }
+    /// during the last frame, and what `commands_from` found in the shown picture. Take them once,
+    /// before the next frame.
+    interaction::Commands take_panel_commands();
 
     OperatorPanel& panel() { return panel_.over(); }
 
@@ -150,7 +150,7 @@ class Session {
 
   private:
     std::size_t steps() const { return state_.known_steps(arrays_.file()->info().steps()); }
-    interaction::ControlContext control_context() const;
+    interaction::ControlContext control_context(const interaction::Ways& ways) const;
     interaction::Commands way_to_start() const;
     void obey(const interaction::Commands& commands, const interaction::InputState& input);
     void grow_with(const interaction::Commands& commands);
@@ -170,9 +170,7 @@ class Session {
     ExplorerState state_;
     const ExplorerState home_;
     ShownArrays arrays_;
-    std::vector<double> times_;   ///< of the known steps
-    interaction::Commands start_; ///< commands that lead back to home_
-    std::optional<interaction::Commands> next_array_;
+    std::vector<double> times_; ///< of the known steps
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;

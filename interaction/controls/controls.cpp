@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -79,7 +80,8 @@ struct Controls::State {
     Navigator navigator;
     Playback playback;
     ToolBox tools;
-    ToolBox::Outcome made; ///< by tools in the last frame
+    Commands found;                 ///< by tools, not yet taken
+    std::vector<std::string> notes; ///< of tools, not yet taken
     int stamps = 0;
 
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
@@ -308,20 +310,22 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     s.switches(now, context, input.time, commands);
     s.leave(now, context, commands);
     s.choose_tools(now, context, commands);
-    s.made = s.with_tools(now, context, volume);
-    merge(commands, s.made.commands);
+    const ToolBox::Outcome made = s.with_tools(now, context, volume);
+    merge(commands, made.commands);
+    merge(s.found, made.found);
+    s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
     if (now.pressed(Action::reset) && context.ways.start)
         merge(commands, *context.ways.start);
     s.take_back(now, context, commands);
     return commands;
 }
 
-const Commands& Controls::found() const {
-    return state_->made.found;
+Commands Controls::take_found() {
+    return std::exchange(state_->found, {});
 }
 
-const std::vector<std::string>& Controls::notes() const {
-    return state_->made.notes;
+std::vector<std::string> Controls::take_notes() {
+    return std::exchange(state_->notes, {});
 }
 
 std::vector<ControlGroup> Controls::documentation() {

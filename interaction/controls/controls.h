@@ -21,11 +21,11 @@ class Controls {
     /// Advances by one frame. The commands include the step that playback has reached.
     Commands update(const InputState& input, const ControlContext& context);
 
-    /// The part of the last frame's commands that depends on the surfaces shown, not on devices
-    /// alone (places that tools found). `update` does not return it.
-    const Commands& found() const;
-    /// Messages of the tools in the last frame, for people.
-    const std::vector<std::string>& notes() const;
+    /// The part of the commands that depends on the surfaces shown, not on devices alone (places
+    /// that tools found): `update` keeps it until it is taken.
+    Commands take_found();
+    /// Messages of the tools, for people; kept until they are taken.
+    std::vector<std::string> take_notes();
 
     /// The controls of all devices, for `--help` and the panel.
     static std::vector<ControlGroup> documentation();

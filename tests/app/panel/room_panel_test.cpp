@@ -133,6 +133,26 @@ TEST_P(RoomPanelTest, StaysReadableWhateverSurfaceIsNearer) {
 /// The middle of its isovalue's slider, below the title, the buttons and the histogram.
 constexpr float kSliderY = 137;
 
+TEST_P(RoomPanelTest, WhoAsksAgainForTheCommandsOfAFrameGetsTheSame) {
+    Session session(panel_config(kWindow), file_, *context_);
+    const auto pointing = [&](float x, std::uint64_t buttons) {
+        InputState state = input();
+        state.devices.push_back(
+            wand_at(session, glm::vec2(x, kSliderY) / PanelInRoom::kPixels, buttons));
+        return state;
+    };
+    int dragged = 0;
+    for (int i = -3; i < 8; ++i) {
+        const InputState state =
+            i < 0 ? pointing(100, 0) : pointing(100 + 20 * static_cast<float>(i), kTrigger);
+        const Commands commands = session.commands_from(state);
+        EXPECT_EQ(session.commands_from(state), commands) << i;
+        dragged += commands.isovalue.has_value();
+        session.frame(state, commands, Waiting::for_cells);
+    }
+    EXPECT_GT(dragged, 4) << "the slider follows the ray";
+}
+
 class WandSession {
   public:
     WandSession(Session& session, Image (*picture)(const Session&))

@@ -33,7 +33,7 @@ class Desk {
     Commands frame(std::vector<DeviceState> devices, double elapsed = 1.0 / 60) {
         now_ += elapsed;
         Commands commands = controls_.update({Seconds(now_), std::move(devices)}, context);
-        merge(commands, controls_.found());
+        merge(commands, controls_.take_found());
         obey(commands, settings);
         return commands;
     }

@@ -118,7 +118,7 @@ void save(const ExploreOptions& options, LiveLoop& live, Session& session) {
 std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob& job) {
     const CancelOnSignal signals;
     Config config = configure(options);
-    if (config.context != stereo::ContextKind::glfw)
+    if (config.rendering.context != stereo::ContextKind::glfw)
         throw UsageError("file is required: an index made by `isochron build`");
     config.openxr.enabled = false; // nobody chooses a file in a headset
     const stereo::Windows windows = open_windows(options, config, job, nullptr);
@@ -126,8 +126,8 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
         choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
                               .window = {.ended = [] { return CancelOnSignal::received() != 0; },
-                                         .background = config.background,
-                                         .frame_rate_limit = config.frame_rate_limit,
+                                         .background = config.rendering.background,
+                                         .frame_rate_limit = config.rendering.frame_rate_limit,
                                          .font_scale = config.panel.font_scale}});
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
@@ -151,7 +151,7 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
     const auto open_outputs = [&] {
         headset = open_headset(config.openxr);
         windows.emplace(open_windows(options, config, job, headset.get()));
-        show_loading(*windows, config.background);
+        show_loading(*windows, config.rendering.background);
     };
     job.together([&] {
         if (!options.data && options.sources.files.empty())
@@ -171,7 +171,7 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
             if (!options.data)
                 return;
         }
-        file = open_index_to_show(*options.data, config.cache_bytes());
+        file = open_index_to_show(*options.data, config.memory.cache_bytes());
         if (job.leads()) {
             warn_of_colors(config, *file);
             check_start(options, *file, indexing ? indexing->state().of : file->info().steps());

@@ -177,7 +177,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (recording.frames.empty())
         throw interaction::Error(options.recording + ": it has no frames");
     Config config = config_of(options, recording.header);
-    config.only_kept = true;
+    config.pictures.only_kept = true;
     const auto file = data_of(options, recording.header, config);
     Session session(config, file, windows_of(options, config, recording.header, job));
     const ReplayOptions replay = replay_options(options);

@@ -151,7 +151,7 @@ std::vector<std::string> show(Session& session, const Prepared& all, bool live, 
     if (!job.leads()) {
         job.follow(session, done);
     } else if (live) {
-        replay_live(session, all.recording, all.replay, all.config.frame_rate_limit);
+        replay_live(session, all.recording, all.replay, all.config.rendering.frame_rate_limit);
     } else {
         ProgressBar bar;
         const auto frames = static_cast<double>(all.recording.frames.size());

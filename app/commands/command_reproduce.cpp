@@ -61,14 +61,14 @@ fs::path data_path(const ReproduceOptions& options, const PictureNote& note) {
 
 Config config_for(const ReproduceOptions& options, const PictureNote& note) {
     Config config = parse_config(note.configuration, options.picture + " (configuration)");
-    config.context = *stereo::context_kind_from_name(options.context);
-    config.picture_samples = note.samples;
-    config.picture_ray = note.ray;
-    config.picture_caption = note.caption;
-    config.cell_shape = cell_shape_from_name(note.shape);
+    config.rendering.context = *stereo::context_kind_from_name(options.context);
+    config.pictures.samples = note.samples;
+    config.pictures.ray = note.ray;
+    config.pictures.caption = note.caption;
+    config.rendering.cell_shape = cell_shape_from_name(note.shape);
     config.openxr.enabled = false;
     if (note.footprint != render::name_of(render::Footprint::quad))
-        config.settled_footprint = settled_footprint_from_name(note.footprint);
+        config.quality.settled = settled_footprint_from_name(note.footprint);
     auto& windows = config.installation.windows;
     for (stereo::Window& window : windows)
         window.fullscreen = false;
@@ -83,8 +83,9 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
 
 stereo::Windows windows_for(const Config& config, const PictureNote& note) {
     if (note.part.shows == "room")
-        return stereo::open_room(config.context, config.installation, {.size = note.size});
-    return stereo::open_windows(config.context, config.installation, {});
+        return stereo::open_room(config.rendering.context, config.installation,
+                                 {.size = note.size});
+    return stereo::open_windows(config.rendering.context, config.installation, {});
 }
 
 /// Repeats the frame with the same devices until the picture has its final quality.
@@ -108,7 +109,7 @@ struct MadePicture {
 
 MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     const Config config = config_for(options, note);
-    const auto file = open_index_to_show(data_path(options, note), config.cache_bytes());
+    const auto file = open_index_to_show(data_path(options, note), config.memory.cache_bytes());
     if (data_hash_of(*file) != note.data_hash)
         throw interaction::Error(
             fmt::format("{}: made of other data: expected hash {}, {} has {}", options.picture,

@@ -35,19 +35,20 @@ void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation
 }
 
 void read_quality(TomlReader& reader, Config& config) {
-    reader.word("mode", interaction::all_names<QualityMode>(),
-                [&](const std::string& word) { config.quality = quality_mode_from_name(word); });
-    reader.word("settled", settled_footprint_names(), [&](const std::string& word) {
-        config.settled_footprint = settled_footprint_from_name(word);
+    reader.word("mode", interaction::all_names<QualityMode>(), [&](const std::string& word) {
+        config.quality.mode = quality_mode_from_name(word);
     });
-    reader.number("frame_budget_ms", 0.0, 1000.0, config.frame_budget_ms);
-    reader.number("still_budget_ms", 0.0, 10000.0, config.still_budget_ms);
-    reader.number("still_linear", 0.0, 10.0, config.stillness.linear);
-    reader.number("still_angular", 0.0, 10.0, config.stillness.angular);
-    reader.number("leave_factor", 1.0, 100.0, config.stillness.leave_factor);
-    double settle_ms = config.stillness.settle.count() * 1e3;
+    reader.word("settled", settled_footprint_names(), [&](const std::string& word) {
+        config.quality.settled = settled_footprint_from_name(word);
+    });
+    reader.number("frame_budget_ms", 0.0, 1000.0, config.quality.frame_budget_ms);
+    reader.number("still_budget_ms", 0.0, 10000.0, config.quality.still_budget_ms);
+    reader.number("still_linear", 0.0, 10.0, config.quality.stillness.linear);
+    reader.number("still_angular", 0.0, 10.0, config.quality.stillness.angular);
+    reader.number("leave_factor", 1.0, 100.0, config.quality.stillness.leave_factor);
+    double settle_ms = config.quality.stillness.settle.count() * 1e3;
     reader.number("settle_ms", 0.0, 10000.0, settle_ms);
-    config.stillness.settle = interaction::Seconds(settle_ms / 1e3);
+    config.quality.stillness.settle = interaction::Seconds(settle_ms / 1e3);
 }
 
 void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) {
@@ -89,35 +90,37 @@ void read_lighting(TomlReader& reader, render::CellAppearance& look) {
 }
 
 void read_rendering(TomlReader& reader, Config& config) {
-    reader.word("shape", cell_shape_names(),
-                [&](const std::string& word) { config.cell_shape = cell_shape_from_name(word); });
-    reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
-        config.context = *stereo::context_kind_from_name(word);
+    reader.word("shape", cell_shape_names(), [&](const std::string& word) {
+        config.rendering.cell_shape = cell_shape_from_name(word);
     });
-    reader.flag("vsync", config.vsync);
-    reader.number("frame_rate_limit", 1.0, 1000.0, config.frame_rate_limit);
-    reader.integer("upload_kilobytes_per_frame", 16, 1 << 20, config.upload_kilobytes_per_frame);
+    reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
+        config.rendering.context = *stereo::context_kind_from_name(word);
+    });
+    reader.flag("vsync", config.rendering.vsync);
+    reader.number("frame_rate_limit", 1.0, 1000.0, config.rendering.frame_rate_limit);
+    reader.integer("upload_kilobytes_per_frame", 16, 1 << 20,
+                   config.rendering.upload_kilobytes_per_frame);
     reader.number("near", 1e-3, 10.0, config.installation.near_plane);
     reader.number("far", 1.0, 1e5, config.installation.far_plane);
-    reader.color("background", config.background);
-    reader.color("surface_color", config.surface_color);
-    reader.integer("samples", 0, 64, config.samples);
-    reader.integer("picture_samples", 0, 64, config.picture_samples);
+    reader.color("background", config.rendering.background);
+    reader.color("surface_color", config.rendering.surface_color);
+    reader.integer("samples", 0, 64, config.rendering.samples);
+    reader.integer("picture_samples", 0, 64, config.pictures.samples);
     reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
-        config.blending = word == "auto"     ? Blending::automatic
-                          : word == "linear" ? Blending::linear
-                                             : Blending::display;
+        config.rendering.blending = word == "auto"     ? Blending::automatic
+                                    : word == "linear" ? Blending::linear
+                                                       : Blending::display;
     });
     reader.word("drawn_by", {"auto", "gpu", "processor"}, [&](const std::string& word) {
-        config.drawn_by = word == "auto"  ? render::DrawnBy::automatic
-                          : word == "gpu" ? render::DrawnBy::gpu
-                                          : render::DrawnBy::processor;
+        config.rendering.drawn_by = word == "auto"  ? render::DrawnBy::automatic
+                                    : word == "gpu" ? render::DrawnBy::gpu
+                                                    : render::DrawnBy::processor;
     });
-    reader.flag("level_of_detail", config.level_of_detail);
-    reader.flag("bounding_box", config.bounding_box);
-    reader.flag("wand_ray", config.wand_ray);
-    reader.flag("picture_ray", config.picture_ray);
-    reader.flag("picture_caption", config.picture_caption);
+    reader.flag("level_of_detail", config.rendering.level_of_detail);
+    reader.flag("bounding_box", config.rendering.bounding_box);
+    reader.flag("wand_ray", config.rendering.wand_ray);
+    reader.flag("picture_ray", config.pictures.ray);
+    reader.flag("picture_caption", config.pictures.caption);
 }
 
 void read_placement(TomlReader& reader, PlacementOptions& placement) {
@@ -139,16 +142,17 @@ void read_root(TomlReader& reader, Config& config) {
     read_comfort(reader, config.comfort, config.grid);
     reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
     reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
-    reader.table("lighting", [&](TomlReader& inner) { read_lighting(inner, config.appearance); });
+    reader.table("lighting",
+                 [&](TomlReader& inner) { read_lighting(inner, config.rendering.appearance); });
     reader.table("coloring", [&](TomlReader& inner) {
         read_coloring(inner, config.name, config.coloring, config.color_maps);
     });
     reader.table("look", [&](TomlReader& inner) { read_look(inner, config.look); });
     read_surfaces(reader, config);
     reader.table("memory", [&](TomlReader& inner) {
-        inner.integer("cache_megabytes", 0, 1 << 24, config.cache_megabytes);
-        inner.integer("mesh_megabytes", 0, 1 << 16, config.mesh_megabytes);
-        inner.integer("most_cells", 20'000, 500'000'000, config.most_cells);
+        inner.integer("cache_megabytes", 0, 1 << 24, config.memory.cache_megabytes);
+        inner.integer("mesh_megabytes", 0, 1 << 16, config.memory.mesh_megabytes);
+        inner.integer("most_cells", 20'000, 500'000'000, config.memory.most_cells);
     });
     reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
 }

@@ -37,59 +37,80 @@ struct ConfiguredSurface {
 /// software GL; `automatic` means `display` on software GL and `linear` on a GPU.
 enum class Blending : std::uint8_t { automatic, linear, display };
 
-struct Config {
-    std::string name; ///< file name for messages; empty for the built-in defaults
-    std::string text; ///< the file's whole text, as recordings keep it
+/// How good pictures are, and what they may cost: the table `quality`.
+struct QualityConfig {
+    interaction::QualityMode mode = interaction::QualityMode::automatic; ///< at the start
+    /// Footprint of a settled picture, whatever it costs; empty: the best one within the budget
+    /// (the best one of all in a fixed-step replay, which measures nothing).
+    std::optional<render::Footprint> settled;
+    double frame_budget_ms = 0; ///< [ms] for drawing a frame; 0: one period of the display
+    /// [ms] for drawing a picture at rest, at once or in slices; 0: the same as for other frames.
+    double still_budget_ms = 500;
+    interaction::StillnessLimits stillness;
+};
+
+/// How pictures are drawn: the tables `rendering` and `lighting`.
+struct RenderingConfig {
     stereo::ContextKind context = stereo::ContextKind::glfw;
     bool vsync = true;
     float frame_rate_limit = 120.0f; ///< [1/s] where no display paces the frames
+    /// The part of a cell that a quad or splat stands for.
+    render::CellShape cell_shape = render::CellShape::plane;
+    int upload_kilobytes_per_frame = 4096;        ///< most data of cells sent to the GPU per frame
+    glm::vec3 background{0.055f, 0.063f, 0.078f}; ///< sRGB
+    glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB, of the surface if none is configured
+    render::CellAppearance appearance;            ///< light and material
+    Blending blending = Blending::automatic;
+    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
+    int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
+    bool level_of_detail = true; ///< coarser levels while too many cells move
+    bool bounding_box = true;    ///< with ticks and numbers
+    bool wand_ray = true;
+};
+
+/// Written pictures: the keys `picture_...` of the table `rendering`.
+struct PictureConfig {
+    int samples = 0;      ///< 0: 4, and no fewer than on the displays
+    bool ray = false;     ///< they show the wand's ray, too
+    bool caption = false; ///< they show isovalue and time
+    /// No window shows the pictures: each is drawn once, directly as the picture to keep. No key
+    /// of a file.
+    bool only_kept = false;
+};
+
+/// The table `memory`.
+struct MemoryConfig {
+    int cache_megabytes = 0;    ///< most kept of the index; 0: a quarter of the usable memory
+    int mesh_megabytes = 96;    ///< most for the triangles of a set; 0: no triangles are made
+    int most_cells = 8'000'000; ///< of a set; where there are more, coarser levels take their place
+
+    /// As IndexFile::open takes it.
+    std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }
+    /// As SurfacesQuery takes it.
+    std::uint64_t mesh_room() const { return std::uint64_t(mesh_megabytes) << 20; }
+};
+
+struct Config {
+    std::string name; ///< file name for messages; empty for the built-in defaults
+    std::string text; ///< the file's whole text, as recordings keep it
     stereo::Installation installation;
     DisplayPlaces places; ///< lines of the file that describe the installation's parts
     interaction::EmulationOptions emulation;
     DeviceConfig devices;
     ClusterConfig cluster;
     OpenXrConfig openxr;
-    interaction::StillnessLimits stillness;
     interaction::ComfortOptions comfort;
-    PanelConfig panel;
     bool grid = false; ///< floor grid shown at the start
-    interaction::QualityMode quality = interaction::QualityMode::automatic;
-    /// Footprint of a settled picture, whatever it costs; empty: the best one within the budget
-    /// (the best one of all in a fixed-step replay, which measures nothing).
-    std::optional<render::Footprint> settled_footprint;
-    /// The part of a cell that a quad or splat stands for.
-    render::CellShape cell_shape = render::CellShape::plane;
-    double frame_budget_ms = 0; ///< [ms] for drawing a frame; 0: one period of the display
-    /// [ms] for drawing a picture at rest, at once or in slices; 0: the same as for other frames.
-    double still_budget_ms = 500;
+    PanelConfig panel;
     PlacementOptions placement;
-    int upload_kilobytes_per_frame = 4096;        ///< most data of cells sent to the GPU per frame
-    glm::vec3 background{0.055f, 0.063f, 0.078f}; ///< sRGB
-    glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB
-    std::vector<ConfiguredSurface> surfaces;      ///< empty: one surface of surface_color
+    QualityConfig quality;
+    RenderingConfig rendering;
+    PictureConfig pictures;
+    MemoryConfig memory;
+    std::vector<ConfiguredSurface> surfaces; ///< empty: one surface of rendering.surface_color
     interaction::Coloring coloring;
     std::vector<LoadedColorMap> color_maps; ///< beside those that the program knows
     interaction::Look look;
-    render::CellAppearance appearance; ///< light and material
-    Blending blending = Blending::automatic;
-    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
-    int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
-    int picture_samples = 0;    ///< in written pictures; 0: 4, and no fewer than on the displays
-    int cache_megabytes = 0;    ///< most kept of the index; 0: a quarter of the usable memory
-    int mesh_megabytes = 96;    ///< most for the triangles of a set; 0: no triangles are made
-    int most_cells = 8'000'000; ///< of a set; where there are more, coarser levels take their place
-    bool level_of_detail = true; ///< coarser levels while too many cells move
-    bool bounding_box = true;    ///< with ticks and numbers
-    bool wand_ray = true;
-    bool picture_ray = false;     ///< written pictures show the wand's ray, too
-    bool picture_caption = false; ///< written pictures show isovalue and time
-    /// No window shows the pictures: each is drawn once, directly as the picture to keep.
-    bool only_kept = false;
-
-    /// As IndexFile::open takes it.
-    std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }
-    /// As SurfacesQuery takes it.
-    std::uint64_t mesh_room() const { return std::uint64_t(mesh_megabytes) << 20; }
 };
 
 /// @param name stands before the line number in messages

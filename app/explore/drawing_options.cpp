@@ -13,7 +13,7 @@ void add_shape_option(Command& command, std::optional<std::string>& shape) {
 
 void set_shape(Config& config, const std::optional<std::string>& shape) {
     if (shape)
-        config.cell_shape = cell_shape_from_name(*shape);
+        config.rendering.cell_shape = cell_shape_from_name(*shape);
 }
 
 } // namespace isochron::app

@@ -54,11 +54,11 @@ void refuse_to_replace(const std::string& recording) {
 Config configure(const ExploreOptions& options) {
     Config config = read_config(options.config);
     if (options.context)
-        config.context = *stereo::context_kind_from_name(*options.context);
+        config.rendering.context = *stereo::context_kind_from_name(*options.context);
     if (options.quality)
-        config.quality = quality_mode_from_name(*options.quality);
+        config.quality.mode = quality_mode_from_name(*options.quality);
     if (options.footprint)
-        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+        config.quality.settled = settled_footprint_from_name(*options.footprint);
     set_shape(config, options.shape);
     if (!options.size.empty() && !options.emulate)
         for (stereo::Window& window : config.installation.windows) {
@@ -68,12 +68,13 @@ Config configure(const ExploreOptions& options) {
     config.openxr.enabled = config.openxr.enabled && !options.emulate;
     config.openxr.verbose = options.verbose;
     const bool in_headset =
-        config.openxr.enabled && config.context == stereo::ContextKind::egl; // shows without window
-    if (config.context != stereo::ContextKind::glfw && !in_headset)
+        config.openxr.enabled &&
+        config.rendering.context == stereo::ContextKind::egl; // shows without window
+    if (config.rendering.context != stereo::ContextKind::glfw && !in_headset)
         throw UsageError(
             fmt::format("explore needs a window: --context glfw, not {} (egl only with a headset, "
                         "[openxr] enabled = true); `isochron replay` draws pictures without one",
-                        stereo::name_of(config.context)));
+                        stereo::name_of(config.rendering.context)));
     stereo::OpenXrOptions& openxr = config.openxr.options;
     openxr.windowless = in_headset;
     openxr.near_plane = config.installation.near_plane;
@@ -146,19 +147,19 @@ stereo::Windows open_windows(const ExploreOptions& options, const Config& config
                                                                 : options.data_name);
     const stereo::Installation& installation = config.installation;
     if (options.emulate) {
-        stereo::ContextOptions room{.title = title, .vsync = config.vsync};
+        stereo::ContextOptions room{.title = title, .vsync = config.rendering.vsync};
         if (!options.size.empty())
             room.size = {options.size[0], options.size[1]};
-        return stereo::open_room(config.context, installation, room);
+        return stereo::open_room(config.rendering.context, installation, room);
     }
     const stereo::StereoMode start = options.stereo
                                          ? *stereo::stereo_mode_from_name(*options.stereo)
                                          : installation.windows.front().stereo;
     // A headset paces the frames, so the window that mirrors it must not wait for its own display.
     return stereo::open_windows(
-        config.context, installation,
+        config.rendering.context, installation,
         {.title = title,
-         .vsync = config.vsync && !headset,
+         .vsync = config.rendering.vsync && !headset,
          .stereo = headset ? stereo::StereoMode::mono : start,
          .api = headset ? headset->context_api() : stereo::ContextApi::native,
          .console = job.leads() ? config.panel.console : std::nullopt,

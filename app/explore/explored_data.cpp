@@ -75,8 +75,8 @@ std::optional<std::string> wait_for_index(const Indexing& indexing, const stereo
     };
     if (!wait_for_data(windows, fs::path(options.data_name).filename().string(), progress,
                        {.ended = [] { return CancelOnSignal::received() != 0; },
-                        .background = config.background,
-                        .frame_rate_limit = config.frame_rate_limit,
+                        .background = config.rendering.background,
+                        .frame_rate_limit = config.rendering.frame_rate_limit,
                         .font_scale = config.panel.font_scale}))
         return std::nullopt;
     const Indexing::State now = indexing.state();

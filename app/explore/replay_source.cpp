@@ -61,17 +61,17 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
         options.config ? read_config(*options.config)
                        : parse_config(header.configuration, options.recording + " (configuration)");
     // A recording made in a window replays without one unless a window is asked for.
-    config.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
+    config.rendering.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
     if (options.context)
-        config.context = *stereo::context_kind_from_name(*options.context);
+        config.rendering.context = *stereo::context_kind_from_name(*options.context);
     if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
         config.installation.windows.front().size = {header.window[0], header.window[1]};
     if (options.footprint)
-        config.settled_footprint = settled_footprint_from_name(*options.footprint);
+        config.quality.settled = settled_footprint_from_name(*options.footprint);
     set_shape(config, options.shape);
-    config.picture_samples = options.samples.value_or(config.picture_samples);
-    config.picture_ray = config.picture_ray || options.ray;
-    config.picture_caption = config.picture_caption || options.caption;
+    config.pictures.samples = options.samples.value_or(config.pictures.samples);
+    config.pictures.ray = config.pictures.ray || options.ray;
+    config.pictures.caption = config.pictures.caption || options.caption;
     for (stereo::Window& window : config.installation.windows) {
         if (!options.size.empty() && !options.emulate)
             window.size = {options.size[0], options.size[1]};
@@ -94,7 +94,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                 fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
                             options.recording, header.data));
     }
-    auto file = open_index_to_show(path, config.cache_bytes());
+    auto file = open_index_to_show(path, config.memory.cache_bytes());
     if (!options.any_data && !other_data(header, *file).empty())
         throw interaction::Error(
             fmt::format("{}: recorded on other data: expected hash {}, {} has {} "
@@ -122,12 +122,12 @@ stereo::Windows windows_of(const ReplaySource& options, const Config& config,
         stereo::ContextOptions room{.title = title};
         if (!options.size.empty())
             room.size = {options.size[0], options.size[1]};
-        return open_room(config.context, config.installation, room);
+        return open_room(config.rendering.context, config.installation, room);
     }
     const std::string mode = options.stereo.value_or(header.start.stereo.value_or(""));
-    return open_windows(config.context, config.installation,
+    return open_windows(config.rendering.context, config.installation,
                         {.title = title,
-                         .vsync = config.vsync,
+                         .vsync = config.rendering.vsync,
                          .stereo = stereo::stereo_mode_from_name(mode).value_or(
                              config.installation.windows.front().stereo),
                          .rank = job.rank(),

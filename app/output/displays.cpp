@@ -23,16 +23,16 @@ void check_samples(const char* where, int samples, const render::Gl& gl) {
 }
 
 int samples_of(const Config& config, const render::Gl& gl) {
-    check_samples("rendering.samples", config.samples, gl);
-    if (config.samples > 0)
-        return config.samples;
+    check_samples("rendering.samples", config.rendering.samples, gl);
+    if (config.rendering.samples > 0)
+        return config.rendering.samples;
     return render::draws_in_software(gl) ? 1 : std::min(kSmooth, render::max_samples(gl));
 }
 
 int picture_samples_of(const Config& config, const render::Gl& gl, glm::ivec2 window) {
-    check_samples("rendering.picture_samples or --samples", config.picture_samples, gl);
-    if (config.picture_samples > 0)
-        return config.picture_samples;
+    check_samples("rendering.picture_samples or --samples", config.pictures.samples, gl);
+    if (config.pictures.samples > 0)
+        return config.pictures.samples;
     // Color and depth of 2^28 samples take 2 GiB; two eyes in an 8K window need less.
     constexpr double kMost = 1 << 28;
     const double pixels = 2.0 * window.x * window.y;
@@ -46,10 +46,11 @@ stereo::DisplayOptions display_options(const render::Gl& gl, const Config& confi
     render::expect_enough(gl);
     return {.near_plane = config.installation.near_plane,
             .far_plane = config.installation.far_plane,
-            .background = config.background,
-            .samples = config.only_kept ? picture_samples_of(
-                                              config, gl, config.installation.windows.front().size)
-                                        : samples_of(config, gl)};
+            .background = config.rendering.background,
+            .samples =
+                config.pictures.only_kept
+                    ? picture_samples_of(config, gl, config.installation.windows.front().size)
+                    : samples_of(config, gl)};
 }
 
 stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,

@@ -17,7 +17,7 @@ namespace isochron::app {
 Outputs::Outputs(const Config& config, stereo::Windows windows,
                  std::unique_ptr<stereo::Headset> headset)
     : config_(config), windows_(std::move(windows)),
-      gl_(windows_.drawing().loader(), config_.drawn_by), in_flight_(gl_),
+      gl_(windows_.drawing().loader(), config_.rendering.drawn_by), in_flight_(gl_),
       displays_(headset && config_.openxr.options.windowless
                     ? std::deque<stereo::Display>()
                     : make_displays(gl_, windows_, config_)),
@@ -110,7 +110,7 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
     };
     const bool in_windows = shows_windows();
     for (std::size_t i = 0; in_windows && i < displays_.size(); ++i)
-        draw_window(displays_[i], counted, overlay_of(i, overlay), config_.only_kept);
+        draw_window(displays_[i], counted, overlay_of(i, overlay), config_.pictures.only_kept);
     if (headset_)
         headset_display_->draw(audience.eyes, [&](std::span<const render::View> views) {
             counted(ScenePlace{}, views);
@@ -219,8 +219,8 @@ render::Image Outputs::headset_picture() {
 }
 
 bool Outputs::kept_differ() const {
-    return !config_.only_kept &&
-           (config_.picture_caption || (drawn_.audience.aids && !config_.picture_ray));
+    return !config_.pictures.only_kept &&
+           (config_.pictures.caption || (drawn_.audience.aids && !config_.pictures.ray));
 }
 
 PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
@@ -233,9 +233,9 @@ PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
         if (windows_.number(i) == part.window)
             frame.size = displays_[i].size();
     frame.samples = picture_options(gl_, config_, frame.size).samples;
-    frame.ray = config_.picture_ray;
-    frame.caption = config_.picture_caption;
-    frame.shape = render::name_of(config_.cell_shape);
+    frame.ray = config_.pictures.ray;
+    frame.caption = config_.pictures.caption;
+    frame.shape = render::name_of(config_.rendering.cell_shape);
     return frame;
 }
 

@@ -8,7 +8,7 @@ namespace isochron::app {
 namespace {
 
 Milliseconds period_of(const Config& config, std::optional<double> refresh_rate) {
-    const double limit = config.frame_rate_limit;
+    const double limit = config.rendering.frame_rate_limit;
     return Milliseconds(1e3 / std::min(refresh_rate.value_or(limit), limit));
 }
 
@@ -22,9 +22,10 @@ constexpr interaction::Seconds kTrialsAtRest{0.15};
 
 FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
-    : settled_(config.settled_footprint), wanted_budget_(config.frame_budget_ms),
-      still_budget_(config.still_budget_ms), configured_period_(period_of(config, refresh_rate)),
-      period_(configured_period_), steady_(wanted_budget_.count() > 0 ? wanted_budget_ : period_),
+    : settled_(config.quality.settled), wanted_budget_(config.quality.frame_budget_ms),
+      still_budget_(config.quality.still_budget_ms),
+      configured_period_(period_of(config, refresh_rate)), period_(configured_period_),
+      steady_(wanted_budget_.count() > 0 ? wanted_budget_ : period_),
       still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
 
 void FrameQuality::set_headset_period(std::optional<Milliseconds> period) {

@@ -7,9 +7,11 @@
 namespace isochron::app {
 
 CellSets::CellSets(const render::Gl& gl, const index::Grid& grid, const Config& config)
-    : gl_(gl), grid_(grid), upload_bytes_(std::size_t{1024} * config.upload_kilobytes_per_frame),
-      mesh_room_(
-          render::CellBuffers::wanted_shading(gl) == index::Shading::none ? 0 : config.mesh_room()),
+    : gl_(gl), grid_(grid),
+      upload_bytes_(std::size_t{1024} * config.rendering.upload_kilobytes_per_frame),
+      mesh_room_(render::CellBuffers::wanted_shading(gl) == index::Shading::none
+                     ? 0
+                     : config.memory.mesh_room()),
       cells_(gl, grid_) {}
 
 void CellSets::prepare_for(const index::SeriesInfo& array) {

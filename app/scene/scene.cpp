@@ -121,11 +121,11 @@ render::BoxLines box_in(const render::View& view, const Picture& picture,
 } // namespace
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
-    : gl_(gl), info_(info), configured_(config.appearance), cells_(gl, info.grid, config),
-      cell_pass_(gl, {.shape = config.cell_shape}, render::prelude_for(info.grid)), line_pass_(gl),
-      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
+    : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
+      cell_pass_(gl, {.shape = config.rendering.cell_shape}, render::prelude_for(info.grid)),
+      line_pass_(gl), text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
       veil_pass_(gl) {
-    configured_.linear_light = blends_light(gl, config.blending);
+    configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (config.comfort.near_whole > 0)
         configured_.near_fade = {.gone = config.comfort.near_gone,

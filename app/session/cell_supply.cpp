@@ -26,7 +26,7 @@ CellSupply::CellSupply(const Config& config, std::shared_ptr<const index::IndexF
     : config_(config), sets_(sets), newest_(std::make_shared<index::NewestIndex>(file)),
       extractor_(extract ? std::move(extract) : index::extract_from_newest(newest_, shading),
                  file->cache_bytes() / 2),
-      details_(file->info().grid, static_cast<std::uint64_t>(config_.most_cells)) {}
+      details_(file->info().grid, static_cast<std::uint64_t>(config_.memory.most_cells)) {}
 
 void CellSupply::set_file(std::shared_ptr<const index::IndexFile> file) {
     newest_->set(std::move(file));
@@ -39,9 +39,9 @@ std::vector<std::string> CellSupply::take_messages() {
 
 void CellSupply::request(const Frame& frame) {
     index::SurfacesQuery query = frame.report.asked;
-    query.mesh_room = frame.plan.mesh ? config_.mesh_room() : 0;
+    query.mesh_room = frame.plan.mesh ? config_.memory.mesh_room() : 0;
     // Nothing is chosen before the first frame, which does not ask for all cells of a large volume.
-    if (frame.is_live() && config_.level_of_detail && !details_.small() &&
+    if (frame.is_live() && config_.rendering.level_of_detail && !details_.small() &&
         frame.plan.detail.most_cells == 0)
         frame.plan.detail.most_cells = DetailChoice::kAtFirst;
     query.detail = frame.plan.detail;
@@ -175,7 +175,7 @@ bool CellSupply::is_finest(const Frame& frame) const {
 
 /// Whether a picture at rest of more cells than a frame can draw is made in slices.
 bool CellSupply::may_be_sliced(const Frame& frame) const {
-    return frame.choosing() == Choosing::with_slices && config_.still_budget_ms > 0 &&
+    return frame.choosing() == Choosing::with_slices && config_.quality.still_budget_ms > 0 &&
            frame.state.quality == interaction::QualityMode::automatic &&
            !frame.state.playback.playing;
 }
@@ -209,10 +209,10 @@ index::DetailQuery CellSupply::wanted_detail(const Frame& frame, const FrameQual
         return {};
     const render::Placement placement =
         render::Placement::of(frame.file.info().grid, matrix(frame.state.room_from_physical));
-    details_.look(config_.level_of_detail ? std::span<const render::View>(views_)
-                                          : std::span<const render::View>(),
+    details_.look(config_.rendering.level_of_detail ? std::span<const render::View>(views_)
+                                                    : std::span<const render::View>(),
                   placement);
-    if (frame.is_live() && config_.level_of_detail)
+    if (frame.is_live() && config_.rendering.level_of_detail)
         return detail_for_live(frame, quality);
     index::DetailQuery all = details_.at_rest();
     all.at_rest = false; // it is the only set

@@ -172,7 +172,7 @@ bool LiveLoop::closes(const Session& session, Commands& asked) const {
 void LiveLoop::run(Session& session) {
     session.warm_up();
     const Latch latch = [this] { return trackers_.latch(clock_()); };
-    Pacer pacer(config_.frame_rate_limit);
+    Pacer pacer(config_.rendering.frame_rate_limit);
     emulation_.set_eye(
         [&session](const interaction::Pose& head, const interaction::MouseMoveEvent& cursor) {
             return session.ray_at(cursor, head);
@@ -219,7 +219,7 @@ void LiveLoop::run(Session& session) {
 
 void LiveLoop::run(PatternShow& show) {
     const Latch latch = [this] { return trackers_.latch(clock_()); };
-    Pacer pacer(config_.frame_rate_limit);
+    Pacer pacer(config_.rendering.frame_rate_limit);
     trackers_.begin();
     for (bool running = true; running && !show.should_close();) {
         const InputState input = poll(show.outputs().windows().poll_events());

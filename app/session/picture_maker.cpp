@@ -60,7 +60,7 @@ Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerStat
     const bool touched = panel_.in_room().touched();
     const bool points = !panel_.head_is_emulated() || touched || input.find("pointer") != nullptr;
     const interaction::DeviceState* wand =
-        config_.wand_ray && points ? input.find("wand") : nullptr;
+        config_.rendering.wand_ray && points ? input.find("wand") : nullptr;
     return {wand ? wand->pose : std::nullopt,
             picker_.pointed(input, !touched, state, sets_.shown())};
 }
@@ -70,7 +70,7 @@ bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
     const bool one_picture_each =
         !stereo::Multiplex::shows(state.stereo_mode()) &&
         stereo::upright(state.stereo_mode()) != stereo::StereoMode::quadbuffer;
-    return panel_.head_is_emulated() && !outputs_.room() && !config_.picture_ray &&
+    return panel_.head_is_emulated() && !outputs_.room() && !config_.pictures.ray &&
            outputs_.displays() == 1 && one_picture_each;
 }
 
@@ -133,12 +133,12 @@ void PictureMaker::show_cells(Picture& picture, const ExplorerState& state) cons
 
 Picture PictureMaker::kept(const Picture& picture) const {
     Picture kept = picture;
-    if (!config_.picture_ray) {
+    if (!config_.pictures.ray) {
         kept.pointed.reset();
         kept.audience.wand.reset();
     }
-    kept.orientation = config_.picture_caption;
-    if (const index::ExtractionPtr& shown = sets_.shown(); shown && config_.picture_caption)
+    kept.orientation = config_.pictures.caption;
+    if (const index::ExtractionPtr& shown = sets_.shown(); shown && config_.pictures.caption)
         kept.caption = caption_text(shown->query, arrays_.file()->array(shown->query.array).info());
     return kept;
 }

@@ -26,7 +26,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  std::unique_ptr<stereo::Headset> headset)
     : config_(std::move(config)), outputs_(config_, std::move(windows), std::move(headset)),
       state_(start_state(config_, file)), home_(state_), arrays_(config_, file, home_),
-      times_(file->info().times), gate_(config_.stillness), comfort_(config_.comfort),
+      times_(file->info().times), gate_(config_.quality.stillness), comfort_(config_.comfort),
       scene_(outputs_.gl(), file->info(), config_), panel_(config_, outputs_), picker_(file),
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),

@@ -66,7 +66,7 @@ std::vector<interaction::Isosurface> first_surfaces(const Config& config,
              surface.color, surface.opacity});
     if (surfaces.empty())
         surfaces.push_back(
-            {first_isovalue(array, step, kFirstQuantile), config.surface_color, 1.0f});
+            {first_isovalue(array, step, kFirstQuantile), config.rendering.surface_color, 1.0f});
     return surfaces;
 }
 
@@ -75,14 +75,14 @@ ExplorerState start_state(const Config& config, const std::shared_ptr<const Inde
     if (file->arrays() > 1)
         state.array = file->info().array;
     state.room_from_physical = place(file->info(), config.placement);
-    state.quality = config.quality;
+    state.quality = config.quality.mode;
     state.grid = config.grid;
     state.steps = static_cast<std::uint32_t>(file->info().steps());
     state.eye_separation = config.installation.viewers.front().eye_separation;
     state.isosurfaces = first_surfaces(config, file, state.step);
     state.coloring = config.coloring;
     state.look = config.look;
-    state.bounding_box = config.bounding_box;
+    state.bounding_box = config.rendering.bounding_box;
     const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
     state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
     state.set_stereo(config.installation.windows.front().stereo);

@@ -64,8 +64,8 @@ inline Commands showing(const interaction::Similarity& placement) {
 
 /// Fixes the settings that depend on whether a GPU draws.
 inline void draw_as_in_software(Config& config) {
-    config.samples = 1;
-    config.blending = Blending::display;
+    config.rendering.samples = 1;
+    config.rendering.blending = Blending::display;
 }
 
 /// A configuration with one screen that is a little to the side of the viewer.
@@ -154,7 +154,7 @@ inline bool drawn_at(const Image& image, glm::dvec2 place, glm::ivec3 background
 /// @return number of checked points that are in the picture
 inline int expect_box(const Image& image, const PinholeEye& eye,
                       const interaction::Similarity& placement) {
-    const glm::ivec3 background(glm::round(255.0f * Config().background));
+    const glm::ivec3 background(glm::round(255.0f * Config().rendering.background));
     int seen = 0, missing = 0;
     for (const glm::dvec3& point : test_support::points_on_edges(kBox, kPerEdge))
         if (const auto at = eye.pixel_of(in_room(placement, point))) {

@@ -57,12 +57,12 @@ range = [0.1, 0.3]
     EXPECT_FALSE(config.surfaces[1].isovalue);
     EXPECT_EQ(config.surfaces[1].quantile, 0.5);
     EXPECT_NE(config.surfaces[1].color, config.surfaces[0].color);
-    EXPECT_EQ(config.samples, 2);
-    EXPECT_EQ(config.picture_samples, 8);
-    EXPECT_EQ(config.blending, Blending::display);
-    EXPECT_EQ(config.drawn_by, render::DrawnBy::gpu);
-    EXPECT_EQ(config.appearance.key_direction, glm::vec3(0, 1, 0));
-    EXPECT_FLOAT_EQ(config.appearance.reflectance, 0.1f);
+    EXPECT_EQ(config.rendering.samples, 2);
+    EXPECT_EQ(config.pictures.samples, 8);
+    EXPECT_EQ(config.rendering.blending, Blending::display);
+    EXPECT_EQ(config.rendering.drawn_by, render::DrawnBy::gpu);
+    EXPECT_EQ(config.rendering.appearance.key_direction, glm::vec3(0, 1, 0));
+    EXPECT_FLOAT_EQ(config.rendering.appearance.reflectance, 0.1f);
     EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
     EXPECT_EQ(config.coloring.map, "coolwarm"); // by its older name
     EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
@@ -179,21 +179,21 @@ still_budget_ms = 200
     EXPECT_EQ(window.stereo, stereo::StereoMode::top_bottom);
     EXPECT_TRUE(window.viewports[0].screen.carried_by_head);
     EXPECT_EQ(window.viewports[0].screen.upper_left, glm::vec3(-2.0f, 1.0f, -1.0f));
-    EXPECT_DOUBLE_EQ(config.stillness.settle.count(), 0.3);
-    EXPECT_EQ(config.quality, interaction::QualityMode::fast);
-    EXPECT_EQ(config.settled_footprint, render::Footprint::gaussian);
-    EXPECT_DOUBLE_EQ(config.frame_budget_ms, 8.5);
-    EXPECT_DOUBLE_EQ(config.still_budget_ms, 200);
+    EXPECT_DOUBLE_EQ(config.quality.stillness.settle.count(), 0.3);
+    EXPECT_EQ(config.quality.mode, interaction::QualityMode::fast);
+    EXPECT_EQ(config.quality.settled, render::Footprint::gaussian);
+    EXPECT_DOUBLE_EQ(config.quality.frame_budget_ms, 8.5);
+    EXPECT_DOUBLE_EQ(config.quality.still_budget_ms, 200);
 }
 
 TEST(Config, WhatASettledPictureIsDrawnWithIsMeasuredUnlessItIsNamed) {
-    EXPECT_EQ(parse_config("", "lab.toml").settled_footprint, std::nullopt);
-    EXPECT_EQ(parse_config("", "lab.toml").cell_shape, render::CellShape::plane);
-    EXPECT_EQ(parse_config("[rendering]\nshape = \"voxel\"\n", "lab.toml").cell_shape,
+    EXPECT_EQ(parse_config("", "lab.toml").quality.settled, std::nullopt);
+    EXPECT_EQ(parse_config("", "lab.toml").rendering.cell_shape, render::CellShape::plane);
+    EXPECT_EQ(parse_config("[rendering]\nshape = \"voxel\"\n", "lab.toml").rendering.cell_shape,
               render::CellShape::voxel);
-    EXPECT_EQ(parse_config("[quality]\nsettled = \"auto\"\n", "lab.toml").settled_footprint,
+    EXPECT_EQ(parse_config("[quality]\nsettled = \"auto\"\n", "lab.toml").quality.settled,
               std::nullopt);
-    EXPECT_EQ(parse_config("[quality]\nsettled = \"surface\"\n", "lab.toml").settled_footprint,
+    EXPECT_EQ(parse_config("[quality]\nsettled = \"surface\"\n", "lab.toml").quality.settled,
               render::Footprint::surface);
     EXPECT_THAT(error_of("[quality]\nsettled = \"quad\"\n"),
                 HasSubstr("lab.toml:2: quality.settled: unknown value 'quad'"));

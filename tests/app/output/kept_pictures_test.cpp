@@ -21,11 +21,11 @@ constexpr glm::ivec2 kSize(160, 120);
 Config config_with(int samples, int picture_samples, int scale = 1) {
     Config config = small_config(stereo::StereoMode::mono);
     config.installation.windows.front().size = scale * kSize;
-    config.bounding_box = config.wand_ray = false;
-    config.settled_footprint = render::Footprint::surface;
-    config.blending = Blending::display;
-    config.samples = samples;
-    config.picture_samples = picture_samples;
+    config.rendering.bounding_box = config.rendering.wand_ray = false;
+    config.quality.settled = render::Footprint::surface;
+    config.rendering.blending = Blending::display;
+    config.rendering.samples = samples;
+    config.pictures.samples = picture_samples;
     return config;
 }
 
@@ -152,8 +152,8 @@ TEST_P(KeptPicturesTest, OfAnEmulatedRoomAndItsWallsAreSmoothToo) {
     for (stereo::Window& window : config.installation.windows)
         window.size = {96, 96};
     for (const int samples : {1, 4}) {
-        config.samples = 1;
-        config.picture_samples = samples;
+        config.rendering.samples = 1;
+        config.pictures.samples = samples;
         PatternShow show(config,
                          stereo::open_room(GetParam(), config.installation, {.size = kSize}));
         show.frame(head_at_rest(0));

@@ -45,7 +45,7 @@ class DeskPanelTest : public SessionTest {
 
 TEST_P(DeskPanelTest, TheKeyPutsThePanelBesideTheDataWhateverTheWindowsShape) {
     Config config = read_config("desktop");
-    config.samples = 1;
+    config.rendering.samples = 1;
     for (const glm::ivec2 window : {glm::ivec2(1280, 720), glm::ivec2(640, 480),
                                     glm::ivec2(320, 240), glm::ivec2(500, 900)}) {
         SCOPED_TRACE(testing::Message() << window.x << " x " << window.y);

@@ -21,8 +21,8 @@ inline Config panel_config(glm::ivec2 window) {
     screen = {{-1, 0.5f, -1}, {-1, 2.5f, -1}, {1, 2.5f, -1}, false, false};
     config.installation.viewers.front().position = {0.0f, 1.5f, 0.0f};
     config.panel.room = true;
-    config.samples = 1;
-    config.blending = Blending::display;
+    config.rendering.samples = 1;
+    config.rendering.blending = Blending::display;
     return config;
 }
 

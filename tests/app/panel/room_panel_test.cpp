@@ -101,7 +101,7 @@ TEST_P(RoomPanelTest, TheRayThatPointsAtItIsSeenBeforeIt) {
 TEST_P(RoomPanelTest, StaysReadableWhateverSurfaceIsNearer) {
     for (const Footprint footprint : {Footprint::quad, Footprint::gaussian, Footprint::surface}) {
         Config config = panel_config(kWindow);
-        config.settled_footprint = footprint;
+        config.quality.settled = footprint;
         Session session(config, file_, *context_);
         const glm::dvec3 panel(session.state().room_panel.pose.position);
         for (const double before : {0.1, -0.1}) { // [m] of the panel, towards the eyes
@@ -185,7 +185,7 @@ Image window_of(const Session& session) {
 TEST_P(RoomPanelTest, AWandsRayMovesTheIsovalueAndAReplayFromDevicesRepeatsItAndItsPictures) {
     const auto small = [] {
         Config config = panel_config({400, 200});
-        config.quality = interaction::QualityMode::fast;
+        config.quality.mode = interaction::QualityMode::fast;
         return config;
     };
     const auto context = stereo::make_context(GetParam(), {.size = {400, 200}});

@@ -175,7 +175,7 @@ TEST_P(TestPatterns, TheCrossHasTheDisparityOfItsDepthForAMovingHead) {
 
 TEST_P(TestPatterns, EveryWallOfACaveHasItsNameItsLettersAndItsCross) {
     Config config = read_config("cave4");
-    config.samples = 1;
+    config.rendering.samples = 1;
     for (stereo::Window& window : config.installation.windows) {
         window.size = kSize;
         window.viewports.front().position = {0, 0};

@@ -67,7 +67,7 @@ TEST_P(BoxBeforeCells, BlendsWithEveryFootprint) {
     for (const Footprint footprint : {Footprint::quad, Footprint::gaussian, Footprint::surface}) {
         SCOPED_TRACE(name_of(footprint));
         Config config = one_window(StereoMode::mono);
-        config.settled_footprint = footprint;
+        config.quality.settled = footprint;
         const auto context = stereo::make_context(GetParam(), {.size = kPicture});
         Session session(config, file_, *context);
         Commands commands = showing(kPlacement);

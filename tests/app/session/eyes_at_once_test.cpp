@@ -83,8 +83,8 @@ class EyesAtOnce : public GoldenPictures {
   protected:
     Config config_for(Footprint footprint) const {
         Config config = one_window(StereoMode::mono);
-        config.drawn_by = render::DrawnBy::gpu;
-        config.settled_footprint = footprint;
+        config.rendering.drawn_by = render::DrawnBy::gpu;
+        config.quality.settled = footprint;
         return config;
     }
     Commands commands_for(Footprint footprint) const {
@@ -148,7 +148,7 @@ TEST_P(EyesAtOnce, DrawTheirCellsInOneDrawOrOneAfterTheOtherWhereTheDriverCannot
 TEST_P(EyesAtOnce, HaveTheirQuadsDrawnApartBySoftware) {
     WatchedContext context(GetParam(), true, false);
     Config config = config_for(Footprint::quad);
-    config.drawn_by = render::DrawnBy::processor;
+    config.rendering.drawn_by = render::DrawnBy::processor;
     Session session(config, file_, context);
     Commands commands = commands_for(Footprint::quad);
     for (const StereoMode mode : {StereoMode::mono, StereoMode::side_by_side}) {

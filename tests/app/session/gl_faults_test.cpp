@@ -19,7 +19,7 @@ class GlFaults : public GoldenPictures {
         try {
             stereo::ContextInBetween context(GetParam(), kPicture, test_support::with_fault(at));
             Config config = one_window(StereoMode::side_by_side);
-            config.settled_footprint = footprint;
+            config.quality.settled = footprint;
             Session session(config, file_, context);
             settle(session, showing(kPlacement));
             return session.outputs().display().read_window();

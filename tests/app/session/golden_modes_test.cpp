@@ -109,7 +109,7 @@ bool has_picture(StereoMode mode) {
 
 TEST_P(GoldenModes, EveryStereoMode) {
     Config config = one_window(StereoMode::mono);
-    config.settled_footprint = Footprint::surface;
+    config.quality.settled = Footprint::surface;
     const auto context = stereo::make_context(GetParam(), {.size = kPicture});
     Session session(config, file_, *context);
     Commands commands = showing(kPlacement);

@@ -28,8 +28,8 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
           Case{Footprint::gaussian, "voxel_gaussian", 0.42, kVoxel}}) {
         SCOPED_TRACE(one.name);
         Config config = one_window(StereoMode::quadbuffer);
-        config.settled_footprint = one.footprint;
-        config.cell_shape = one.shape;
+        config.quality.settled = one.footprint;
+        config.rendering.cell_shape = one.shape;
         const auto context = stereo::make_context(GetParam(), {.size = kPicture});
         // No meshes are made where a GPU draws, and the exact surface stands for them.
         if (one.footprint == Footprint::mesh &&
@@ -85,7 +85,7 @@ bool blue(const std::uint8_t* pixel) {
 TEST_P(GoldenPictures, TwoSurfacesThatLetLightThroughToEitherEye) {
     constexpr glm::ivec2 kAboveLegend(kPicture.x, 84);
     Config config = one_window(StereoMode::quadbuffer);
-    config.settled_footprint = Footprint::surface;
+    config.quality.settled = Footprint::surface;
     const auto context = stereo::make_context(GetParam(), {.size = kPicture});
     Session session(config, file_, *context);
     Commands commands = showing(kPlacement);
@@ -113,7 +113,7 @@ TEST_P(GoldenPictures, TwoSurfacesThatLetLightThroughToEitherEye) {
 TEST_P(GoldenPictures, AxesWithNumbersToEitherEye) {
     constexpr glm::ivec2 kLarger(288, 192);
     Config config = one_window(StereoMode::quadbuffer, kLarger);
-    config.settled_footprint = Footprint::surface;
+    config.quality.settled = Footprint::surface;
     const auto context = stereo::make_context(GetParam(), {.size = kLarger});
     Session session(config, file_, *context);
     const interaction::Similarity placement = place_at({0.12, 1.75, -2.9}, 0.035);
@@ -135,7 +135,7 @@ TEST_P(GoldenPictures, EveryWallOfACaveToEitherEye) {
     constexpr glm::ivec2 kWall(96, 96);
     Config config = read_config("cave4");
     draw_as_in_software(config);
-    config.settled_footprint = Footprint::surface;
+    config.quality.settled = Footprint::surface;
     config.comfort.near_gone = config.comfort.near_whole = 0; // the sphere comes within reach
     for (stereo::Window& window : config.installation.windows) {
         window.size = kWall;

@@ -40,7 +40,7 @@ class HeadsetSession : public testing::Test {
         put_on(headset());
         config_ = small_config();
         draw_as_in_software(config_);
-        config_.settled_footprint = Footprint::surface;
+        config_.quality.settled = Footprint::surface;
         config_.openxr.enabled = true;
         config_.openxr.options.windowless = true;
         config_.openxr.options.near_plane = config_.installation.near_plane;
@@ -134,7 +134,8 @@ TEST_F(HeadsetSession, AStillPictureIsShownAgainWithoutBeingDrawnAgain) {
 }
 
 TEST_F(HeadsetSession, ThatIsPutDownEndsAtTheExactPictureInSlicesThatInputGivesUp) {
-    config_.frame_budget_ms = config_.still_budget_ms = 1e-6; // no frame can hold it
+    config_.quality.frame_budget_ms = config_.quality.still_budget_ms =
+        1e-6; // no frame can hold it
     start();
     settle(showing(kPlacement));
     const auto shown = [&] { return headset().frames.back().views.at(0).picture.rgba; };
@@ -284,7 +285,7 @@ TEST_F(HeadsetSession, MissedFramesAndBudgetFollowTheRuntimesPeriod) {
                   ->frame(session_->outputs().headset()->poll(now_ + interaction::Seconds(0.05)),
                           {}, Waiting::never)
                   .missed,
-              static_cast<unsigned>(std::round(0.05 * config_.frame_rate_limit)) - 1)
+              static_cast<unsigned>(std::round(0.05 * config_.rendering.frame_rate_limit)) - 1)
         << "what is configured counts again";
 }
 

@@ -25,8 +25,8 @@ class SessionDetail : public SessionTest {
     }
     static Config config_with(double budget_ms) {
         Config config = small_config();
-        config.frame_budget_ms = budget_ms;
-        config.still_budget_ms = 10'000;
+        config.quality.frame_budget_ms = budget_ms;
+        config.quality.still_budget_ms = 10'000;
         return config;
     }
     /// As a session extracts, unless it is told otherwise.

@@ -21,7 +21,7 @@ class LeastDriver : public GoldenPictures {
   protected:
     Config config_for(Footprint footprint) const {
         Config config = one_window(StereoMode::side_by_side);
-        config.settled_footprint = footprint;
+        config.quality.settled = footprint;
         return config;
     }
     /// What a footprint looks like at two steps, of which the second sends what has changed.

@@ -36,7 +36,7 @@ class SessionArrays : public SessionTest {
     }
     static Config without_titles() {
         Config config = small_config();
-        config.bounding_box = false;
+        config.rendering.bounding_box = false;
         return config;
     }
     static bool same(const render::Image& a, const render::Image& b) { return a.rgba == b.rgba; }

@@ -27,9 +27,9 @@ class SessionQuality : public SessionTest {
 
     Config config_with(double budget_ms) const {
         Config config = small_config();
-        config.frame_rate_limit = kRate;
-        config.frame_budget_ms = budget_ms;
-        config.still_budget_ms = 0;
+        config.rendering.frame_rate_limit = kRate;
+        config.quality.frame_budget_ms = budget_ms;
+        config.quality.still_budget_ms = 0;
         return config;
     }
     interaction::Seconds now() const { return interaction::Seconds(frame_ / kRate); }
@@ -100,7 +100,7 @@ TEST_P(SessionQuality, OverTheBudgetASettledPictureGoesBackToQuadsAndSaysWhy) {
 
 TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
     Config config = config_with(kNothing);
-    config.still_budget_ms = kPlenty;
+    config.quality.still_budget_ms = kPlenty;
     Session session(config, file_, *context_);
     start(session);
     rest(session, 10);
@@ -150,7 +150,7 @@ class QuadsTake final : public FramesAlone {
 
 TEST_P(SessionQuality, AHeadThatSwaysEndsAtTheExactSurfaceThoughItIsGuessedTooDear) {
     Config config = config_with(kPlenty);
-    config.still_budget_ms = kPlenty;
+    config.quality.still_budget_ms = kPlenty;
     Session session(config, file_, *context_);
     session.share_frames(std::make_unique<QuadsTake>(0.3 * kPlenty)); // which twelve times exceed
     start(session);
@@ -196,7 +196,7 @@ TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest)
     // Otherwise normals are made of the volume, which comes with every set.
     const bool follows = render::CellBuffers::wanted_shading(gl) != index::Shading::none;
     Config config = config_with(kPlenty);
-    config.upload_kilobytes_per_frame = 16; // less than a set's
+    config.rendering.upload_kilobytes_per_frame = 16; // less than a set's
     Session session(config, file_, *context_);
     start(session);
     const std::uint32_t before = session.log().frames().back().shown->step;
@@ -248,9 +248,9 @@ TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
         walk(session, 40, fast);
         EXPECT_EQ(mesh_bytes(session), before) << "quads need none";
     }
-    config.settled_footprint = Footprint::mesh;
+    config.quality.settled = Footprint::mesh;
     for (const int megabytes : {96, 0}) {
-        config.mesh_megabytes = megabytes;
+        config.memory.mesh_megabytes = megabytes;
         Session session(config, file_, *context_);
         start(session);
         FrameReport report = rest(session, 60);
@@ -282,7 +282,7 @@ TEST_P(SessionQuality, AFixedStepReplayGoesByPaceWhateverItCosts) {
 
 TEST_P(SessionQuality, WhatIsConfiguredForASettledPictureIsTaken) {
     Config config = config_with(kNothing);
-    config.settled_footprint = Footprint::gaussian;
+    config.quality.settled = Footprint::gaussian;
     Session session(config, file_, *context_);
     start(session);
     const FrameReport report = rest(session, 60);

@@ -50,7 +50,7 @@ index::ExtractionPtr with_cells(const index::Extract& extract, std::uint64_t mos
 
 TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
     Config config = config_with(1e-6);
-    config.still_budget_ms = 1e-6; // a piece in each frame
+    config.quality.still_budget_ms = 1e-6; // a piece in each frame
     const auto second_picture = [&](bool in_the_midst) {
         std::atomic<bool> wait = true, found = false;
         const index::Extract real = extract();
@@ -90,7 +90,7 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
 
 TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThemSoon) {
     Config config = config_with(1e-6);
-    config.still_budget_ms = 1e-6; // a piece in each frame
+    config.quality.still_budget_ms = 1e-6; // a piece in each frame
     Session session(config, large_, *context_);
     FrameReport report = first_frame(session, false);
     for (int rest = 0; rest < 2; ++rest) {
@@ -121,7 +121,7 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
 
 TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
     Config config = config_with(1e-6);
-    config.still_budget_ms = 2; // three quarters of it hold 20,000 cells
+    config.quality.still_budget_ms = 2; // three quarters of it hold 20,000 cells
     std::atomic<bool> stalls = false;
     Session session(config, large_, *context_);
     session.share_frames(std::make_unique<KnownTimes>(stalls));
@@ -156,8 +156,8 @@ TEST_P(SessionRest, TheFirstFrameDoesNotAskForAllCells) {
 }
 
 TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
-    Config config = config_with(1e-6); // moving pictures have as few as there may be
-    config.still_budget_ms = 1000;     // would hold all
+    Config config = config_with(1e-6);     // moving pictures have as few as there may be
+    config.quality.still_budget_ms = 1000; // would hold all
     Session session(config, large_, *context_);
     session.share_frames(std::make_unique<KnownTimes>());
     FrameReport report = first_frame(session, true);
@@ -204,7 +204,7 @@ TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpect
 
 TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheSame) {
     Config config = config_with(1e-6);
-    config.still_budget_ms = 2;
+    config.quality.still_budget_ms = 2;
     const index::Extract real = extract();
     std::atomic<bool> all_found = false;
     Session session(config, large_, *context_,
@@ -328,7 +328,7 @@ TEST_P(SessionRestInColors, AFinerSetInSlicesHasTheColorsAndTheLegendOfItsOwnPer
     EXPECT_GT(in_slices, 0);
 
     Config at_once = config_with(1e-6);
-    at_once.settled_footprint = report.footprint;
+    at_once.quality.settled = report.footprint;
     Session whole(at_once, large_, *context_);
     for (int i = 0; i < 30; ++i)
         whole.frame(head_at_rest(i / 60.0),
@@ -339,7 +339,7 @@ TEST_P(SessionRestInColors, AFinerSetInSlicesHasTheColorsAndTheLegendOfItsOwnPer
 
 TEST_P(SessionRestInColors, AReplayThatTurnsToOtherCellsWithinAFrameShowsTheirPercentilesInIt) {
     Config config = config_with(1e-6);
-    config.most_cells = 100'000; // so all cells, which are found first, give way
+    config.memory.most_cells = 100'000; // so all cells, which are found first, give way
     Session session(config, large_, *context_);
     const FrameReport first =
         session.frame(head_at_rest(0), between_percentiles(), Waiting::for_cells);

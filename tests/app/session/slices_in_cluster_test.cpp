@@ -48,9 +48,9 @@ class SlicesInCluster : public SessionTest {
     /// No footprint but quads fits, and each frame has time for one piece.
     static Config sliced() {
         Config config = small_config();
-        config.frame_rate_limit = 60;
-        config.frame_budget_ms = config.still_budget_ms = 1e-6;
-        config.samples = 1;
+        config.rendering.frame_rate_limit = 60;
+        config.quality.frame_budget_ms = config.quality.still_budget_ms = 1e-6;
+        config.rendering.samples = 1;
         return config;
     }
     SlicesInCluster() {
@@ -113,7 +113,7 @@ TEST_P(SlicesInCluster, AreShownByAllInTheFrameAfterTheLastOneHasThem) {
     EXPECT_TRUE(frame().final && last(second_).final);
 
     Config at_once = sliced();
-    at_once.settled_footprint = Footprint::surface;
+    at_once.quality.settled = Footprint::surface;
     Session whole(at_once, file_, *context_);
     interaction::Commands commands;
     commands.isovalue = 2.0;

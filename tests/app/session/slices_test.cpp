@@ -20,10 +20,10 @@ class Slices : public SessionTest {
     /// Frames have time for one piece each, and no footprint but quads fits.
     static Config sliced(StereoMode mode = StereoMode::side_by_side) {
         Config config = small_config(mode);
-        config.frame_rate_limit = 60;
-        config.frame_budget_ms = 1e-6;
-        config.still_budget_ms = 1e-6;
-        config.samples = 1;
+        config.rendering.frame_rate_limit = 60;
+        config.quality.frame_budget_ms = 1e-6;
+        config.quality.still_budget_ms = 1e-6;
+        config.rendering.samples = 1;
         return config;
     }
     FrameReport frame(Session& session, const Commands& commands = {}, double head = 0) {
@@ -71,7 +71,7 @@ class Slices : public SessionTest {
     }
     /// A session that draws each picture at once, as a replay does.
     Session at_once(Config config, Footprint footprint = Footprint::surface) const {
-        config.settled_footprint = footprint;
+        config.quality.settled = footprint;
         return Session(config, file_, *context_);
     }
     std::vector<std::vector<std::uint8_t>> whole(Session& at_once, const Commands& commands) {
@@ -117,7 +117,7 @@ TEST_P(Slices, GiveTheWholePictureOfTranslucentSurfacesAndOfSeveralSamples) {
     const auto expect_whole = [&](int samples, float opacity) {
         SCOPED_TRACE(testing::Message() << samples << " samples, opacity " << opacity);
         Config config = sliced();
-        config.samples = samples;
+        config.rendering.samples = samples;
         Commands commands;
         commands.isosurfaces = {
             {{2.0, {0.9f, 0.3f, 0.2f}, opacity}, {8.0, {0.2f, 0.5f, 0.9f}, 1.0f}}};
@@ -137,7 +137,7 @@ TEST_P(Slices, GiveTheWholePictureOfTranslucentSurfacesAndOfSeveralSamples) {
 
 TEST_P(Slices, EndAtWhatIsConfiguredForAPictureAtRest) {
     Config config = sliced();
-    config.settled_footprint = Footprint::gaussian;
+    config.quality.settled = Footprint::gaussian;
     Session session(config, file_, *context_);
     Session reference = at_once(config, Footprint::gaussian);
     start(session);
@@ -207,9 +207,9 @@ TEST_P(Slices, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) 
          {interaction::QualityMode::automatic, interaction::QualityMode::fast,
           interaction::QualityMode::paper}) {
         Config config = sliced();
-        config.quality = mode;
+        config.quality.mode = mode;
         if (mode == interaction::QualityMode::automatic)
-            config.still_budget_ms = 0;
+            config.quality.still_budget_ms = 0;
         Session session(config, file_, *context_);
         start(session);
         for (int i = 0; i < 120; ++i)
@@ -249,7 +249,7 @@ TEST_P(Slices, TellWhatThePictureCostsThatNoFrameHasDrawn) {
 
 TEST_P(Slices, TellWhatTheExactPictureCosts) {
     Config config = sliced();
-    config.frame_budget_ms = 60000; // all fits once it is known to, on any machine
+    config.quality.frame_budget_ms = 60000; // all fits once it is known to, on any machine
     Session session(config, file_, *context_);
     start(session);
     settle(session);

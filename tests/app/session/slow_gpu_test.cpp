@@ -82,9 +82,9 @@ class SlowGpu : public SessionTest {
     Walk walk(bool slow, render::DrawnBy drawn_by) const {
         stereo::ContextInBetween context = context_of_driver(slow);
         Config config = small_config();
-        config.drawn_by = drawn_by;
-        config.mesh_megabytes = 0;              // no set comes again with its triangles
-        config.upload_kilobytes_per_frame = 16; // several frames for each
+        config.rendering.drawn_by = drawn_by;
+        config.memory.mesh_megabytes = 0;                 // no set comes again with its triangles
+        config.rendering.upload_kilobytes_per_frame = 16; // several frames for each
         Session session(config, file_, context);
         Walk walk;
         std::size_t maps_at_start = 0;

@@ -36,11 +36,11 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
     const auto expect_warm = [&](render::Footprint settled, float opacity) {
         SCOPED_TRACE(testing::Message() << render::name_of(settled) << ", opacity " << opacity);
         Config config = small_config();
-        config.settled_footprint = settled;
-        config.frame_budget_ms = 1e-6; // quads in motion
-        config.still_budget_ms = 0;    // no slices
+        config.quality.settled = settled;
+        config.quality.frame_budget_ms = 1e-6; // quads in motion
+        config.quality.still_budget_ms = 0;    // no slices
         if (settled == render::Footprint::mesh)
-            config.drawn_by = render::DrawnBy::processor; // else there are no meshes
+            config.rendering.drawn_by = render::DrawnBy::processor; // else there are no meshes
         programs.used.clear();
         Session session(config, file_, noting_);
         session.warm_up();
@@ -88,10 +88,10 @@ TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
     const auto file = index::IndexFile::open(folder_.path() / "odd.isochron");
     const auto compiled_after_warm_up = [&](render::Footprint settled) {
         Config config = small_config();
-        config.settled_footprint = settled;
-        config.frame_budget_ms = 1e-6; // quads in motion
-        config.still_budget_ms = 0;    // no slices
-        config.drawn_by = render::DrawnBy::processor;
+        config.quality.settled = settled;
+        config.quality.frame_budget_ms = 1e-6; // quads in motion
+        config.quality.still_budget_ms = 0;    // no slices
+        config.rendering.drawn_by = render::DrawnBy::processor;
         Session session(config, file, noting_);
         session.warm_up();
         const int warm = test_support::compilations();

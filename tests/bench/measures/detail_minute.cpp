@@ -32,8 +32,8 @@ app::Config config_of(const MinuteOptions& options) {
     stereo::Window& window = config.installation.windows.front();
     window.size = {2 * options.picture, options.picture};
     window.stereo = stereo::StereoMode::side_by_side;
-    config.frame_budget_ms = options.budget_ms;
-    config.frame_rate_limit = kRate;
+    config.quality.frame_budget_ms = options.budget_ms;
+    config.rendering.frame_rate_limit = kRate;
     return config;
 }
 

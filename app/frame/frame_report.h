@@ -17,11 +17,8 @@
 
 namespace isochron::app {
 
-/// One frame; times are of its stages, in their order.
-struct FrameReport {
-    interaction::Seconds time{0};              ///< session time of the frame
-    index::SurfacesQuery asked{0, {0.0}};      ///< at least one isovalue
-    std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
+/// How the frame was drawn, and why so.
+struct FrameDrawing {
     interaction::Pace pace = interaction::Pace::moving;
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving; ///< for the footprint
@@ -29,25 +26,39 @@ struct FrameReport {
     Milliseconds budget{0};               ///< for drawing
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
-    std::optional<Milliseconds> gpu;      ///< of this frame; known some frames later
-    unsigned missed = 0;                  ///< refreshes of the display missed before this frame
     std::optional<render::Footprint> in_slices; ///< of the picture at rest in slices, if any
     bool redrawn = true;                        ///< false: nothing that the eyes see had changed
-    std::uint64_t cells = 0;                    ///< drawn
-    unsigned finest = 0, coarsest = 0;          ///< levels of detail that they are of
-    std::optional<std::uint64_t> volume_cells;  ///< active cells of level 0, if counted
+};
+
+/// The cells of the frame.
+struct FrameCells {
+    index::SurfacesQuery asked{0, {0.0}};      ///< at least one isovalue
+    std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
+    std::uint64_t cells = 0;                   ///< drawn
+    unsigned finest = 0, coarsest = 0;         ///< levels of detail that they are of
+    std::optional<std::uint64_t> volume_cells; ///< active cells of level 0, if counted
     std::uint64_t candidates = 0; ///< cells that the search returned before the exact test
     std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
     std::string refused;          ///< why the newest cells are not shown; empty: they are
+    bool extracting = false;      ///< the worker was busy when the frame began or ended
     render::UploadCount uploaded; ///< in this frame
+};
+
+/// How long the stages of the frame took, in their order.
+struct FrameTimes {
     Milliseconds search{0}, gather{0}; ///< of the shown set, on the worker: cells, bricks
     Milliseconds wait{0};              ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
-    Milliseconds barrier{0};   ///< between draw and present: until all processes have drawn
-    Milliseconds processor{0}; ///< that all threads of the program computed during the frame
-    bool extracting = false;   ///< the worker was busy when the frame began or ended
-    std::optional<Milliseconds> pose_age; ///< of the oldest head pose, when the views were made
+    Milliseconds barrier{0};              ///< between draw and present: until all processes drew
+    Milliseconds processor{0};            ///< that all threads of the program computed meanwhile
     Milliseconds latency{0};              ///< from polling the devices until all was submitted
+    std::optional<Milliseconds> pose_age; ///< of the oldest head pose, when the views were made
+    std::optional<Milliseconds> gpu;      ///< of this frame; known some frames later
+    unsigned missed = 0;                  ///< refreshes of the display missed before this frame
+};
+
+struct FrameReport : FrameDrawing, FrameCells, FrameTimes {
+    interaction::Seconds time{0}; ///< session time of the frame
     interaction::ComfortState comfort;
     std::vector<DeviceTracking> tracking; ///< empty if no device is tracked
 };

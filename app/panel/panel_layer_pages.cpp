@@ -23,7 +23,7 @@ bool PanelLayer::turns_page(const WindowEvent& event) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto* key = std::get_if<KeyEvent>(&event);
     const auto* typed = std::get_if<TextEvent>(&event);
-    const bool pressed = key && key->down;
+    const bool pressed = key && key->down && key->alone();
     if ((pressed && key->key == Key::f1) ||
         (typed && typed->character == U'?' && !io.WantTextInput)) {
         help_ = !help_;
@@ -38,7 +38,11 @@ bool PanelLayer::turns_page(const WindowEvent& event) {
             help_ = false;
         return true;
     }
-    if (!pressed || key->key != Key{'O'} || !io.KeyCtrl || !recent_)
+    const bool opens = key && key->down && key->key == Key{'O'} &&
+                       (io.KeyCtrl || key->with(interaction::Modifier::control)) &&
+                       !key->with(interaction::Modifier::alt) &&
+                       !key->with(interaction::Modifier::super);
+    if (!opens || !recent_)
         return false;
     open_files();
     return true;

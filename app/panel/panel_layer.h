@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/panel/file_window.h"
+#include "app/panel/number_entry.h"
 #include "app/panel/panel.h"
 #include "interaction/input/window_event.h"
 #include "interaction/pose.h"
@@ -121,8 +122,10 @@ class PanelLayer {
     glm::ivec2 places_{1};
     std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
-    bool closes_popup_ = false;       ///< Escape was pressed
-    bool help_ = false;               ///< the help page is open
+    NumberEntry numbers_;
+    std::string complaint_;     ///< of `numbers_`, if nothing was said since
+    bool closes_popup_ = false; ///< Escape was pressed
+    bool help_ = false;         ///< the help page is open
     FileWindow files_;
     std::function<std::vector<std::filesystem::path>()>
         recent_; ///< empty: the user cannot open other data

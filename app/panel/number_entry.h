@@ -1,7 +1,7 @@
 // Characters that the user types into the panel's fields, all of which hold one number.
 #pragma once
 
-#include "interaction/window_event.h"
+#include "interaction/input/window_event.h"
 
 #include <string>
 

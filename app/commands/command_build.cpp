@@ -5,6 +5,7 @@
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/index_report.h"
 #include "app/indexing/progress_bar.h"
+#include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/indexing/appended_series.h"
@@ -61,6 +62,24 @@ std::string write_index(const BuildSources& sources, const BuildArguments& argum
     return held ? fmt::format("note: written anew: {}\n", reason) : std::string();
 }
 
+/// @param sources opened from `files`; null: not yet
+void guard_index(const BuildArguments& arguments, std::vector<fs::path> files,
+                 const BuildSources* sources) {
+    const auto add = [&](const index::VolumeSeries& series) {
+        const std::vector<fs::path> more = series.files();
+        files.insert(files.end(), more.begin(), more.end());
+    };
+    if (sources) {
+        add(*sources->volume);
+        if (sources->colors)
+            add(*sources->colors);
+        for (const ArraySource& further : sources->further)
+            add(*further.series);
+    }
+    guard_outputs({{arguments.out, OutputKind::index}}, {std::move(files)},
+                  arguments.build.replaces_any || arguments.append);
+}
+
 void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSignal& signals) {
     const bool reports = team.rank() == 0 && !asked.quiet;
     BuildArguments arguments = asked;
@@ -79,8 +98,9 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     index::BuildOptions options;
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
-        refuse_input_as_output(files, arguments.out);
+        guard_index(arguments, files, nullptr); // at once, as opening may take long
         sources = open_sources(files, arguments);
+        guard_index(arguments, files, &sources);
         if (held)
             append_sources(sources, held, arguments.out.string());
         options = build_options(arguments, sources);
@@ -175,7 +195,8 @@ void add_build(Command& program) {
         .type_name("FILES");
     command
         .option("-o,--out", arguments->out,
-                "Index to write. An existing one is replaced when the new one is complete")
+                "Index to write. An existing one is replaced when the new one is complete; another "
+                "file only with --force, and never one that is read")
         .required()
         .type_name("NAME.isochron");
     add_reading_options(command, *arguments);
@@ -227,6 +248,8 @@ void add_build(Command& program) {
                                  .between(1u, 64u)
                                  .shows_default()
                                  .group(index_group);
+    command.flag("--force", arguments->build.replaces_any,
+                 "Let --out replace a file that is no index");
     command.flag("--quiet", arguments->quiet, "Print errors only");
     command.footer(
         "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "

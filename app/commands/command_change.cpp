@@ -2,8 +2,8 @@
 // another.
 #include "app/command_line/subcommands.h"
 #include "app/commands/id_file.h"
-#include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
+#include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
@@ -27,7 +27,7 @@ struct ChangeArguments {
     std::optional<std::int64_t> to_step;
     std::uint32_t repeats = 5;
     std::optional<std::string> array;
-    bool json = false;
+    bool json = false, force = false;
 };
 
 index::Query checked(const ChangeArguments& arguments, const index::IndexFile& file,
@@ -63,15 +63,17 @@ Difference sorted(const index::CellChange& change) {
 }
 
 void run_change(const ChangeArguments& arguments) {
-    for (const auto& out : {arguments.added, arguments.removed})
-        if (!out.empty())
-            refuse_input_as_output({arguments.file}, out);
     if (!arguments.to_step && !arguments.to_isovalue)
         throw UsageError("--to-step or --to-isovalue is missing");
     const auto file = array_called(open_index(arguments.file), arguments.array);
     if (const index::Grid& grid = file->info().grid; index::has_wide_ids(grid))
         throw index::Error(fmt::format("{}: {} cells, expected fewer than 2^32 to compare",
                                        arguments.file.string(), grid.cell_count()));
+    std::vector<Output> outputs;
+    for (const auto& out : {arguments.added, arguments.removed})
+        if (!out.empty())
+            outputs.push_back({out, OutputKind::ids, file->info().grid.cell_count()});
+    guard_outputs(outputs, {{arguments.file}, file.get()}, arguments.force);
     const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
     const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
                                     arguments.to_isovalue.value_or(arguments.isovalue));
@@ -141,6 +143,9 @@ void add_change(Command& program) {
         .option("--removed", arguments->removed,
                 "Write the ids of the cells that stop being active")
         .type_name("OUT.bin");
+    command.flag("--force", arguments->force,
+                 "Let --added and --removed replace any file but one that is read; else they "
+                 "replace only ids");
     command
         .option("--repeat", arguments->repeats,
                 "Number of repetitions; the median of their times is printed")

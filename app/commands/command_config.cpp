@@ -4,7 +4,7 @@
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
 #include "app/config/toml_reader.h"
-#include "app/indexing/file_patterns.h"
+#include "app/output/guarded_outputs.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -22,6 +22,7 @@ struct ImportOptions {
     std::optional<std::string> out;
     PvxOptions pvx;
     std::vector<float> origin;
+    bool force = false;
 };
 
 /// A .pvx file tells who looks, and not what tracks them.
@@ -57,7 +58,8 @@ void import(ImportOptions options) {
         "# Imported from a .pvx file of ParaView.\n" + display_config_text(imported.installation);
     const Config config = sound_config(text, options.file);
     if (options.out) {
-        refuse_input_as_output({options.file}, *options.out);
+        guard_outputs({{*options.out, OutputKind::configuration, 0, text}}, {{options.file}},
+                      options.force);
         index::NewFile file(*options.out);
         file.write_at(0, std::as_bytes(std::span(text)));
         file.commit();
@@ -84,6 +86,8 @@ void add_config(Command& program) {
         config.subcommand("import", "Convert ParaView's .pvx file to a TOML configuration.");
     command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
     command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
+    command.flag("--force", options->force,
+                 "Let --out replace any file but the .pvx; else only the same configuration");
     command
         .option("--unit", options->pvx.meters_per_unit,
                 "Meters per unit of the file: 0.3048 for feet, 0.001 for millimeters")

@@ -16,6 +16,7 @@
 #include "app/session/user_memory.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/system/new_file.h"
 #include "interaction/recording/recording.h"
 #include "stereo/context/display_loss.h"
 #include "stereo/loading_picture.h"
@@ -34,7 +35,7 @@ namespace {
 std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
                                              const index::IndexFile& file) {
     if (options.session)
-        return *options.session;
+        return index::end_of_links(*options.session);
     return session_path(*options.data, data_hash_of(file));
 }
 
@@ -176,7 +177,7 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
             warn_of_colors(config, *file);
             check_start(options, *file, indexing ? indexing->state().of : file->info().steps());
         }
-        check_outputs(options, job);
+        check_outputs(options, job, *file);
     });
     signals.check();
     if (!file) // the user left before there was anything to see
@@ -234,7 +235,7 @@ std::optional<std::string> explore(const ExploreOptions& asked, ClusterJob& job)
             keep_session(live, kept_in(options, *file), *options.data, *file, session, earlier);
         const auto header = header_of(session, config, *file, *options.data);
         if (options.record) {
-            live.record(*options.record, header);
+            live.record(index::end_of_links(*options.record), header);
             session.set_recording(true);
         }
         if (job.size() == 1)

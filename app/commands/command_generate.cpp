@@ -3,10 +3,12 @@
 #include "app/command_line/subcommands.h"
 #include "app/generate/demo_series.h"
 #include "app/indexing/progress_bar.h"
+#include "app/output/guarded_outputs.h"
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <vector>
 
 namespace isochron::app {
 
@@ -18,6 +20,7 @@ struct Request {
     Series series;
     std::string type{"f32"};
     std::filesystem::path dir;
+    bool force = false;
 };
 
 /// Adds `generate NAME` with the options that every series has.
@@ -34,18 +37,26 @@ std::pair<Command, std::shared_ptr<Request<Series>>> add_series(Command& generat
     command.option("--steps", request->series.steps, "Number of time steps")
         .between(1, 100000)
         .shows_default();
+    command.flag("--force", request->force,
+                 "Replace another series, or any files, of the names that are written");
     command.on_run([request, name] {
         request->series.type = *index::value_type_from_name(request->type);
         const auto pvd = (request->dir / (name + ".pvd")).string();
+        std::vector<Output> outputs;
+        for (const auto& file : files_in_the_way(request->series, request->dir))
+            outputs.push_back({file, OutputKind::series});
+        guard_outputs(outputs, {}, request->force);
         bool made = false;
         {
             const CancelOnSignal signals;
             ProgressBar bar;
-            made = generate(request->series, request->dir,
-                            [&](std::string_view phase, double fraction) {
-                                signals.check();
-                                bar.show(phase, fraction);
-                            });
+            made = generate(
+                request->series, request->dir,
+                [&](std::string_view phase, double fraction) {
+                    signals.check();
+                    bar.show(phase, fraction);
+                },
+                request->force);
         }
         fmt::print("{}: {} steps{}\n", pvd, request->series.steps, made ? "" : ", made before");
     });

@@ -3,6 +3,7 @@
 #include "app/command_line/manual_pages.h"
 #include "app/command_line/shell_completion.h"
 #include "app/command_line/subcommands.h"
+#include "app/output/guarded_outputs.h"
 #include "app/version.h"
 #include "index/system/new_file.h"
 
@@ -11,20 +12,32 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace isochron::app {
 
 void add_manual(Command& program) {
-    auto folder = std::make_shared<std::filesystem::path>();
+    struct Options {
+        std::filesystem::path folder;
+        bool force = false;
+    };
+    auto options = std::make_shared<Options>();
     Command command = program.subcommand(
         "manual", "Write the manual pages of the program and of each command, for man(1).");
-    command.option("folder", *folder, "Folder to write them to; made where it is missing")
+    command.option("folder", options->folder, "Folder to write them to; made where it is missing")
         .required()
         .type_name("FOLDER");
-    command.on_run([folder, program] {
-        std::filesystem::create_directories(*folder);
-        for (const ManualPage& page : manual_pages(program.reference(), std::string(kProgram))) {
-            index::NewFile file(*folder / page.file);
+    command.flag("--force", options->force,
+                 "Replace any files of the pages' names; else only such pages are replaced");
+    command.on_run([options, program] {
+        const auto pages = manual_pages(program.reference(), std::string(kProgram));
+        std::vector<Output> outputs;
+        for (const ManualPage& page : pages)
+            outputs.push_back({options->folder / page.file, OutputKind::manual_page});
+        guard_outputs(outputs, {}, options->force);
+        std::filesystem::create_directories(options->folder);
+        for (const ManualPage& page : pages) {
+            index::NewFile file(options->folder / page.file);
             file.write_at(0, std::as_bytes(std::span(page.text)));
             file.commit();
         }

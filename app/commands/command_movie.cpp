@@ -2,8 +2,8 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/subcommands.h"
 #include "app/explore/replay_source.h"
-#include "app/indexing/file_patterns.h"
 #include "app/indexing/progress_bar.h"
+#include "app/output/guarded_outputs.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"
 #include "app/session/recording_file.h"
@@ -42,8 +42,9 @@ struct MovieOptions : ReplaySource {
 class Movies {
   public:
     Movies(const MovieOptions& options, const PictureNames& names, MovieNote about,
-           BackgroundWork& writing)
-        : options_(options), names_(names), about_(std::move(about)), writing_(writing) {}
+           const Reads& reads, BackgroundWork& writing)
+        : options_(options), names_(names), about_(std::move(about)), reads_(reads),
+          writing_(writing) {}
 
     /// Adds the pictures of the frame drawn last. @param times how many movie frames show them
     void add(Outputs& outputs, const PictureNote& frame, std::size_t times) {
@@ -86,9 +87,7 @@ class Movies {
         const fs::path path = path_with(suffix);
         auto& movie = movies_[path];
         if (!movie) {
-            if (holds_movie(path) && !options_.force)
-                throw index::Error(
-                    fmt::format("{}: exists already; --force replaces it", path.string()));
+            guard_outputs({{path, OutputKind::movie}}, reads_, options_.force);
             movie = open(path, note, glm::ivec2(image.width, image.height));
         }
         writing_.wait_for_room();
@@ -105,6 +104,7 @@ class Movies {
     const MovieOptions& options_;
     const PictureNames& names_;
     const MovieNote about_;
+    const Reads& reads_;
     BackgroundWork& writing_;
     bool hurried_ = false; ///< drawing and encoding use the same processors
     std::map<fs::path, std::shared_ptr<Movie>> movies_;
@@ -171,7 +171,6 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
         throw UsageError("a movie is made by one process, without mpirun");
     if (options.background)
         go_to_background();
-    refuse_input_as_output({options.recording}, options.out);
     check_output(options);
     const interaction::Recording recording = read_recording(options.recording);
     if (recording.frames.empty())
@@ -186,7 +185,8 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
     const PictureNames names = picture_names(config.installation);
     BackgroundWork writing;
-    Movies movies(options, names, {options.rate, hash_of(options.recording)}, writing);
+    const Reads reads = reads_of(options, file.get());
+    Movies movies(options, names, {options.rate, hash_of(options.recording)}, reads, writing);
     Clock clock(recording, options.rate);
     {
         const CancelOnSignal signals;

@@ -2,8 +2,8 @@
 #include "app/command_line/subcommands.h"
 #include "app/commands/id_file.h"
 #include "app/commands/process_usage.h"
-#include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
+#include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
@@ -28,7 +28,7 @@ struct QueryArguments {
     std::uint32_t level = 0;
     std::string method;
     std::optional<std::string> array;
-    bool json = false;
+    bool json = false, force = false;
 };
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -176,8 +176,6 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
 }
 
 void run_query(const QueryArguments& arguments) {
-    if (!arguments.ids.empty())
-        refuse_input_as_output({arguments.file}, arguments.ids);
     const auto file = array_called(open_index(arguments.file), arguments.array);
     const auto steps = static_cast<std::int64_t>(file->info().steps());
     if (arguments.step < 0 || arguments.step >= steps)
@@ -189,6 +187,9 @@ void run_query(const QueryArguments& arguments) {
                                        arguments.level, file->detail_levels() - 1));
     if (arguments.level > 0 && !arguments.method.empty())
         throw UsageError("--method: is for level 0");
+    if (!arguments.ids.empty())
+        guard_outputs({{arguments.ids, OutputKind::ids, file->info().grid.cell_count()}},
+                      {{arguments.file}, file.get()}, arguments.force);
     const Measured result =
         measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
                 method_of(arguments, *file), arguments.level, arguments.repeats);
@@ -217,6 +218,8 @@ void add_query(Command& program) {
                 "Write the cell ids: u32 (u64 where there are 2^32 cells or more), little-endian, "
                 "ascending; id = (z * (ny - 1) + y) * (nx - 1) + x")
         .type_name("OUT.bin");
+    command.flag("--force", arguments->force,
+                 "Let --ids replace any file but one that is read; else it replaces only ids");
     command
         .option("--repeat", arguments->repeats,
                 "Number of repetitions; the median of their times is printed")

@@ -2,8 +2,8 @@
 #include "app/command_line/subcommands.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/replay_source.h"
-#include "app/indexing/file_patterns.h"
 #include "app/indexing/progress_bar.h"
+#include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
 #include "app/session/pattern_show.h"
 #include "app/session/recording_file.h"
@@ -12,8 +12,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -23,7 +27,7 @@ namespace fs = std::filesystem;
 struct Options : ReplaySource {
     std::optional<std::string> out, report;
     std::size_t every = 0;
-    bool stamps = false, from_devices = false, test_pattern = false;
+    bool stamps = false, from_devices = false, test_pattern = false, force = false;
     std::string eyes = "window";
     std::string format = "png";
 };
@@ -38,7 +42,8 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
                   outputs.pictures().wait_for_room();
                   written.push_back(folder / fmt::format("{}{}.{}", stem, suffix, options.format));
                   outputs.write_image(std::move(image), written.back(),
-                                      note.data_hash.empty() ? std::string() : text_of(note));
+                                      note.data_hash.empty() ? note_of_test_pattern()
+                                                             : text_of(note));
               });
 }
 
@@ -59,8 +64,59 @@ void check(const Options& options) {
         throw UsageError("--live does not go with --every, --stamps or --from-devices");
     if (options.test_pattern && (options.live || options.report || options.from_devices))
         throw UsageError("--test-pattern does not go with --live, --report or --from-devices");
+}
+
+/// The names of a frame's pictures, without what is added for windows and eyes.
+std::vector<std::string> stems_of(const Options& options, std::size_t number,
+                                  const interaction::RecordedFrame& frame) {
+    std::vector<std::string> stems;
+    if (options.every > 0 && number % options.every == 0)
+        stems.push_back(fmt::format("frame_{:05}", number));
+    if (options.stamps)
+        for (const std::string& stamp : frame.commands.stamps)
+            stems.push_back(fmt::format("stamp_{:05}_{}", number, file_name(stamp)));
+    return stems;
+}
+
+/// What may be added to such a name.
+std::set<std::string> suffixes_of(const PictureNames& names) {
+    std::set<std::string> suffixes{""}; // of the room
+    for (const PictureNames::Window& window : names.windows) {
+        suffixes.insert({window.suffix, window.suffix + "_left", window.suffix + "_right"});
+        for (const std::string& viewport : window.viewports)
+            for (const stereo::Eye eye :
+                 {stereo::Eye::left, stereo::Eye::right, stereo::Eye::center})
+                suffixes.insert(fmt::format("{}_{}", viewport, name_of(eye)));
+    }
+    return suffixes;
+}
+
+/// Guards the report, and the pictures of earlier replays in the same folder.
+void guard_files(const Options& options, const interaction::Recording& recording,
+                 const PictureNames& names, const ClusterJob& job, const index::IndexFile* file) {
+    std::vector<Output> outputs;
     if (options.report)
-        refuse_input_as_output({options.recording}, *options.report);
+        outputs.push_back({job.own_file(*options.report), OutputKind::report});
+    std::error_code none;
+    const fs::path folder = options.out.value_or("");
+    if (options.out && fs::is_directory(folder, none)) {
+        const std::set<std::string> suffixes = suffixes_of(names);
+        std::set<std::string> stems;
+        for (std::size_t number = 0; number < recording.frames.size(); ++number)
+            for (std::string& stem : stems_of(options, number, recording.frames[number]))
+                stems.insert(std::move(stem));
+        for (const auto& entry : fs::directory_iterator(folder, none)) {
+            const fs::path& path = entry.path();
+            const std::string name = path.stem().string();
+            if (path.extension() == "." + options.format &&
+                std::ranges::any_of(suffixes, [&](const std::string& suffix) {
+                    return name.ends_with(suffix) &&
+                           stems.contains(name.substr(0, name.size() - suffix.size()));
+                }))
+                outputs.push_back({path, OutputKind::picture});
+        }
+    }
+    guard_outputs(outputs, reads_of(options, file), options.force);
 }
 
 /// Writes the pictures of one frame if the options ask for them.
@@ -68,13 +124,8 @@ void check(const Options& options) {
 void write_pictures(Outputs& outputs, const Options& options, const PictureNames& names,
                     std::size_t number, const interaction::RecordedFrame& frame,
                     const std::function<PictureNote()>& note, std::vector<fs::path>& written) {
-    if (options.every > 0 && number % options.every == 0)
-        write_pictures(outputs, options, names, note(), fmt::format("frame_{:05}", number),
-                       written);
-    if (options.stamps)
-        for (const std::string& stamp : frame.commands.stamps)
-            write_pictures(outputs, options, names, note(),
-                           fmt::format("stamp_{:05}_{}", number, file_name(stamp)), written);
+    for (const std::string& stem : stems_of(options, number, frame))
+        write_pictures(outputs, options, names, note(), stem, written);
 }
 
 /// Replays the recorded heads and hands in front of the test pattern; needs no data.
@@ -89,6 +140,7 @@ void replay_test_pattern(const Options& options, ClusterJob& job) {
         config = config_of(options, recording.header);
         names = picture_names(config.installation);
         prepare_walls(config, job, options.emulate);
+        guard_files(options, recording, names, job, nullptr);
         if (options.out)
             index::make_folder(*options.out);
     });
@@ -139,6 +191,7 @@ Prepared prepare(const Options& options, const ClusterJob& job) {
     all.names = picture_names(all.config.installation);
     prepare_walls(all.config, job, options.emulate);
     all.file = data_of(options, all.recording.header, all.config);
+    guard_files(options, all.recording, all.names, job, all.file.get());
     all.replay = replay_options(options);
     all.replay.from_devices = options.from_devices;
     return all;
@@ -233,6 +286,9 @@ void add_replay(Command& program) {
         .shows_default();
     command.option("--report", options->report,
                    "Write the times and the state of every frame to this JSON file");
+    command.flag("--force", options->force,
+                 "Let --out and --report replace any files but those that are read; else they "
+                 "replace only pictures and reports that this program wrote");
     command.flag("--from-devices", options->from_devices,
                  "Compute the commands again from the recorded devices; a difference is an error");
     command.flag("--test-pattern", options->test_pattern,

@@ -3,6 +3,7 @@
 #include "app/explore/kept_session.h"
 #include "app/explore/replay_source.h"
 #include "app/indexing/open_index.h"
+#include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
 #include "app/session/replay.h"
 #include "app/version.h"
@@ -27,6 +28,7 @@ struct ReproduceOptions {
     std::string picture;
     std::optional<std::string> data, out;
     std::string context = "egl";
+    bool force = false;
 };
 
 PictureNote note_in(const fs::path& picture) {
@@ -109,7 +111,11 @@ struct MadePicture {
 
 MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     const Config config = config_for(options, note);
-    const auto file = open_index_to_show(data_path(options, note), config.memory.cache_bytes());
+    const fs::path data = data_path(options, note);
+    const auto file = open_index_to_show(data, config.memory.cache_bytes());
+    if (options.out)
+        guard_outputs({{*options.out, OutputKind::picture}}, {{options.picture, data}, file.get()},
+                      options.force);
     if (data_hash_of(*file) != note.data_hash)
         throw interaction::Error(
             fmt::format("{}: made of other data: expected hash {}, {} has {}", options.picture,
@@ -190,8 +196,6 @@ void reproduce(const ReproduceOptions& options) {
     if (note.part.shows == "headset")
         throw interaction::Error(options.picture +
                                  ": it shows a headset's mirror, which is not made again");
-    if (options.out && fs::exists(*options.out))
-        throw index::Error(fmt::format("{}: exists already", *options.out));
     const MadePicture made = make(options, note);
     const auto bytes = stereo::encoded_image(made.image, options.picture, text_of(note));
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 34;
@@ -223,6 +227,9 @@ void add_reproduce(Command& program) {
     command.option("--data", options->data,
                    "Index to use (default: the named one beside the picture, or in this folder)");
     command.option("-o,--out", options->out, "Save the new picture under this name");
+    command.flag("--force", options->force,
+                 "Let --out replace any file but one that is read; else it replaces only pictures "
+                 "that this program wrote");
     command.option("--context", options->context, "GL context to draw with")
         .one_of({"egl", "osmesa"})
         .shows_default();

@@ -74,7 +74,10 @@ void add_explore_options(Command& command, ExploreOptions& options) {
     command.flag("--follow", options.follow,
                  "Show the last step, and each new one as `build --append` adds it (key End)");
     command.option("--record", options.record, "Record the session to this file (JSON Lines)");
-    command.flag("--force", options.force, "Let --record replace an existing recording");
+    command.flag(
+        "--force", options.force,
+        "Let --record replace an existing recording, and --report and --session any file but "
+        "one that is read; else these replace only a report and a session");
     command.option("--session", options.session,
                    "Save the session in this file (NAME.isochron-session) instead of the user's "
                    "state folder; it is saved every 30 s and at the end");

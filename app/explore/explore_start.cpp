@@ -7,6 +7,7 @@
 #include "app/explore/drawing_options.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
+#include "app/output/guarded_outputs.h"
 #include "app/output/room_view.h"
 #include "app/session/recording_file.h"
 #include "app/session/start_state.h"
@@ -38,15 +39,13 @@ std::uint32_t first_step(const ExploreOptions& options, std::size_t steps) {
     return options.step.value_or(options.follow ? static_cast<std::uint32_t>(steps) - 1 : 0);
 }
 
-/// Refuses to overwrite an existing recording, which only --force allows.
-void refuse_to_replace(const std::string& recording) {
-    for (const std::string& name : {recording, recording + ".part"})
-        if (std::filesystem::exists(name))
-            throw index::Error(fmt::format("{}: exists already{}; --force replaces it", name,
-                                           name == recording
-                                               ? ""
-                                               : ", a recording that was cut short and can be "
-                                                 "replayed"));
+/// A recording that was cut short is replaced only with --force, too.
+void refuse_to_replace_part_of(const std::filesystem::path& recording) {
+    const std::string part = recording.string() + ".part";
+    if (std::filesystem::exists(part))
+        throw index::Error(fmt::format("{}: exists already, a recording that was cut short and can "
+                                       "be replayed; --force replaces it",
+                                       part));
 }
 
 } // namespace
@@ -116,20 +115,28 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     return state;
 }
 
-void check_outputs(const ExploreOptions& options, const ClusterJob& job) {
+void check_outputs(const ExploreOptions& options, const ClusterJob& job,
+                   const index::IndexFile& file) {
     namespace fs = std::filesystem;
     std::error_code ignored;
+    Reads reads{{*options.data, options.config}, &file};
+    if (*options.data != options.data_name) // it is the index of these
+        for (const fs::path& source : expand_patterns(options.sources.files))
+            reads.files.push_back(source);
+    std::vector<Output> outputs;
+    if (options.report)
+        outputs.push_back({job.own_file(*options.report), OutputKind::report});
+    if (job.leads() && options.record)
+        outputs.push_back({*options.record, OutputKind::recording});
+    if (job.leads() && options.session)
+        for (const char* end : {"", ".before"})
+            outputs.push_back({*options.session + end, OutputKind::session});
+    guard_outputs(outputs, reads, options.force);
     index::make_folder(options.screenshots);
     if (!job.leads())
         return;
-    std::vector<fs::path> inputs{*options.data};
-    if (*options.data != options.data_name) // it is the index of these
-        inputs = expand_patterns(options.sources.files);
-    for (const auto& out : {options.record, options.report, options.session})
-        if (out)
-            refuse_input_as_output(inputs, *out);
     if (options.record && !options.force)
-        refuse_to_replace(*options.record);
+        refuse_to_replace_part_of(index::end_of_links(*options.record));
     if (options.record && fs::exists(*options.record, ignored))
         read_recording(*options.record); // only a recording may be overwritten
     if (options.session && fs::path(*options.session).has_parent_path())

@@ -26,7 +26,9 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
 
 /// Checks the paths of outputs, so that a wrong one does not show, or destroy a file, only at the
 /// end of the session.
-void check_outputs(const ExploreOptions& options, const ClusterJob& job);
+/// @param file that is explored
+void check_outputs(const ExploreOptions& options, const ClusterJob& job,
+                   const index::IndexFile& file);
 
 /// The session's state as the options ask for it: showing the array that they name, if any, with
 /// first surfaces that suit the step that they name.

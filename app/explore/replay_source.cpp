@@ -103,6 +103,15 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
     return file;
 }
 
+Reads reads_of(const ReplaySource& options, const index::IndexFile* file) {
+    Reads reads{{options.recording}, file};
+    if (options.config)
+        reads.files.emplace_back(*options.config);
+    if (file)
+        reads.files.emplace_back(file->name());
+    return reads;
+}
+
 std::string other_data(const interaction::RecordingHeader& header, const index::IndexFile& file) {
     // A recording without a hash, such as a demonstration, is not bound to one data set. Data may
     // have grown since they were recorded on.

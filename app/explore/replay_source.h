@@ -4,6 +4,7 @@
 #include "app/command_line/command_line.h"
 #include "app/config/config.h"
 #include "app/explore/cluster_job.h"
+#include "app/output/guarded_outputs.h"
 #include "app/session/replay.h"
 #include "index/file/index_file.h"
 #include "interaction/recording/recording.h"
@@ -37,6 +38,9 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
 std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                                                 const interaction::RecordingHeader& header,
                                                 const Config& config);
+
+/// What a replay reads. @param file null: no data
+Reads reads_of(const ReplaySource& options, const index::IndexFile* file);
 
 /// The file name of these data, without its folder.
 std::string data_name(const ReplaySource& options, const interaction::RecordingHeader& header);

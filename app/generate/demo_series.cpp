@@ -59,21 +59,44 @@ struct Destination {
 
     fs::path note() const { return dir / (name + ".json"); }
 
+    fs::path pvd() const { return dir / (name + ".pvd"); }
+
+    /// Whether the note is there and says that this series was made, or was about to be.
+    bool is_noted() const {
+        constexpr std::uint64_t kMost = 1 << 20;
+        std::error_code ignored;
+        return fs::is_regular_file(note(), ignored) && fs::file_size(note(), ignored) <= kMost &&
+               json::parse(index::read_text(note(), kMost), nullptr, false) == recipe;
+    }
+
     /// Whether the series exists already. The .pvd is written last, so if it is there, all files
     /// are.
-    /// @throws Error when it exists with another recipe
-    bool complete() const {
-        const fs::path pvd = dir / (name + ".pvd");
+    /// @throws Error when it exists with another recipe, unless `force` is set
+    bool complete(bool force) const {
         std::error_code ignored;
-        if (!fs::exists(pvd, ignored))
+        if (!fs::exists(pvd(), ignored))
             return false;
-        constexpr std::uint64_t kMost = 1 << 20;
-        if (fs::exists(note(), ignored) &&
-            json::parse(index::read_text(note(), kMost), nullptr, false) == recipe)
+        if (is_noted())
             return true;
+        if (force)
+            return false;
         throw index::Error(fmt::format("{}: is another series than {}; remove it or choose another "
-                                       "folder",
-                                       pvd.string(), recipe.dump()));
+                                       "folder, or --force replaces it",
+                                       pvd().string(), recipe.dump()));
+    }
+
+    std::vector<fs::path> in_the_way(std::size_t steps) const {
+        std::error_code ignored;
+        std::vector<fs::path> found;
+        if (fs::exists(pvd(), ignored) || is_noted())
+            return found;
+        if (fs::exists(note(), ignored))
+            found.push_back(note());
+        for (std::size_t step = 0; step < steps; ++step)
+            if (const fs::path file = dir / index::SeriesWriter::file_of(name, step);
+                fs::exists(file, ignored))
+                found.push_back(file);
+        return found;
     }
 
     void write_note() const {
@@ -85,9 +108,10 @@ struct Destination {
 };
 
 template <class Series>
-bool generate_files(const Series& series, const fs::path& dir, const index::Progress& progress) {
+bool generate_files(const Series& series, const fs::path& dir, const index::Progress& progress,
+                    bool force) {
     const Destination destination{dir, series.kName, recipe_of(series)};
-    if (destination.complete())
+    if (destination.complete(force))
         return false;
     index::SeriesWriter writer(dir, destination.name, describe(series));
     make_steps(
@@ -99,18 +123,39 @@ bool generate_files(const Series& series, const fs::path& dir, const index::Prog
     return true;
 }
 
+template <class Series>
+std::vector<fs::path> in_the_way_of(const Series& series, const fs::path& dir) {
+    return Destination{dir, series.kName, recipe_of(series)}.in_the_way(
+        static_cast<std::size_t>(series.steps));
+}
+
 } // namespace
 
-bool generate(const SphereSeries& series, const fs::path& dir, const index::Progress& progress) {
-    return generate_files(series, dir, progress);
+bool generate(const SphereSeries& series, const fs::path& dir, const index::Progress& progress,
+              bool force) {
+    return generate_files(series, dir, progress, force);
 }
 
-bool generate(const VorticitySeries& series, const fs::path& dir, const index::Progress& progress) {
-    return generate_files(series, dir, progress);
+std::vector<fs::path> files_in_the_way(const SphereSeries& series, const fs::path& dir) {
+    return in_the_way_of(series, dir);
 }
 
-bool generate(const FourierSeries& series, const fs::path& dir, const index::Progress& progress) {
-    return generate_files(series, dir, progress);
+bool generate(const VorticitySeries& series, const fs::path& dir, const index::Progress& progress,
+              bool force) {
+    return generate_files(series, dir, progress, force);
+}
+
+std::vector<fs::path> files_in_the_way(const VorticitySeries& series, const fs::path& dir) {
+    return in_the_way_of(series, dir);
+}
+
+bool generate(const FourierSeries& series, const fs::path& dir, const index::Progress& progress,
+              bool force) {
+    return generate_files(series, dir, progress, force);
+}
+
+std::vector<fs::path> files_in_the_way(const FourierSeries& series, const fs::path& dir) {
+    return in_the_way_of(series, dir);
 }
 
 } // namespace isochron::app

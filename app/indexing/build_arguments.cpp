@@ -4,6 +4,7 @@
 #include "app/indexing/file_patterns.h"
 #include "index/file/index_file.h"
 #include "index/formats/series/resampled_series.h"
+#include "index/system/new_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -113,7 +114,7 @@ index::TierSet tiers_of(const std::string& list) {
 
 index::Referral referral_to(const std::vector<fs::path>& files, const BuildArguments& arguments) {
     index::Referral referral{.files = {}, .options = read_options(arguments)};
-    const fs::path folder = fs::absolute(arguments.out).parent_path();
+    const fs::path folder = fs::absolute(index::end_of_links(arguments.out)).parent_path();
     for (const fs::path& file : files)
         referral.files.push_back(fs::absolute(file).lexically_relative(folder));
     return referral;

@@ -48,13 +48,4 @@ std::optional<std::string> take_path_within(std::vector<std::string>& arguments)
     return found;
 }
 
-void refuse_input_as_output(const std::vector<std::filesystem::path>& files,
-                            const std::filesystem::path& out) {
-    std::error_code ignored;
-    for (const std::filesystem::path& file : files)
-        if (std::filesystem::equivalent(file, out, ignored))
-            throw index::Error(
-                fmt::format("{}: is an input, it would be overwritten", out.string()));
-}
-
 } // namespace isochron::app

@@ -17,8 +17,4 @@ std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string
 /// @return the path, if any argument has one @throws index::Error when they name different ones
 std::optional<std::string> take_path_within(std::vector<std::string>& arguments);
 
-/// @throws index::Error when `out` is one of `files`: writing it would destroy what is read
-void refuse_input_as_output(const std::vector<std::filesystem::path>& files,
-                            const std::filesystem::path& out);
-
 } // namespace isochron::app

@@ -3,6 +3,7 @@
 
 #include "app/output/picture_note.h"
 #include "index/error.h"
+#include "index/system/new_file.h"
 
 #include <fmt/format.h>
 
@@ -25,9 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A temporary name in the same folder, with the same suffix, by which ffmpeg knows the format.
+/// A temporary name in the folder where it will lie, with its suffix, by which ffmpeg knows the
+/// format.
 fs::path temporary_of(const fs::path& path) {
-    return path.parent_path() /
+    return index::end_of_links(path).parent_path() /
            fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
 }
 
@@ -173,7 +175,7 @@ void MovieFile::finish() {
     if (s.path.extension() == ".gif" && !s.note.empty())
         add_note_to_gif(s.temporary, s.note);
     std::error_code error;
-    fs::rename(s.temporary, s.path, error);
+    fs::rename(s.temporary, index::end_of_links(s.path), error);
     if (error)
         throw index::Error(fmt::format("{}: {}", s.path.string(), error.message()));
     s.whole = true;

@@ -21,7 +21,7 @@ bool is_frame(const fs::path& file) {
 } // namespace
 
 MovieFolder::MovieFolder(fs::path path)
-    : path_(std::move(path)),
+    : path_(index::end_of_links(std::move(path))),
       temporary_(path_.parent_path() /
                  fmt::format(".{}.{}.part", path_.filename().string(), getpid())) {
     index::make_folder(temporary_);

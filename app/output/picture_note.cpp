@@ -59,6 +59,10 @@ PictureNote note_from_json(const json& value) {
     if (interaction::text(members.at("format"), "format") != kNoteFormat)
         throw interaction::Error(fmt::format("expected format \"{}\"", kNoteFormat));
     interaction::natural(members.at("version"), "version", kNoteVersion);
+    if (members.find("test_pattern"))
+        throw interaction::Error(
+            "it shows the test pattern, which `isochron replay --test-pattern` "
+            "draws");
     const auto text = [&](const char* key) { return interaction::text(members.at(key), key); };
     PictureNote note;
     note.program = text("program");
@@ -142,6 +146,11 @@ std::string text_of(const PictureNote& note) {
         value["recorded_on"] = note.recorded_on;
     return fmt::format("{}{}{}", kBegin, value.dump(-1, ' ', true, json::error_handler_t::replace),
                        kEnd);
+}
+
+std::string note_of_test_pattern() {
+    const json value{{"format", kNoteFormat}, {"version", kNoteVersion}, {"test_pattern", true}};
+    return fmt::format("{}{}{}", kBegin, value.dump(), kEnd);
 }
 
 PictureNote note_from(const std::string& text) {

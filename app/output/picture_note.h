@@ -53,7 +53,10 @@ struct PictureNote {
 
 /// The note as one line of ASCII.
 std::string text_of(const PictureNote& note);
-/// Parses such a line. @throws interaction::Error, which does not name the file
+/// The note of a picture that shows the test pattern: only by whom it was written.
+std::string note_of_test_pattern();
+/// Parses a note. @throws interaction::Error, which does not name the file: none, of a test pattern,
+/// ...
 PictureNote note_from(const std::string& text);
 
 /// The text of the note in a picture or movie; empty if it has none.

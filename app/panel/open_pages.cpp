@@ -20,7 +20,7 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto* key = std::get_if<KeyEvent>(&event);
     const auto* typed = std::get_if<TextEvent>(&event);
-    const bool pressed = key && key->down;
+    const bool pressed = key && key->down && key->alone();
     if ((pressed && key->key == Key::f1) ||
         (typed && typed->character == U'?' && !io.WantTextInput)) {
         help_ = !help_;
@@ -35,7 +35,11 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
             help_ = false;
         return true;
     }
-    if (!pressed || key->key != Key{'O'} || !io.KeyCtrl || !recent_)
+    const bool opens = key && key->down && key->key == Key{'O'} &&
+                       (io.KeyCtrl || key->with(interaction::Modifier::control)) &&
+                       !key->with(interaction::Modifier::alt) &&
+                       !key->with(interaction::Modifier::super);
+    if (!opens || !recent_)
         return false;
     open_files();
     return true;

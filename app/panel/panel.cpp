@@ -3,6 +3,7 @@
 
 #include "app/config/config.h"
 #include "app/config/first_placement.h"
+#include "app/panel/number_entry.h"
 #include "app/panel/panel_colors.h"
 #include "app/panel/panel_help.h"
 #include "app/panel/panel_statistics.h"
@@ -176,14 +177,13 @@ void playback_buttons(const PanelModel& model, Commands& commands) {
 
 void time_section(const PanelModel& model, Commands& commands) {
     const auto& times = model.info.times;
-    int step = static_cast<int>(model.asked.step);
     const int last = static_cast<int>(model.asked.known_steps(times.size())) - 1;
+    int number = static_cast<int>(model.asked.step) + 1; // people count from 1
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::BeginDisabled(last == 0);
-    // Steps are numbered from 1 for people.
-    const std::string format = fmt::format("step {} of {}", step + 1, last + 1);
-    if (ImGui::SliderInt("##step", &step, 0, last, format.c_str(), ImGuiSliderFlags_AlwaysClamp))
-        commands.step = static_cast<std::uint32_t>(step);
+    const std::string format = fmt::format("step %d of {}", last + 1);
+    if (whole_number_slider("##step", &number, 1, last + 1, format.c_str()))
+        commands.step = static_cast<std::uint32_t>(number - 1);
     tip("step (Left, Right); marks below: steps in memory");
     mark_steps_at_hand(model, last);
     const auto& shown = model.frame.shown;

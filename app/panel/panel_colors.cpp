@@ -1,6 +1,7 @@
 // The panel's sections on surfaces and on coloring.
 #include "app/panel/panel_colors.h"
 
+#include "app/panel/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/scene/color_scale.h"
 #include "app/text.h"
@@ -95,8 +96,7 @@ void way_of_map(interaction::Coloring& coloring) {
     tip("logarithmic scale, for values above 0");
     int bands = static_cast<int>(coloring.bands);
     ImGui::SetNextItemWidth(-60.0f);
-    if (ImGui::SliderInt("bands", &bands, 0, 20, bands == 0 ? "none" : "%d",
-                         ImGuiSliderFlags_AlwaysClamp))
+    if (whole_number_slider("bands", &bands, 0, 20, bands == 0 ? "none" : "%d"))
         coloring.bands = static_cast<std::uint32_t>(bands);
     tip("number of discrete colors; 0: continuous");
 }
@@ -122,8 +122,8 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
     if (automatic && coloring.percentiles) {
         std::array<double, 2> ends = *coloring.percentiles;
         ImGui::SetNextItemWidth(-60.0f);
-        if (ImGui::InputScalarN("%", ImGuiDataType_Double, ends.data(), 2, nullptr, nullptr,
-                                "%.4g") &&
+        if (ImGui::InputScalarN("%", ImGuiDataType_Double, ends.data(), 2, nullptr, nullptr, "%.4g",
+                                ImGuiInputTextFlags_CharsScientific) &&
             0 <= ends[0] && ends[0] < ends[1] && ends[1] <= 100)
             coloring.percentiles = ends;
         tip("lowest and highest percentile, 0 to 100");
@@ -133,7 +133,7 @@ void range_of_map(const PanelModel& model, interaction::Coloring& coloring) {
     std::array<double, 2> range = *coloring.range;
     ImGui::SetNextItemWidth(-60.0f);
     if (ImGui::InputScalarN("range", ImGuiDataType_Double, range.data(), 2, nullptr, nullptr,
-                            "%.6g") &&
+                            "%.6g", ImGuiInputTextFlags_CharsScientific) &&
         range[0] < range[1])
         coloring.range = range;
     tip("lowest and highest value of the range");

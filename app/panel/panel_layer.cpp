@@ -64,6 +64,7 @@ struct Taker {
     glm::ivec2 places;   ///< number of panels in the window, see `repeat`
     bool popups = false; ///< a popup or page is open, which Escape closes
     bool& closes_popup;
+    NumberEntry& numbers;
     std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
     bool begun = false;        ///< a key or button went down among these events
     bool clicked = false;      ///< one of them on the panel
@@ -88,6 +89,8 @@ struct Taker {
     bool operator()(const KeyEvent& event) {
         const auto code = static_cast<std::size_t>(event.key);
         begun = begun || event.down;
+        if (event.down)
+            numbers.press(event.key);
         if (is_read(event.key))
             changed.insert(event.key);
         if (code < std::size(io.KeysDown))
@@ -96,14 +99,14 @@ struct Taker {
             io.KeyCtrl = event.down;
         if (event.key == Key::left_shift || event.key == Key::right_shift)
             io.KeyShift = event.down;
-        if (event.key == Key::escape && event.down && popups && !io.WantTextInput)
+        if (event.key == Key::escape && event.down && event.alone() && popups && !io.WantTextInput)
             return closes_popup = true;
         return event.down && io.WantTextInput;
     }
     bool operator()(const TextEvent& event) {
         typed = true;
         if (io.WantTextInput)
-            io.AddInputCharacter(event.character);
+            numbers.type(event.character);
         return io.WantTextInput;
     }
     bool operator()(const MouseButtonEvent& event) {
@@ -225,7 +228,8 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                 .cursor = cursor_,
                 .places = places_,
                 .popups = has_popup(),
-                .closes_popup = closes_popup_};
+                .closes_popup = closes_popup_,
+                .numbers = numbers_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
         const WindowEvent event = waiting_.front();
@@ -261,6 +265,7 @@ void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
         io.MousePos = {cursor_->x * io.DisplaySize.x, cursor_->y * io.DisplaySize.y};
     const Seconds elapsed = time - std::exchange(laid_out_, time);
     io.DeltaTime = static_cast<float>(std::clamp(elapsed.count(), kShortest, kLongest));
+    numbers_.flush();
     ImGui::NewFrame();
     if (std::exchange(closes_popup_, false) && has_popup())
         ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
@@ -283,10 +288,19 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     pages_.lay_out(model, area_, time);
-    if (std::exchange(messages_, model.notes.messages) != model.notes.messages)
+    if (std::exchange(messages_, model.notes.messages) != model.notes.messages) {
         said_ = time;
+        complaint_.clear();
+    }
+    if (std::string complaint = numbers_.take_complaint(); !complaint.empty()) {
+        said_ = time;
+        complaint_ = std::move(complaint);
+    }
     if (model.place == PanelPlace::over)
-        message_window(model.notes.standing, model.notes.message, time - said_);
+        message_window(model.notes.standing,
+                       complaint_.empty() ? model.notes.message : complaint_, time - said_);
+    else if (model.place == PanelPlace::whole)
+        message_window({}, complaint_, time - said_);
     ImGui::Render();
     return commands;
 }

@@ -1,6 +1,7 @@
 // Runs Dear ImGui inside the program: feeds it events and draws its triangles.
 #pragma once
 
+#include "app/panel/number_entry.h"
 #include "app/panel/open_pages.h"
 #include "app/panel/panel.h"
 #include "interaction/input/window_event.h"
@@ -105,7 +106,9 @@ class PanelLayer {
     glm::ivec2 places_{1};
     std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
-    bool closes_popup_ = false;       ///< Escape was pressed
+    NumberEntry numbers_;
+    std::string complaint_;     ///< of `numbers_`, if nothing was said since
+    bool closes_popup_ = false; ///< Escape was pressed
     OpenPages pages_;
     std::optional<MovieWish> wanted_movie_;
     render::Program program_;

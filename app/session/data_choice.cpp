@@ -46,11 +46,12 @@ bool wait_for_data(const stereo::Windows& windows, const std::string& name,
             const auto events = window.frame([&](glm::ivec2 size, interaction::Seconds time) {
                 window.layer().lay_out_progress(size, name, now.line, now.fraction, time);
             });
-            leaves = !window.goes_on() ||
-                     std::ranges::any_of(events, [](const interaction::WindowEvent& event) {
-                         const auto* key = std::get_if<interaction::KeyEvent>(&event);
-                         return key && key->down && key->key == interaction::Key::escape;
-                     });
+            leaves =
+                !window.goes_on() ||
+                std::ranges::any_of(events, [](const interaction::WindowEvent& event) {
+                    const auto* key = std::get_if<interaction::KeyEvent>(&event);
+                    return key && key->down && key->alone() && key->key == interaction::Key::escape;
+                });
         }
     }
     windows.drawing().make_current();

@@ -20,7 +20,7 @@ namespace {
 bool is_pressed(interaction::Key key, std::span<const interaction::WindowEvent> events) {
     return std::ranges::any_of(events, [key](const interaction::WindowEvent& event) {
         const auto* change = std::get_if<interaction::KeyEvent>(&event);
-        return change && change->key == key && change->down;
+        return change && change->key == key && change->down && change->alone();
     });
 }
 

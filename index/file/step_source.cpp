@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/metadata.h"
+#include "index/system/new_file.h"
 
 #include <fmt/format.h>
 
@@ -27,11 +28,19 @@ StepSource::StepSource(std::filesystem::path index, const SeriesInfo& info,
     : index_(std::move(index)), info_(info), referral_(referral), checksums_(std::move(checksums)) {
 }
 
+/// A link to an index may lie beside the sources, or the index itself.
+std::filesystem::path StepSource::beside_index(const std::filesystem::path& file) const {
+    std::error_code ignored;
+    const std::filesystem::path path = index_.parent_path() / file;
+    return std::filesystem::exists(path, ignored) ? path
+                                                  : end_of_links(index_).parent_path() / file;
+}
+
 void StepSource::open_sources() {
     series_.reset();
     std::vector<std::filesystem::path> files;
     for (const std::filesystem::path& file : referral_.files)
-        files.push_back(index_.parent_path() / file);
+        files.push_back(beside_index(file));
     auto series = open_series(files, referral_.options);
     const SeriesInfo& now = series->info();
     if (now.grid.vertices != info_.grid.vertices || now.type != info_.type ||

@@ -28,6 +28,7 @@ class StepSource {
         std::shared_ptr<std::uint64_t[]> words;
     };
 
+    std::filesystem::path beside_index(const std::filesystem::path& file) const;
     void open_sources();
     /// Memory for a step: that of the oldest kept step if nobody else holds it, else new.
     std::shared_ptr<std::uint64_t[]> room_for_a_step();

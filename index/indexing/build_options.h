@@ -45,6 +45,7 @@ struct BuildOptions {
     std::optional<std::string> array = {}, component = {};
     /// How the files are read, for steps that are appended later; without array and component.
     std::optional<ReadOptions> reading = {};
+    bool replaces_any = false; ///< also a file that is no index
     /// Further arrays, each with its own levels and tiers; fewer than kMostArrays.
     std::vector<FurtherArray> further = {};
 };

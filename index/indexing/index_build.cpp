@@ -188,7 +188,8 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress, Team& team) {
     check_options(series.info(), options);
     NewTarget target(team, out);
-    team.together([&] { refuse_foreign_file(out); });
+    if (!options.replaces_any)
+        team.together([&] { refuse_foreign_file(out); });
     build_arrays(series, out, options, progress, team, target, nullptr);
 }
 

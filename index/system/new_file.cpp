@@ -43,11 +43,26 @@ void make_folder(const fs::path& folder) {
         throw Error(fmt::format("{}: cannot be made: {}", folder.string(), refusal(error.value())));
 }
 
+fs::path end_of_links(fs::path path) {
+    constexpr int kMost = 40; // as the kernel has it
+    std::error_code error;
+    const fs::path given = path;
+    for (int links = 0; fs::is_symlink(path, error); ++links) {
+        const fs::path to = fs::read_symlink(path, error);
+        if (error || links == kMost)
+            throw Error(fmt::format("{}: cannot be written: its symbolic links lead nowhere",
+                                    given.string()));
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
 NewFile::NewFile(fs::path target) : target_(std::move(target)) {
     std::error_code ignored;
     const fs::file_status status = fs::status(target_, ignored);
     if (!target_.has_filename() || (fs::exists(status) && !fs::is_regular_file(status)))
         throw Error(fmt::format("{}: cannot be written: not a regular file", target_.string()));
+    target_ = end_of_links(target_);
     const fs::path folder = folder_of(target_);
     if (!fs::is_directory(folder, ignored))
         throw Error(fmt::format("{}: cannot be written: there is no folder {}", target_.string(),

@@ -17,10 +17,16 @@ int write_all(int file, std::uint64_t offset, std::span<const std::byte> bytes);
 /// @throws Error naming it, with the system's message
 void make_folder(const std::filesystem::path& folder);
 
+/// The name at the end of symbolic links, whether or not there is a file: what is written under
+/// `path` belongs there, and the links stay.
+/// @throws Error when they lead in a circle
+std::filesystem::path end_of_links(std::filesystem::path path);
+
 /// As ByteSink::begin_flush, for an open file.
 void begin_flush_of(int file);
 
-/// Writes to `.NAME.XXXX.tmp` in the folder of NAME; `commit` renames it. If it is destroyed before
+/// Writes to `.NAME.XXXX.tmp` in the folder of NAME, which is the end of the links that the target
+/// leads through; `commit` renames it. If it is destroyed before
 /// that, it removes the temporary file, and an older file of that name stays as it was. Every
 /// function throws Error with the final name and the system's message (disk full, folder not
 /// writable, ...).

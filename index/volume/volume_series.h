@@ -105,6 +105,9 @@ class VolumeSeries {
     /// A number that changes when the source of a step is written to; 0 if that cannot be told
     /// without reading.
     virtual std::uint64_t state(std::size_t /*step*/) const { return 0; }
+
+    /// The files that it is known to read; not those that a library finds by itself.
+    virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
 /// Opens files, a glob's result or a .pvd as one series. Files are put in natural order

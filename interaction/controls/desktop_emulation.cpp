@@ -48,16 +48,20 @@ struct KeySwitch {
     }
 };
 
+/// Shift and Ctrl themselves, which change what other keys and the mouse do.
+bool is_modifier(Action action) {
+    return action == Action::shift || action == Action::control;
+}
+
 /// What a key does while the modifiers of `chord` are held.
-std::vector<Action> actions_of(Key key, Chord chord) {
-    std::vector<Action> plain, exact;
+/// @param chord nothing: modifiers that no key is bound with
+std::vector<Action> actions_of(Key key, std::optional<Chord> chord) {
+    std::vector<Action> actions;
     for (const KeyLine& line : key_lines())
         for (const KeyBinding& binding : line.bindings)
-            if (binding.key == key && binding.chord == Chord::any)
-                plain.push_back(binding.action);
-            else if (binding.key == key && binding.chord == chord)
-                exact.push_back(binding.action);
-    return exact.empty() ? plain : exact;
+            if (binding.key == key && (binding.chord == chord || is_modifier(binding.action)))
+                actions.push_back(binding.action);
+    return actions;
 }
 
 struct EmulatedGamepad {
@@ -113,16 +117,19 @@ struct DesktopEmulation::State {
             return;
         std::vector<Action>& acts = held_as[event.key];
         if (event.down)
-            acts = actions_of(event.key, chord());
+            acts = actions_of(event.key, chord_of(event));
         for (const Action action : acts) {
             KeySwitch& to = switches[static_cast<std::size_t>(action)];
             event.down ? to.press() : to.release();
         }
     }
     bool either(Key left, Key right) const { return down.contains(left) || down.contains(right); }
-    Chord chord() const {
-        if (!either(Key::left_control, Key::right_control))
-            return Chord::any;
+    std::optional<Chord> chord_of(const KeyEvent& event) const {
+        if (event.with(Modifier::alt) || event.with(Modifier::super) ||
+            down.contains(Key::left_alt))
+            return std::nullopt;
+        if (!event.with(Modifier::control) && !either(Key::left_control, Key::right_control))
+            return Chord::none;
         return either(Key::left_shift, Key::right_shift) ? Chord::control_shift : Chord::control;
     }
     void act(const TextEvent&) {}

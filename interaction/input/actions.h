@@ -143,14 +143,14 @@ constexpr std::uint64_t bit(Button button) {
     return std::uint64_t{1} << static_cast<unsigned>(button);
 }
 
-/// Whether Ctrl and Shift are held.
-enum class Chord : std::uint8_t { any, control, control_shift };
+/// The modifiers with which a key is bound: none (Shift may be held all the same), Ctrl, or Ctrl
+/// and Shift. A key with Alt, Super, or a Ctrl that it is not bound with, does nothing.
+enum class Chord : std::uint8_t { none, control, control_shift };
 
-/// Bindings for exactly the modifiers that are held take precedence over bindings for `any`.
 struct KeyBinding {
     Key key;
     Action action;
-    Chord chord = Chord::any;
+    Chord chord = Chord::none;
 };
 
 /// One line of documentation together with the bindings that it documents.

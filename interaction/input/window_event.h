@@ -53,9 +53,18 @@ enum class Key : std::uint16_t {
     right_alt
 };
 
+/// Modifier keys as bits, as the window system states them with each key: it also knows of those
+/// that went down before the window had the focus. AltGr is none of them: it chooses characters.
+enum class Modifier : std::uint8_t { control = 1, alt = 2, super = 4 };
+
 struct KeyEvent {
     Key key;
     bool down;
+    std::uint8_t modifiers = 0; ///< bits of `Modifier` that are held
+
+    bool with(Modifier modifier) const { return modifiers & static_cast<std::uint8_t>(modifier); }
+    /// Whether this is the key itself, and not a combination with Ctrl, Alt or Super.
+    bool alone() const { return modifiers == 0; }
 };
 struct TextEvent {
     char32_t character;

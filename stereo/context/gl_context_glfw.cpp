@@ -88,6 +88,15 @@ std::optional<MouseButton> button_from_glfw(int button) {
     }
 }
 
+std::uint8_t modifiers_from_glfw(int modifiers) {
+    const auto bit = [modifiers](int glfw, Modifier modifier) {
+        return (modifiers & glfw) != 0 ? static_cast<unsigned>(modifier) : 0u;
+    };
+    return static_cast<std::uint8_t>(bit(GLFW_MOD_CONTROL, Modifier::control) |
+                                     bit(GLFW_MOD_ALT, Modifier::alt) |
+                                     bit(GLFW_MOD_SUPER, Modifier::super));
+}
+
 GamepadEvent first_gamepad() {
     GamepadEvent event{};
     for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
@@ -249,18 +258,25 @@ class GlfwContext final : public GlContext {
         return glfwGetPrimaryMonitor();
     }
 
+    static GlfwContext& context_of(GLFWwindow* window) {
+        return *static_cast<GlfwContext*>(glfwGetWindowUserPointer(window));
+    }
     static void push(GLFWwindow* window, const WindowEvent& event) {
-        static_cast<GlfwContext*>(glfwGetWindowUserPointer(window))->events_.push_back(event);
+        context_of(window).events_.push_back(event);
     }
 
     void set_callbacks() {
-        glfwSetKeyCallback(window_, [](GLFWwindow* window, int glfw_key, int, int action, int) {
+        glfwSetKeyCallback(window_, [](GLFWwindow* window, int glfw_key, int, int action,
+                                       int modifiers) {
             const Key key = key_from_glfw(glfw_key);
+            context_of(window).super_ = (modifiers & GLFW_MOD_SUPER) != 0;
             if (key != Key::unknown && action != GLFW_REPEAT)
-                push(window, KeyEvent{key, action == GLFW_PRESS});
+                push(window, KeyEvent{key, action == GLFW_PRESS, modifiers_from_glfw(modifiers)});
         });
+        // GLFW leaves out what is typed with Ctrl and Alt, but not what is typed with Super.
         glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-            push(window, TextEvent{static_cast<char32_t>(character)});
+            if (!context_of(window).super_)
+                push(window, TextEvent{static_cast<char32_t>(character)});
         });
         glfwSetMouseButtonCallback(
             window_, [](GLFWwindow* window, int glfw_button, int action, int) {
@@ -278,7 +294,7 @@ class GlfwContext final : public GlContext {
             push(window, ScrollEvent{static_cast<float>(dx), static_cast<float>(dy)});
         });
         glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
-            auto& context = *static_cast<GlfwContext*>(glfwGetWindowUserPointer(window));
+            GlfwContext& context = context_of(window);
             context.dropped_.insert(context.dropped_.end(), paths, paths + count);
         });
         glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
@@ -293,6 +309,7 @@ class GlfwContext final : public GlContext {
     GamepadEvent gamepad_{};
     WindowedPlace before_;
     bool stereo_buffers_ = false;
+    bool super_ = false; ///< is held with the last key
 };
 
 } // namespace

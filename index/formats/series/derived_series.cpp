@@ -98,6 +98,7 @@ class DerivedSeries final : public VolumeSeries {
     }
 
     const SeriesInfo& info() const override { return info_; }
+    std::vector<std::filesystem::path> files() const override { return inputs_.front()->files(); }
     std::uint64_t state(std::size_t step) const override { return inputs_.front()->state(step); }
 
     std::unique_ptr<VolumeSeries> another() const override {

@@ -173,10 +173,14 @@ class FileSeries final : public VolumeSeries {
     }
 
     std::uint64_t state(std::size_t step) const override {
-        std::vector<std::uint64_t> numbers;
-        for (const FileState& state : found_[places_.at(step).file].states)
-            numbers.insert(numbers.end(), {state.size, static_cast<std::uint64_t>(state.written)});
-        return XXH3_64bits(numbers.data(), numbers.size() * sizeof numbers.front());
+        return number_of(found_[places_.at(step).file].states);
+    }
+
+    std::vector<std::filesystem::path> files() const override {
+        std::vector<std::filesystem::path> all;
+        for (const Found& found : found_)
+            all.insert(all.end(), found.paths.begin(), found.paths.end());
+        return all;
     }
 
   private:
@@ -369,6 +373,13 @@ class FileSeries final : public VolumeSeries {
 };
 
 } // namespace
+
+std::uint64_t number_of(std::span<const FileState> states) {
+    std::vector<std::uint64_t> numbers;
+    for (const FileState& state : states)
+        numbers.insert(numbers.end(), {state.size, static_cast<std::uint64_t>(state.written)});
+    return XXH3_64bits(numbers.data(), numbers.size() * sizeof numbers.front());
+}
 
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options,

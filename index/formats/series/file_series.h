@@ -2,8 +2,11 @@
 #pragma once
 
 #include "index/formats/volume_file.h"
+#include "index/system/input_file.h"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,9 @@ struct SeriesFile {
     OpenVolumeFile open = {};
     std::optional<double> time; ///< given by an index of the series (.pvd), before what files say
 };
+
+/// The number by which an index knows the files of a step: it changes when one is written to.
+std::uint64_t number_of(std::span<const FileState> states);
 
 /// Opens every file once and checks that all agree with the first in vertices, spacing, origin,
 /// direction, array, type and scaling. Times come from `files`, or else from the files' contents,

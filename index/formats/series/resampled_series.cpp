@@ -119,6 +119,7 @@ class ResampledSeries final : public VolumeSeries {
     }
 
     const SeriesInfo& info() const override { return info_; }
+    std::vector<std::filesystem::path> files() const override { return series_->files(); }
     std::uint64_t state(std::size_t step) const override { return series_->state(step); }
 
     void read(std::size_t step, std::span<std::byte> out) override {

@@ -104,6 +104,10 @@ SeriesWriter::~SeriesWriter() {
     fs::remove(temporary(name_ + ".pvd"), ignored);
 }
 
+std::string SeriesWriter::file_of(const std::string& name, std::size_t step) {
+    return fmt::format("{}_{:04}.vti", name, step);
+}
+
 void SeriesWriter::append(std::span<const std::byte> values, double time) {
     if (values.size() != info_.step_bytes())
         throw Error(fmt::format("{}: step {} has {} bytes, expected {}", name_, steps_.size(),
@@ -111,7 +115,7 @@ void SeriesWriter::append(std::span<const std::byte> values, double time) {
     if (!std::isfinite(time) || (!steps_.empty() && time <= steps_.back().time))
         throw Error(fmt::format("{}: step {} is at time {}, expected a greater one than before",
                                 name_, steps_.size(), time));
-    steps_.push_back({fmt::format("{}_{:04}.vti", name_, steps_.size()), time});
+    steps_.push_back({file_of(name_, steps_.size()), time});
     write_whole(temporary(steps_.back().file), vti(values, time));
 }
 

@@ -29,6 +29,9 @@ class SeriesWriter {
     SeriesWriter(const SeriesWriter&) = delete;
     SeriesWriter& operator=(const SeriesWriter&) = delete;
 
+    /// The name of a step's file in the series called `name`.
+    static std::string file_of(const std::string& name, std::size_t step);
+
     /// @param values stored values of one step, [z][y][x], x fastest, native byte order,
     ///               exactly `info.step_bytes()` long
     /// @param time physical time, greater than that of the step before

@@ -49,6 +49,7 @@ class CenteredSeries final : public VolumeSeries {
     }
 
     const SeriesInfo& info() const override { return info_; }
+    std::vector<std::filesystem::path> files() const override { return series_->files(); }
     std::uint64_t state(std::size_t step) const override { return series_->state(step); }
     std::unique_ptr<VolumeSeries> another() const override {
         auto other = series_->another();

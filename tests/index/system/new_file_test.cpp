@@ -1,6 +1,7 @@
 // A new file appears complete or not at all, also beside leftovers of others.
 #include "index/system/new_file.h"
 
+#include "index/error.h"
 #include "tests/support/test_folder.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,24 @@ TEST(NewFile, RemovesOnlyOldFilesThatNobodyWrites) {
     for (const fs::path& each : {fresh, foreign, notes, pipe, living.temporary()})
         EXPECT_TRUE(fs::exists(each)) << each;
     EXPECT_TRUE(fs::is_symlink(link));
+}
+
+TEST(NewFile, LiesWhereLinksLeadAndLeavesTheLinks) {
+    const TestFolder folder;
+    fs::create_directory(folder.path() / "scratch");
+    fs::create_symlink("scratch/b", folder.path() / "a");
+    fs::create_symlink("c", folder.path() / "scratch" / "b");
+    for (int twice = 0; twice < 2; ++twice) { // where nothing is yet, and over an earlier one
+        NewFile file(folder.path() / "a");
+        EXPECT_EQ(file.temporary().parent_path().filename(), "scratch");
+        file.commit();
+        EXPECT_TRUE(fs::is_symlink(folder.path() / "a"));
+        EXPECT_TRUE(fs::is_symlink(folder.path() / "scratch" / "b"));
+        EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder.path() / "scratch" / "c")));
+    }
+    fs::create_symlink("f", folder.path() / "e");
+    fs::create_symlink("e", folder.path() / "f");
+    EXPECT_THROW(NewFile{folder.path() / "e"}, Error) << "in a circle";
 }
 
 } // namespace

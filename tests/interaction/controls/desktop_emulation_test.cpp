@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace isochron::interaction {
@@ -304,6 +305,75 @@ TEST(DesktopEmulation, TheWandReachesAllOfAPanelThatStandsBesideTheData) {
                 EXPECT_NEAR(hit->at.x, x, 2e-3);
                 EXPECT_NEAR(hit->at.y, y, 2e-3);
             }
+}
+
+/// What a desk shows after a key was pressed with these modifiers, as the window states them.
+std::uint64_t pressed_with(Key key, std::uint8_t modifiers) {
+    EmulatedDesk desk;
+    desk.poll();
+    return desk.poll({KeyEvent{key, true, modifiers}}).find("keys")->buttons;
+}
+
+TEST(DesktopEmulation, AKeyWithCtrlDoesOnlyWhatItIsBoundWith) {
+    for (const KeyLine& line : key_lines())
+        for (const KeyBinding& binding : line.bindings) {
+            const auto is_bound = [&](Chord chord) {
+                for (const KeyLine& other : key_lines())
+                    for (const KeyBinding& each : other.bindings)
+                        if (each.key == binding.key && each.chord == chord)
+                            return bit(each.action);
+                return std::uint64_t{0};
+            };
+            const std::string name = std::to_string(static_cast<int>(binding.key));
+            EXPECT_EQ(pressed_with(binding.key, 0) & is_bound(Chord::none), is_bound(Chord::none))
+                << name;
+            if (binding.action == Action::shift || binding.action == Action::control)
+                continue;
+            EXPECT_EQ(pressed_with(binding.key, static_cast<std::uint8_t>(Modifier::control)),
+                      is_bound(Chord::control))
+                << name;
+            for (const Modifier modifier : {Modifier::alt, Modifier::super})
+                for (const unsigned control : {0u, static_cast<unsigned>(Modifier::control)})
+                    EXPECT_EQ(
+                        pressed_with(binding.key, static_cast<std::uint8_t>(
+                                                      static_cast<unsigned>(modifier) | control)),
+                        0u)
+                        << name;
+            for (const Key held : {Key::left_control, Key::right_control}) {
+                EmulatedDesk desk;
+                desk.poll({press(held)});
+                EXPECT_EQ(desk.poll({press(binding.key)}).find("keys")->buttons,
+                          is_bound(Chord::control) | bit(Action::control))
+                    << name;
+                EmulatedDesk both;
+                both.poll({press(Key::left_shift), press(held)});
+                EXPECT_EQ(both.poll({press(binding.key)}).find("keys")->buttons,
+                          is_bound(Chord::control_shift) | bit(Action::control) |
+                              bit(Action::shift))
+                    << name;
+            }
+        }
+}
+
+TEST(DesktopEmulation, CtrlAndShiftCountWhicheverGoesDownFirst) {
+    for (const bool shift_first : {true, false}) {
+        EmulatedDesk desk;
+        const Key first = shift_first ? Key::left_shift : Key::left_control;
+        const Key second = shift_first ? Key::left_control : Key::left_shift;
+        desk.poll({press(first)});
+        const InputState input = desk.poll({press(second)});
+        EXPECT_TRUE(acts(input, Action::shift) && acts(input, Action::control));
+    }
+}
+
+TEST(DesktopEmulation, AKeyThatIsHeldGoesOnWhenCtrlFollows) {
+    EmulatedDesk desk;
+    desk.poll({press(key_named('G')), press(key_named('W'))});
+    InputState input = desk.poll({press(Key::left_control)});
+    input = desk.poll();
+    EXPECT_TRUE(acts(input, Action::grab) && acts(input, Action::walk_forward));
+    input = desk.poll({KeyEvent{key_named('W'), false, 1}, KeyEvent{key_named('G'), false, 1}});
+    EXPECT_FALSE(acts(input, Action::grab) || acts(input, Action::walk_forward));
 }
 
 TEST(DesktopEmulation, AskingTwiceAtOneTimeMovesOnce) {

@@ -119,6 +119,26 @@ TEST_F(WindowTest, KeysAndTextArriveAndRepeatsDoNotPressAgain) {
         EXPECT_EQ(keys(key, true).size(), 1u) << static_cast<int>(key);
 }
 
+TEST_F(WindowTest, KeysComeWithTheModifiersThatAreHeld) {
+    const auto context = open("modifiers");
+    screen_.xdotool({"mousemove", "300", "200", "key", "ctrl+c", "alt+v", "super+b", "ctrl+alt+n",
+                     "shift+m", "Escape"});
+    EXPECT_TRUE(eventually(*context, [&] { return !keys(Key::escape, false).empty(); }));
+    const auto modifiers = [&](char letter) {
+        const auto pressed = keys(static_cast<Key>(letter), true);
+        return pressed.size() == 1 ? static_cast<int>(pressed.front().modifiers) : -1;
+    };
+    EXPECT_EQ(modifiers('C'), 1);
+    EXPECT_EQ(modifiers('V'), 2);
+    EXPECT_EQ(modifiers('B'), 4);
+    EXPECT_EQ(modifiers('N'), 3);
+    EXPECT_EQ(modifiers('M'), 0);
+    std::u32string typed;
+    for (const TextEvent& text : received<TextEvent>([](const TextEvent&) { return true; }))
+        typed += text.character;
+    EXPECT_EQ(typed, U"M") << "what goes with Ctrl, Alt and Super is no text";
+}
+
 TEST_F(WindowTest, TheCursorIsAFractionOfTheWindow) {
     const auto context = open("mouse");
     screen_.xdotool({"mousemove", "260", "410"}); // 160 and 360 pixels into the window

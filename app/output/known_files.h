@@ -1,0 +1,40 @@
+// Recognizes the files that this program writes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace isochron::app {
+
+/// What a file is to hold. An existing file of the same kind may be replaced, as far as it can be
+/// recognized: recordings, movies, volumes and configurations that a user may have changed are
+/// only replaced with --force.
+enum class OutputKind : std::uint8_t {
+    index,
+    ids,
+    picture,
+    report,
+    session,
+    manual_page,
+    configuration,
+    recording,
+    movie, ///< in one file, or as frames in a folder
+    series ///< a file of a series that `generate` makes
+};
+
+struct Output {
+    std::filesystem::path path;
+    OutputKind kind;
+    std::uint64_t cells = 0;  ///< of ids: the number of cells that there are
+    std::string content = {}; ///< of a configuration: what is to be written
+};
+
+/// Whether a regular file is one that this program wrote as an output of this kind; an empty file
+/// counts as one, but for recordings and movies. Reads as much of it as that takes.
+bool is_known(const std::filesystem::path& file, const Output& output);
+
+/// What a file is, for people: `an index`, `a folder`, `a file of 1234 bytes`.
+std::string words_for(const std::filesystem::path& file);
+
+} // namespace isochron::app

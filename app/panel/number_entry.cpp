@@ -1,0 +1,115 @@
+// Characters that the user types into the panel's fields, all of which hold one number.
+#include "app/panel/number_entry.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+constexpr int kNone = -1;
+
+bool is_separator(char32_t character) {
+    return character == U'.' || character == U',';
+}
+
+/// The text of a field, of which only ASCII matters. ImGui 1.91 no longer keeps it as wide
+/// characters.
+template <class Field>
+std::string text_of(const Field& field) {
+    std::string text;
+    const auto add = [&text](const auto& characters, int count) {
+        for (int i = 0; i < count; ++i)
+            text +=
+                static_cast<unsigned>(characters[i]) < 128 ? static_cast<char>(characters[i]) : '?';
+    };
+    if constexpr (requires { field.TextW; })
+        add(field.TextW, field.CurLenW);
+    else
+        add(field.TextA, field.TextLen);
+    return text;
+}
+
+/// Its text when the user began.
+template <class Field>
+std::string first_text_of(const Field& field) {
+    if constexpr (requires { field.InitialTextA; })
+        return field.InitialTextA.Data;
+    else
+        return field.TextToRevertTo.Data;
+}
+
+/// The text of a field as it will be when it has taken the characters that wait for it.
+std::string text_to_be(const ImGuiInputTextState& field, const std::u32string& waiting) {
+    std::string text = text_of(field);
+    auto first = static_cast<std::size_t>(field.GetCursorPos()), last = first;
+    if (field.HasSelection()) // the first character replaces it
+        std::tie(first, last) = std::minmax({static_cast<std::size_t>(field.GetSelectionStart()),
+                                             static_cast<std::size_t>(field.GetSelectionEnd())});
+    first = std::min(first, text.size());
+    last = std::min(last, text.size());
+    std::string typed;
+    for (const char32_t character : waiting)
+        typed += character < 128 ? static_cast<char>(character) : '?';
+    return text.replace(first, last - first, typed);
+}
+
+} // namespace
+
+bool whole_number_slider(const char* label, int* value, int low, int high, const char* format) {
+    const ImGuiID slider = ImGui::GetID(label);
+    if (ImGui::GetCurrentContext()->ActiveId != slider)
+        ImGui::GetStateStorage()->SetInt(slider, *value); // for NumberEntry
+    return ImGui::SliderInt(label, value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+}
+
+void NumberEntry::type(char32_t character) {
+    const ImGuiContext& context = *ImGui::GetCurrentContext();
+    ImGuiInputTextState* field = ImGui::GetInputTextState(context.ActiveId);
+    if (!field || context.ActiveId != refused_)
+        refused_ = 0;
+    if (refused_ != 0)
+        return;
+    if (!field || !is_separator(character)) {
+        waiting_ += character;
+        return;
+    }
+    const int before = context.ActiveIdWindow->StateStorage.GetInt(context.ActiveId, kNone);
+    const bool whole = before != kNone;
+    const std::string text = text_to_be(*field, waiting_);
+    if (!whole && std::ranges::none_of(text, [](char c) { return is_separator(c); })) {
+        waiting_ += U'.';
+        return;
+    }
+    const std::string stays = whole ? std::to_string(before) : first_text_of(*field);
+    complaint_ =
+        fmt::format("{}{}: expected {}, without separators of thousands; it stays {}", text,
+                    static_cast<char>(character),
+                    whole ? "a whole number" : "a number with one decimal point or comma", stays);
+    refused_ = context.ActiveId;
+    field->SelectAll();
+    waiting_.assign(stays.begin(), stays.end());
+}
+
+void NumberEntry::press(interaction::Key key) {
+    using enum interaction::Key;
+    for (const interaction::Key edits : {backspace, del, enter, escape, tab})
+        if (key == edits)
+            refused_ = 0;
+}
+
+void NumberEntry::flush() {
+    for (const char32_t character : std::exchange(waiting_, {}))
+        ImGui::GetIO().AddInputCharacter(character);
+}
+
+std::string NumberEntry::take_complaint() {
+    return std::exchange(complaint_, {});
+}
+
+} // namespace isochron::app

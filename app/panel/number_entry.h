@@ -1,0 +1,35 @@
+// Characters that the user types into the panel's fields, all of which hold one number.
+#pragma once
+
+#include "interaction/input/window_event.h"
+
+#include <string>
+
+namespace isochron::app {
+
+/// ImGui::SliderInt with clamped input, of which NumberEntry knows that it takes whole numbers, and
+/// which one it had. @param low at least 0
+bool whole_number_slider(const char* label, int* value, int low, int high, const char* format);
+
+/// Passes typed characters to the field of ImGui that has the keyboard. A comma is a decimal point
+/// there: ImGui would leave it out, and 1,5 would become 15. A second point or comma, or one in a
+/// whole number, may be meant to part thousands: then the field gets back the number that it had
+/// when the user began, and what is typed on is left out until the user edits or ends the entry.
+/// Works on ImGui's current context.
+class NumberEntry {
+  public:
+    void type(char32_t character);
+    /// Notices the keys with which the user edits or ends an entry.
+    void press(interaction::Key key);
+    /// Hands the characters over to ImGui, whose next frame takes them.
+    void flush();
+    /// Why characters were refused since the last call, for the user; empty: none were.
+    std::string take_complaint();
+
+  private:
+    std::u32string waiting_; ///< for ImGui's next frame
+    unsigned refused_ = 0;   ///< the field whose entry was refused, until it is edited
+    std::string complaint_;
+};
+
+} // namespace isochron::app

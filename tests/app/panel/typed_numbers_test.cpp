@@ -1,0 +1,101 @@
+// Numbers that are typed into the panel of a window, event by event.
+#include "app/panel/panel_layer.h"
+#include "stereo/context/gl_context.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::Key;
+using interaction::KeyEvent;
+using interaction::WindowEvent;
+
+class TypedNumbers : public testing::Test {
+  protected:
+    TypedNumbers() {
+        for (int step = 0; step < 2000; ++step)
+            info_.times.push_back(step);
+        stats_.low = 0;
+        stats_.high = 100;
+        stats_.histogram.assign(256, 1);
+        asked_.panel = true;
+    }
+
+    Commands frame(const std::vector<WindowEvent>& events) {
+        layer_.feed(events, true);
+        time_ += interaction::Seconds(0.1);
+        return layer_.lay_out(kSize,
+                              {.info = info_,
+                               .stats = stats_,
+                               .asked = asked_,
+                               .frame = report_,
+                               .frame_times = {},
+                               .failure = {},
+                               .message = {},
+                               .controls = {},
+                               .at_hand = {}},
+                              time_);
+    }
+    /// Ctrl + click at a height of the window, and text that is typed then and entered.
+    Commands typed_at(float y, const std::string& text) {
+        frame({interaction::MouseMoveEvent{0.1f, y, kSize.x, kSize.y}});
+        frame({KeyEvent{Key::left_control, true},
+               interaction::MouseButtonEvent{interaction::MouseButton::left, true}});
+        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, false},
+               KeyEvent{Key::left_control, false}});
+        frame({});
+        Commands last;
+        const auto see = [&](const Commands& commands) {
+            if (commands.isovalue)
+                asked_.set_isovalue(*(last.isovalue = commands.isovalue));
+            if (commands.step)
+                asked_.step = *(last.step = commands.step);
+        };
+        for (const char character : text)
+            see(frame({interaction::TextEvent{static_cast<char32_t>(character)}}));
+        see(frame({KeyEvent{Key::enter, true}, KeyEvent{Key::enter, false}}));
+        see(frame({}));
+        frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
+        frame({});
+        return last;
+    }
+
+    static constexpr glm::ivec2 kSize{1000, 1000};
+    std::unique_ptr<stereo::GlContext> context_ =
+        stereo::make_context(stereo::ContextKind::egl, {.size = kSize});
+    render::Gl gl_{context_->loader()};
+    PanelLayer layer_{gl_};
+    index::SeriesInfo info_;
+    index::IndexStats stats_;
+    ExplorerState asked_;
+    FrameReport report_;
+    interaction::Seconds time_{0};
+};
+
+TEST_F(TypedNumbers, MayHaveADecimalCommaUnlessTheyAreWhole) {
+    frame({});
+    std::optional<float> isovalue, step;
+    for (float y = 0.02f; y < 0.5f; y += 0.01f) {
+        const Commands commands = typed_at(y, "42");
+        if (commands.isovalue == 42.0 && !isovalue)
+            isovalue = y;
+        if (commands.step == 41u && !step)
+            step = y;
+    }
+    ASSERT_TRUE(isovalue && step);
+    EXPECT_EQ(typed_at(*isovalue, "1,5").isovalue, 1.5);
+    EXPECT_EQ(typed_at(*isovalue, "1.5").isovalue, 1.5);
+    EXPECT_EQ(typed_at(*isovalue, "1,234.5").isovalue, 1.5) << "it stays";
+    typed_at(*step, "7");
+    EXPECT_EQ(typed_at(*step, "1,500").step, 6u) << "it stays the seventh";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -20,6 +20,8 @@
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
+#include "index/formats/foreign_file.h"
+#include "index/formats/format.h"
 #include "index/formats/series/series_writer.h"
 #include "index/indexing/level_choice.h"
 #include "index/reader/reader_messages.h"
@@ -98,6 +100,10 @@ void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 w
 void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
                        double isovalue) {
 #include "index/extraction/extractor.example"
+}
+
+void format_example(const ReadOptions& options) {
+#include "index/formats/format.example"
 }
 
 void series_writer_example(const std::filesystem::path& dir, const SeriesInfo& info,

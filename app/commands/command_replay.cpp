@@ -1,9 +1,9 @@
 // `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/replay_source.h"
 #include "app/indexing/file_patterns.h"
-#include "app/indexing/progress_bar.h"
 #include "app/output/picture_parts.h"
 #include "app/session/pattern_show.h"
 #include "app/session/recording_file.h"

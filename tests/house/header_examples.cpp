@@ -4,6 +4,7 @@
 // A new example needs a few lines here; house_tests says which one is missing.
 #include "app/command_line/command_line.h"
 #include "app/explore/cluster_job.h"
+#include "app/explore/exploration.h"
 #include "app/frame/history.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/movie_file.h"
@@ -240,6 +241,10 @@ namespace {
 
 void cluster_job_example(const std::string& hash) {
 #include "app/explore/cluster_job.example"
+}
+
+void exploration_example(const ExploreOptions& options) {
+#include "app/explore/exploration.example"
 }
 
 void run_verify(const std::filesystem::path&) {}

@@ -3,10 +3,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace isochron::app {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
 
 std::string human_bytes(double bytes) {
     constexpr std::array kUnits{"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
@@ -65,6 +86,20 @@ std::string with_space(const std::string& unit) {
 
 std::string with_unit(double value, const std::string& unit) {
     return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
+    std::string nearest;
+    std::size_t best = std::numeric_limits<std::size_t>::max();
+    for (const std::string& candidate : words) {
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best) {
+            best = distance;
+            nearest = candidate;
+        }
+    }
+    // A distance above half of the word's length means a different word, not a typing error.
+    return best <= std::max<std::size_t>(2, word.size() / 2) ? nearest : std::string();
 }
 
 } // namespace isochron::app

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isochron::app {
 
@@ -29,5 +30,8 @@ std::string one_line(std::string_view text);
 
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);
+
+/// The word of `words` that is nearest to `word` by edit distance; empty when none is near.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
 
 } // namespace isochron::app

@@ -2,7 +2,6 @@
 #include "app/command_line/command_line.h"
 
 #include "app/command_line/cancel.h"
-#include "app/config/toml_reader.h"
 #include "app/text.h"
 #include "app/version.h"
 
@@ -175,6 +174,16 @@ void Command::on_run(std::function<void()> run) {
     app_->callback(std::move(run));
 }
 
+std::vector<std::string> Command::given() const {
+    std::vector<std::string> words;
+    for (const CLI::App* each = app_; each->get_parent(); each = each->get_parent())
+        words.insert(words.begin(), each->get_name());
+    for (const CLI::Option* option : app_->get_options())
+        for (const std::string& value : option->results())
+            words.push_back(option->get_positional() ? value : option->get_name() + "=" + value);
+    return words;
+}
+
 namespace {
 
 /// The words of "{a,b,c}" in CLI11's description of a value; empty if it lists none.
@@ -336,10 +345,6 @@ std::vector<std::string> arguments_from(const CLI::App& program, int argc,
     std::ranges::reverse(arguments);
     return arguments;
 }
-
-} // namespace
-
-namespace {
 
 /// Errors of the commands pass through; those of the parser become an exit status.
 int parse_and_run(const ProgramText& text,

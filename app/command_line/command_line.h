@@ -92,6 +92,9 @@ class Command {
     /// Text below the options in the command's help.
     void footer(const std::string& text);
     void on_run(std::function<void()> run);
+    /// Its words and options as the user gave them, so that another program can be started with
+    /// them: `generate`, `sphere`, `--out=FOLDER`. Known once the command runs.
+    std::vector<std::string> given() const;
     /// Its options, and its subcommands added so far.
     CommandReference reference() const;
 

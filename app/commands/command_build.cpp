@@ -1,10 +1,10 @@
 // `isochron build`: reads a series of volume files and writes its index.
 #include "app/command_line/cancel.h"
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/index_report.h"
-#include "app/indexing/progress_bar.h"
 #include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/error.h"

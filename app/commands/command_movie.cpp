@@ -1,8 +1,8 @@
 // `isochron movie`: a recording becomes a movie.
 #include "app/command_line/cancel.h"
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/explore/replay_source.h"
-#include "app/indexing/progress_bar.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"

@@ -1,8 +1,8 @@
 // `isochron replay`: a recording becomes pictures and measurements, or plays again in a window.
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/replay_source.h"
-#include "app/indexing/progress_bar.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
 #include "app/session/pattern_show.h"

@@ -1,8 +1,8 @@
 // `isochron verify`: whether an index is intact.
 #include "app/command_line/cancel.h"
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/indexing/open_index.h"
-#include "app/indexing/progress_bar.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/file/index_file.h"

@@ -97,7 +97,4 @@ class TomlReader {
     std::vector<std::string> known_;
 };
 
-/// The word of `words` that is nearest to `word` by edit distance; empty when none is near.
-std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
-
 } // namespace isochron::app

@@ -11,6 +11,8 @@
 #include "app/version.h"
 #include "index/system/module.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace isochron::app {
@@ -42,6 +44,11 @@ LiveOptions live_options(const ExploreOptions& options) {
     if (options.seconds)
         live.length = interaction::Seconds(*options.seconds);
     return live;
+}
+
+void print_status(const LiveLoop& live) {
+    for (const std::string& line : live.status())
+        fmt::print(stderr, "{}\n", line);
 }
 
 interaction::RecordingHeader header_of(const Session& session, const Config& config,

@@ -21,6 +21,9 @@ std::string why_not_open(const ExploreOptions& options, const std::filesystem::p
 /// The options of the live loop: when it ends, and whether it emulates an installation.
 LiveOptions live_options(const ExploreOptions& options);
 
+/// Tells on stderr what the loop has to say at its end.
+void print_status(const LiveLoop& live);
+
 /// The header of a recording that begins now. @param path of the data
 interaction::RecordingHeader header_of(const Session& session, const Config& config,
                                        const index::IndexFile& file, const std::string& path);

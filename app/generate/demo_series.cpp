@@ -85,18 +85,22 @@ struct Destination {
                                        pvd().string(), recipe.dump()));
     }
 
-    std::vector<fs::path> in_the_way(std::size_t steps) const {
-        std::error_code ignored;
-        std::vector<fs::path> found;
-        if (fs::exists(pvd(), ignored) || is_noted())
-            return found;
-        if (fs::exists(note(), ignored))
-            found.push_back(note());
+    /// @throws Error when a file that would be written is there, and nothing says that it is of this
+    /// series
+    void refuse_foreign_files(std::size_t steps) const {
+        if (is_noted())
+            return;
+        refuse(note());
         for (std::size_t step = 0; step < steps; ++step)
-            if (const fs::path file = dir / index::SeriesWriter::file_of(name, step);
-                fs::exists(file, ignored))
-                found.push_back(file);
-        return found;
+            refuse(dir / index::SeriesWriter::file_of(name, step));
+    }
+
+    static void refuse(const fs::path& file) {
+        std::error_code ignored;
+        if (fs::exists(file, ignored))
+            throw index::Error(fmt::format("{}: exists and is not of this series: expected a new "
+                                           "name; --force replaces it",
+                                           file.string()));
     }
 
     void write_note() const {
@@ -113,6 +117,8 @@ bool generate_files(const Series& series, const fs::path& dir, const index::Prog
     const Destination destination{dir, series.kName, recipe_of(series)};
     if (destination.complete(force))
         return false;
+    if (!force)
+        destination.refuse_foreign_files(static_cast<std::size_t>(series.steps));
     index::SeriesWriter writer(dir, destination.name, describe(series));
     make_steps(
         series,
@@ -123,12 +129,6 @@ bool generate_files(const Series& series, const fs::path& dir, const index::Prog
     return true;
 }
 
-template <class Series>
-std::vector<fs::path> in_the_way_of(const Series& series, const fs::path& dir) {
-    return Destination{dir, series.kName, recipe_of(series)}.in_the_way(
-        static_cast<std::size_t>(series.steps));
-}
-
 } // namespace
 
 bool generate(const SphereSeries& series, const fs::path& dir, const index::Progress& progress,
@@ -136,26 +136,14 @@ bool generate(const SphereSeries& series, const fs::path& dir, const index::Prog
     return generate_files(series, dir, progress, force);
 }
 
-std::vector<fs::path> files_in_the_way(const SphereSeries& series, const fs::path& dir) {
-    return in_the_way_of(series, dir);
-}
-
 bool generate(const VorticitySeries& series, const fs::path& dir, const index::Progress& progress,
               bool force) {
     return generate_files(series, dir, progress, force);
 }
 
-std::vector<fs::path> files_in_the_way(const VorticitySeries& series, const fs::path& dir) {
-    return in_the_way_of(series, dir);
-}
-
 bool generate(const FourierSeries& series, const fs::path& dir, const index::Progress& progress,
               bool force) {
     return generate_files(series, dir, progress, force);
-}
-
-std::vector<fs::path> files_in_the_way(const FourierSeries& series, const fs::path& dir) {
-    return in_the_way_of(series, dir);
 }
 
 } // namespace isochron::app

@@ -4,7 +4,6 @@
 #include "app/generate/demo_fields.h"
 
 #include <filesystem>
-#include <vector>
 
 namespace isochron::app {
 
@@ -12,21 +11,13 @@ namespace isochron::app {
 /// which says how it was made. The same request gives the same bytes.
 /// @param force replaces another series of that name
 /// @return false when the folder held exactly this series already; then nothing is written
-/// @throws index::Error when the folder holds another series of that name, or cannot be written
+/// @throws index::Error when the folder holds another series of that name, or files of other origin
+/// where this series has its own, unless `force` is set; or when it cannot be written
 bool generate(const SphereSeries& series, const std::filesystem::path& dir,
               const index::Progress& progress, bool force = false);
 bool generate(const VorticitySeries& series, const std::filesystem::path& dir,
               const index::Progress& progress, bool force = false);
 bool generate(const FourierSeries& series, const std::filesystem::path& dir,
               const index::Progress& progress, bool force = false);
-
-/// The files that `generate` would write and that are of another origin: nothing says that they are
-/// of a series. If there is a whole series of that name, `generate` itself tells which.
-std::vector<std::filesystem::path> files_in_the_way(const SphereSeries& series,
-                                                    const std::filesystem::path& dir);
-std::vector<std::filesystem::path> files_in_the_way(const VorticitySeries& series,
-                                                    const std::filesystem::path& dir);
-std::vector<std::filesystem::path> files_in_the_way(const FourierSeries& series,
-                                                    const std::filesystem::path& dir);
 
 } // namespace isochron::app

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/indexing/build_arguments.h"
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 
 #include <chrono>
 #include <condition_variable>

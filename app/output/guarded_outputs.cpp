@@ -33,7 +33,6 @@ std::string_view words_of(OutputKind kind) {
     case OutputKind::session: return "a session";
     case OutputKind::manual_page: return "a manual page that this program wrote";
     case OutputKind::configuration: return "the same configuration";
-    case OutputKind::series: return "a file of the same series";
     case OutputKind::recording:
     case OutputKind::movie: break;
     }

@@ -86,8 +86,7 @@ bool is_of_kind(const fs::path& file, const Output& output) {
     case OutputKind::configuration:
         return index::read_text(file, fs::file_size(file)) == output.content;
     case OutputKind::recording:
-    case OutputKind::movie:
-    case OutputKind::series: break;
+    case OutputKind::movie: break;
     }
     return false;
 }

@@ -2,14 +2,13 @@
 #include "app/panel/file_window.h"
 
 #include "app/panel/panel_words.h"
-#include "index/volume/volume_series.h"
+#include "index/formats/format.h"
+#include "index/lower_case.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
 #include <utility>
 
 namespace isochron::app {
@@ -19,21 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostListed = 5000; ///< most names listed of a folder
 
-/// Whether a file, or the folder of a Zarr array, is one that the program reads, by its name.
+/// Whether a file, or a folder that is one volume, is one that the program reads, by its name.
 bool is_readable(const std::string& name, bool folder) {
-    static const std::vector<std::string> kExtensions = [] {
-        std::istringstream known(index::known_extensions());
-        std::vector<std::string> extensions{".isochron"};
-        for (std::string extension; known >> extension;)
-            extensions.push_back(extension);
-        return extensions;
-    }();
-    if (folder)
-        return name.ends_with(".zarr");
-    std::string lower = name;
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    return std::ranges::any_of(
-        kExtensions, [&](const std::string& extension) { return lower.ends_with(extension); });
+    return index::has_known_end(name, folder) ||
+           (!folder && index::lower_case(name).ends_with(".isochron"));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace isochron::index {
 
 /// A format that a reader decodes.
 struct Decoder {
-    ForeignFormat format;
+    std::string_view format; ///< its name, see `Format`
     OpenDecodedFile open;
 };
 

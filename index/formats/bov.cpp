@@ -4,7 +4,7 @@
 // https://visit-sphinx-github-user-manual.readthedocs.io/en/develop/data_into_visit/BOVFormat.html
 #include "index/error.h"
 #include "index/formats/data_parts.h"
-#include "index/formats/readers.h"
+#include "index/formats/own_formats.h"
 #include "index/formats/series/joined_blocks.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"

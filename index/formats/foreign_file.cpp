@@ -3,7 +3,6 @@
 
 #include "index/error.h"
 #include "index/formats/reader_lease.h"
-#include "index/formats/readers.h"
 #include "index/formats/stored_file.h"
 #include "index/system/huge_pages.h"
 
@@ -19,9 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the library decodes all arrays of a file together.
-bool decodes_all_arrays(ForeignFormat format) {
-    return format == ForeignFormat::mesh || format == ForeignFormat::vtk_data;
+/// The program of a reader: one for each library, so that no format waits until the library of
+/// another is loaded.
+std::string program_of(std::string_view reader) {
+    return fmt::format("isochron-reader-{}", reader);
 }
 
 /// Checks what a reader says of a file, as a hostile file may control the reader.
@@ -42,13 +42,13 @@ void check(const Described& described, const std::string& name) {
 
 class ForeignFile final : public VolumeFile {
   public:
-    ForeignFile(ReaderPool& readers, ForeignFormat format, const fs::path& path,
+    ForeignFile(ReaderPool& readers, const Format& format, const fs::path& path,
                 const ReadOptions& options)
-        : name_(path.string()), open_{.format = format,
+        : name_(path.string()), open_{.format = std::string(format.name),
                                       .path = path,
                                       .options = options,
                                       .most_memory = readers.limits().memory},
-          lease_(readers, program_of(format), path, decodes_all_arrays(format)) {
+          lease_(readers, program_of(format.reader), path, format.decodes_all_arrays) {
         lease_.work([] {}, [this] { described_ = open(); });
         check(described_, name_);
     }
@@ -144,54 +144,26 @@ class ForeignFile final : public VolumeFile {
 
 } // namespace
 
-std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, ForeignFormat format,
+std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, const Format& format,
                                          const fs::path& path, const ReadOptions& options) {
     return std::make_unique<ForeignFile>(readers, format, path, options);
 }
 
-std::unique_ptr<VolumeFile> open_vti(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::vti, path, options);
+std::unique_ptr<VolumeFile> open_in_format(const Format& format, const fs::path& path,
+                                           const ReadOptions& options) {
+    return format.open ? format.open(path, options)
+                       : open_foreign(readers_of_this_process(), format, path, options);
 }
 
-std::unique_ptr<VolumeFile> open_vtk(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::vtk, path, options);
+OpenVolumeFile opener_of(const Format& format) {
+    return [&format](const fs::path& path, const ReadOptions& options) {
+        return open_in_format(format, path, options);
+    };
 }
 
-std::unique_ptr<VolumeFile> open_vtk_data(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::vtk_data, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_mesh(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::mesh, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_netcdf(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::netcdf, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_hdf5(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::hdf5, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_xdmf(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::xdmf, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_tiff(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::tiff, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_zarr(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::zarr, path, options);
-}
-
-std::unique_ptr<VolumeFile> open_dicom(const fs::path& path, const ReadOptions& options) {
-    return open_foreign(readers_of_this_process(), ForeignFormat::dicom, path, options);
-}
-
-std::vector<std::pair<fs::path, double>> read_pvd(const fs::path& path) {
-    ReaderLease lease(readers_of_this_process(), kCollectionProgram, path, false);
-    std::vector<std::pair<fs::path, double>> files;
+ListedFiles read_pvd(const fs::path& path) {
+    ReaderLease lease(readers_of_this_process(), program_of("vtk"), path, false);
+    ListedFiles files;
     lease.work([] {},
                [&] {
                    lease.reader().ask(ReadCollection{path});

@@ -1,20 +1,15 @@
 // Opens files as a series: lists of files, slices, parts, or a file for each step.
 #include "index/error.h"
 #include "index/formats/data_stream.h"
-#include "index/formats/known_formats.h"
-#include "index/formats/readers.h"
+#include "index/formats/foreign_file.h"
+#include "index/formats/format.h"
 #include "index/formats/series/derived_series.h"
-#include "index/formats/series/dicom_files.h"
 #include "index/formats/series/file_series.h"
 #include "index/formats/series/folder_files.h"
 #include "index/formats/series/joined_blocks.h"
-#include "index/formats/series/json_series.h"
 #include "index/formats/series/natural_order.h"
 #include "index/formats/series/resampled_series.h"
-#include "index/formats/series/slice_files.h"
 #include "index/formats/series/vector_arrays.h"
-#include "index/formats/text_header.h"
-#include "index/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -25,49 +20,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SeriesFile series_file(const fs::path& given, const ReadOptions& options,
+/// @param time that a list or the file's name gives
+SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                        std::optional<double> time = {}) {
-    const fs::path path = described_in(given);
-    file_bytes(path);
-    if (const OpenFormat format = format_of(path))
-        return {path, format, time};
-    if (is_dicom(path))
-        return {path, open_dicom, time};
+    file_bytes(file.path);
+    if (file.format && !file.format->list)
+        return {file.path, opener_of(*file.format), time};
     // Raw data may have any name; giving dimensions says that a file is raw.
     if (options.dims)
-        return {path, open_raw, time};
+        return {file.path, opener_of(format_named("raw")), time};
     throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
                             "--type",
-                            path.string(), known_extensions()));
+                            file.path.string(), known_extensions()));
 }
 
 /// Orders files by the last number in their names, which is their time.
-std::vector<SeriesFile> timed_by_name(const std::vector<fs::path>& files,
+std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files,
                                       const ReadOptions& options) {
     if (options.time_step)
         throw Error("--times-from-names and --time-step: expected one of the two");
     std::vector<SeriesFile> series;
-    for (const fs::path& path : files) {
-        const auto time = last_number_in(path.stem().string());
+    for (const KnownFile& file : files) {
+        const auto time = last_number_in(file.given.stem().string());
         if (!time)
             throw Error(fmt::format("{}: no number in its name, expected one for "
                                     "--times-from-names, as in t_0030.vti",
-                                    path.string()));
-        series.push_back(series_file(path, options, time));
+                                    file.given.string()));
+        series.push_back(series_file(file, options, time));
     }
     std::ranges::stable_sort(series, {}, &SeriesFile::time);
-    return series;
-}
-
-/// The files of a series together: the reader puts them in their order.
-SeriesFile dicom_series(std::vector<fs::path> files) {
-    SeriesFile series{.path = files.front(), .open = open_dicom, .time = {}};
-    if (files.size() > 1)
-        series.open = [files = std::move(files)](const fs::path& path, const ReadOptions& options) {
-            ReadOptions with = options;
-            with.slices = files;
-            return open_dicom(path, with);
-        };
     return series;
 }
 
@@ -89,59 +70,56 @@ std::vector<SeriesFile> joined_by_time(std::vector<SeriesFile> files) {
     return joined;
 }
 
-bool is_pvd(const fs::path& path) {
-    return lower_case(path.extension().string()) == ".pvd";
-}
-
-/// Of each folder the files in it, but for those that are read as they are.
-FolderFiles out_of_folders(const std::vector<fs::path>& given, const ReadOptions& options) {
-    FolderFiles all;
-    std::error_code ignored;
-    for (const fs::path& path : with_dicom_folders(given)) {
-        if (!fs::is_directory(path, ignored) || described_in(path) != path) {
-            all.files.push_back(path);
-            continue;
-        }
-        FolderFiles found = files_in_folder(path, options);
-        all.files.insert(all.files.end(), found.files.begin(), found.files.end());
-        if (found.note)
-            all.note = all.note ? *all.note + "; " + *found.note : found.note;
-    }
-    return all;
-}
-
-/// What a .pvd or .series names.
-std::vector<SeriesFile> listed_in(const fs::path& list, const ReadOptions& options) {
+/// What a list names.
+std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options) {
     if (options.times_from_names)
-        throw Error(
-            fmt::format("{}: gives the times itself, --times-from-names cannot", list.string()));
-    file_bytes(list);
+        throw Error(fmt::format("{}: gives the times itself, --times-from-names cannot",
+                                list.path.string()));
+    file_bytes(list.path);
     std::vector<SeriesFile> series;
-    for (const auto& [path, time] : is_pvd(list) ? read_pvd(list) : read_json_series(list))
-        series.push_back(series_file(path, options, time));
-    return is_pvd(list) ? joined_by_time(std::move(series)) : series;
+    for (const auto& [path, time] : list.format->list(list.path))
+        series.push_back(series_file(known_file(path), options, time));
+    return list.format->lists_parts ? joined_by_time(std::move(series)) : series;
+}
+
+/// The format that puts all the files together; null: none does.
+const Format* joining_format(const std::vector<KnownFile>& files, const ReadOptions& options) {
+    for (const Format& format : all_formats()) {
+        if (!format.join)
+            continue;
+        const bool by_content = format.recognize != nullptr;
+        // Dimensions say that files are raw, whatever the first bytes look like.
+        if (!(by_content && options.dims) && std::ranges::all_of(files, [&](const KnownFile& file) {
+                return is_of_format(format, file);
+            }))
+            return &format;
+    }
+    return nullptr;
 }
 
 /// The steps of a series and the files of each.
-std::vector<SeriesFile> series_of(const std::vector<fs::path>& files, const ReadOptions& options) {
+std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const ReadOptions& options) {
     if (files.empty())
         throw Error("no files given");
-    const auto list = std::find_if(files.begin(), files.end(), lists_files);
+    const auto list = std::ranges::find_if(
+        files, [](const KnownFile& file) { return file.format && file.format->list; });
     if (list != files.end() && files.size() != 1)
-        throw Error(fmt::format("{}: names its files itself, {} more given", list->string(),
+        throw Error(fmt::format("{}: names its files itself, {} more given", list->path.string(),
                                 files.size() - 1));
     if (list != files.end())
         return listed_in(*list, options);
     if (options.times_from_names)
         return timed_by_name(files, options);
-    if (!options.dims && std::ranges::all_of(files, is_dicom))
-        return {dicom_series(files)};
-    if (std::ranges::all_of(files, is_tiff))
-        return tiff_series(files, options);
+    if (const Format* format = joining_format(files, options)) {
+        std::vector<fs::path> paths;
+        for (const KnownFile& file : files)
+            paths.push_back(file.path);
+        return format->join(*format, paths, options);
+    }
     std::vector<SeriesFile> series;
-    for (const fs::path& path : files)
-        series.push_back(series_file(path, options));
-    std::stable_sort(series.begin(), series.end(), [](const SeriesFile& a, const SeriesFile& b) {
+    for (const KnownFile& file : files)
+        series.push_back(series_file(file, options));
+    std::ranges::stable_sort(series, [](const SeriesFile& a, const SeriesFile& b) {
         return natural_less(a.path.string(), b.path.string());
     });
     return series;
@@ -149,7 +127,7 @@ std::vector<SeriesFile> series_of(const std::vector<fs::path>& files, const Read
 
 std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
                                             const ReadOptions& options) {
-    const FolderFiles found = out_of_folders(given, options);
+    const FoundFiles found = found_files(given, options);
     return open_file_series(series_of(found.files, options), options, found.note);
 }
 

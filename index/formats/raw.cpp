@@ -1,6 +1,6 @@
 // Raw files: values without a header.
 #include "index/error.h"
-#include "index/formats/readers.h"
+#include "index/formats/own_formats.h"
 #include "index/formats/stored_file.h"
 
 #include <fmt/format.h>

@@ -14,8 +14,6 @@ template <>
 constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
-template <>
-constexpr ForeignFormat kLastValue<ForeignFormat> = ForeignFormat::mesh;
 
 namespace {
 
@@ -113,24 +111,7 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 6";
-const std::string kCollectionProgram = "isochron-reader-vtk";
-
-std::string program_of(ForeignFormat format) {
-    switch (format) {
-    case ForeignFormat::netcdf: return "isochron-reader-netcdf";
-    case ForeignFormat::xdmf:
-    case ForeignFormat::hdf5: return "isochron-reader-hdf5";
-    case ForeignFormat::tiff: return "isochron-reader-tiff";
-    case ForeignFormat::dicom: return "isochron-reader-dicom";
-    case ForeignFormat::mesh: return "isochron-reader-mesh";
-    case ForeignFormat::zarr: return "isochron-reader-zarr";
-    case ForeignFormat::vti:
-    case ForeignFormat::vtk:
-    case ForeignFormat::vtk_data: break;
-    }
-    return kCollectionProgram;
-}
+const std::string kReaderVersion = ISOCHRON_VERSION " 7";
 
 std::vector<std::byte> encoded(const ReaderRequest& request) {
     return bytes_of_kind(request);

@@ -20,26 +20,6 @@
 
 namespace isochron::index {
 
-/// The formats that libraries decode.
-enum class ForeignFormat : std::uint8_t {
-    vti,
-    vtk,
-    netcdf,
-    hdf5,
-    tiff,
-    vtk_data,
-    zarr,
-    dicom,
-    xdmf,
-    mesh
-};
-
-/// The reader program that decodes a format: one for each library, so that no format waits until
-/// the library of another is loaded.
-std::string program_of(ForeignFormat format);
-/// The reader program for collections (.pvd).
-extern const std::string kCollectionProgram;
-
 /// Planes of vertices with the same z: [first, first + count).
 struct Slices {
     std::uint32_t first = 0, count = 0;
@@ -50,7 +30,7 @@ struct Slices {
 /// it is closed, or another gets its number. Several open files of one reader are arrays of the
 /// same file.
 struct OpenFile {
-    ForeignFormat format = ForeignFormat::vti;
+    std::string format; ///< its name, see `Format`
     std::filesystem::path path;
     ReadOptions options;
     std::uint64_t most_memory = 0; ///< [bytes] that decoding may take; 0: what is free

@@ -8,13 +8,42 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <mutex>
 
 namespace isochron::index {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Where the program's files are; empty: beside the running program. Readers are started by several
+/// threads.
+struct ProgramFolder {
+    std::mutex mutex;
+    fs::path folder;
+};
+
+ProgramFolder& folder_that_was_set() {
+    static ProgramFolder folder;
+    return folder;
+}
+
+} // namespace
+
+void set_program_folder(const fs::path& folder) {
+    ProgramFolder& set = folder_that_was_set();
+    const std::lock_guard lock(set.mutex);
+    set.folder = folder.empty() ? folder : fs::absolute(folder);
+}
+
+fs::path program_folder() {
+    ProgramFolder& set = folder_that_was_set();
+    const std::lock_guard lock(set.mutex);
+    return set.folder.empty() ? fs::read_symlink("/proc/self/exe").parent_path() : set.folder;
+}
+
 fs::path file_of_program(const std::string& name) {
-    const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+    const fs::path folder = program_folder();
     for (const fs::path& place :
          std::array{folder / name, folder.parent_path() / "libexec" / "isochron" / name})
         if (fs::exists(place))

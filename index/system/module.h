@@ -7,9 +7,17 @@
 
 namespace isochron::index {
 
-/// The path of one of the program's files, `isochron-reader-vtk` or `libisochron_mpi.so`: beside
-/// the program (in a build folder) or in ../libexec/isochron (installed), and nowhere else.
-/// @throws Error naming the file and the folder of the program
+/// Says which folder is the program's: for a program in which this library is a guest, such as an
+/// interpreter, whose own folder has none of the files. Called before the first of them is needed.
+/// @param folder empty: that of the running program again
+void set_program_folder(const std::filesystem::path& folder);
+
+/// The folder that was set, or that of the running program.
+std::filesystem::path program_folder();
+
+/// The path of one of the program's files, `isochron-reader-vtk` or `libisochron_mpi.so`: in the
+/// program's folder (as in a build) or in ../libexec/isochron beside it (installed), and nowhere
+/// else. @throws Error naming the file and the program's folder
 std::filesystem::path file_of_program(const std::string& name);
 
 /// Address of `symbol` in `lib<name>.so`. The module stays loaded.

@@ -1,7 +1,7 @@
 // `isochron-bench artifacts`: the effect of kept normals and false positives on pictures, and the
 // paper's pair of renderings.
 #include "app/command_line/cancel.h"
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 #include "stereo/context/gl_context.h"
 #include "stereo/image_file.h"
 #include "tests/bench/benchmarks.h"

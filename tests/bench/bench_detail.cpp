@@ -1,6 +1,6 @@
 // `isochron-bench detail`: levels of detail of large volumes, beside all cells.
 #include "app/command_line/cancel.h"
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 #include "stereo/context/gl_context.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"

@@ -1,6 +1,6 @@
 // `isochron-bench index`: measures the search structures against their rivals.
 #include "app/command_line/cancel.h"
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 #include "index/error.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"

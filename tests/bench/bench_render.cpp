@@ -1,5 +1,5 @@
 // `isochron-bench render`: measures whole frames and their stages against VTK and bare quads.
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 #include "index/error.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"

@@ -1,7 +1,7 @@
 // `isochron-bench scale`: the cost of a step that is opened for the first time, on large grids.
 #include "app/command_line/cancel.h"
+#include "app/command_line/progress_bar.h"
 #include "app/generate/fourier_modes.h"
-#include "app/indexing/progress_bar.h"
 #include "index/error.h"
 #include "index/indexing/index_build.h"
 #include "index/scan/brick_tiles.h"

@@ -3,7 +3,7 @@
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"
-#include "index/formats/readers.h"
+#include "index/formats/own_formats.h"
 #include "index/formats/series/file_series.h"
 #include "index/reader/reader_messages.h"
 #include "index/volume/time_unit.h"

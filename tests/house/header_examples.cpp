@@ -4,6 +4,7 @@
 // A new example needs a few lines here; house_tests says which one is missing.
 #include "app/command_line/command_line.h"
 #include "app/explore/cluster_job.h"
+#include "app/explore/exploration.h"
 #include "app/frame/history.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/movie_file.h"
@@ -20,6 +21,8 @@
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
+#include "index/formats/foreign_file.h"
+#include "index/formats/format.h"
 #include "index/formats/series/series_writer.h"
 #include "index/indexing/level_choice.h"
 #include "index/reader/reader_messages.h"
@@ -98,6 +101,10 @@ void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 w
 void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
                        double isovalue) {
 #include "index/extraction/extractor.example"
+}
+
+void format_example(const ReadOptions& options) {
+#include "index/formats/format.example"
 }
 
 void series_writer_example(const std::filesystem::path& dir, const SeriesInfo& info,
@@ -234,6 +241,10 @@ namespace {
 
 void cluster_job_example(const std::string& hash) {
 #include "app/explore/cluster_job.example"
+}
+
+void exploration_example(const ExploreOptions& options) {
+#include "app/explore/exploration.example"
 }
 
 void run_verify(const std::filesystem::path&) {}

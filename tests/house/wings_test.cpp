@@ -23,12 +23,12 @@ const std::map<std::string, Steps> kOrder{
      {{"main"},
       {"commands"},
       {"explore"},
-      {"session", "indexing"},
-      {"command_line", "panel", "output"},
+      {"session", "indexing", "generate"},
+      {"panel", "output"},
       {"scene", "cluster"},
       {"quality"},
       {"frame"},
-      {"config", "generate"},
+      {"config", "command_line"},
       {"text", "version"}}},
     {"index",
      {{"extraction", "indexing", "decoders"},
@@ -48,7 +48,11 @@ const std::map<std::string, Steps> kOrder{
 
 /// Wings that stand apart, and the only places that may include them. Tests may include all.
 const std::map<std::string, std::set<std::string>> kApart{
-    {"app/generate", {"app/commands"}},
+    // A program of its own makes demo series; the main program has their options.
+    {"app/generate", {"app/commands/command_generate"}},
+    // What is asked on the command line is obeyed elsewhere.
+    {"app/command_line",
+     {"app/main", "app/commands", "app/explore", "app/indexing", "app/generate"}},
     // The reader: a program of its own.
     {"index/decoders", {}},
     // The module is loaded when a picture is read or written; nobody else knows it.
@@ -157,13 +161,15 @@ TEST(Wings, AnIncludeOfANeighborIsFound) {
 TEST(Wings, AnIncludeOfWhatStandsApartIsFound) {
     const PlantedTree tree("apart");
     tree.plant("app/session/bad.cpp", "#include \"app/generate/demo_series.h\"\n");
-    tree.plant("app/commands/good.cpp", "#include \"app/generate/demo_series.h\"\n");
+    tree.plant("app/commands/command_generate.cpp", "#include \"app/generate/demo_series.h\"\n");
+    tree.plant("app/scene/bad.cpp", "#include \"app/command_line/cancel.h\"\n");
     tree.plant("app/output/bad.cpp", "#include \"stereo/image_module/image_module.h\"\n");
     tree.plant("stereo/image_file.cpp", "#include \"stereo/image_module/image_module.h\"\n");
     tree.plant("stereo/screen.cpp", "#include \"stereo/image_module/image_module.h\"\n");
     EXPECT_EQ(includes_against_the_order(tree.root()),
               (Found{"stereo/screen.cpp:1 includes stereo/image_module/image_module.h",
                      "app/output/bad.cpp:1 includes stereo/image_module/image_module.h",
+                     "app/scene/bad.cpp:1 includes app/command_line/cancel.h",
                      "app/session/bad.cpp:1 includes app/generate/demo_series.h"}));
 }
 

@@ -11,6 +11,6 @@ int main() {
     gdcm::Trace::DebugOff();
     gdcm::Trace::WarningOff();
     gdcm::Trace::ErrorOff();
-    constexpr std::array kDecoders{Decoder{ForeignFormat::dicom, decode_dicom}};
+    constexpr std::array kDecoders{Decoder{"dicom", decode_dicom}};
     return run_reader(kDecoders);
 }

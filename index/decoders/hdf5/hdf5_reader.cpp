@@ -6,7 +6,6 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::hdf5, decode_hdf5},
-                                   Decoder{ForeignFormat::xdmf, decode_xdmf}};
+    constexpr std::array kDecoders{Decoder{"hdf5", decode_hdf5}, Decoder{"xdmf", decode_xdmf}};
     return run_reader(kDecoders);
 }

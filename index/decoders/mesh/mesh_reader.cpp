@@ -6,6 +6,6 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::mesh, decode_mesh}};
+    constexpr std::array kDecoders{Decoder{"mesh", decode_mesh}};
     return run_reader(kDecoders, nullptr);
 }

@@ -6,6 +6,6 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::netcdf, decode_netcdf}};
+    constexpr std::array kDecoders{Decoder{"netcdf", decode_netcdf}};
     return run_reader(kDecoders);
 }

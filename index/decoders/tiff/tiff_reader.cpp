@@ -6,6 +6,6 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::tiff, decode_tiff}};
+    constexpr std::array kDecoders{Decoder{"tiff", decode_tiff}};
     return run_reader(kDecoders);
 }

@@ -6,8 +6,7 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::vti, decode_vti},
-                                   Decoder{ForeignFormat::vtk, decode_vtk},
-                                   Decoder{ForeignFormat::vtk_data, decode_vtk_data}};
+    constexpr std::array kDecoders{Decoder{"vti", decode_vti}, Decoder{"vtk", decode_vtk},
+                                   Decoder{"vtk data", decode_vtk_data}};
     return run_reader(kDecoders, decode_pvd);
 }

@@ -6,6 +6,6 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{ForeignFormat::zarr, decode_zarr}};
+    constexpr std::array kDecoders{Decoder{"zarr", decode_zarr}};
     return run_reader(kDecoders);
 }

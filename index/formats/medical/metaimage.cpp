@@ -5,7 +5,7 @@
 // ITK's MetaImageIO: TransformMatrix lists the directions of the axes one after another, and space
 // is LPS, whatever AnatomicalOrientation says.
 #include "index/error.h"
-#include "index/formats/readers.h"
+#include "index/formats/own_formats.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
 #include "index/lower_case.h"

@@ -4,7 +4,7 @@
 // Cox et al., "A (sort of) new image data format standard: NIfTI-1", NeuroImage 22, 2004;
 // field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
 #include "index/error.h"
-#include "index/formats/readers.h"
+#include "index/formats/own_formats.h"
 #include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
 

@@ -5,7 +5,7 @@
 #include "index/error.h"
 #include "index/formats/medical/nrrd_axes.h"
 #include "index/formats/medical/nrrd_header.h"
-#include "index/formats/readers.h"
+#include "index/formats/own_formats.h"
 #include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"

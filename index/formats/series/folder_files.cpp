@@ -1,18 +1,14 @@
-// Sorts the files of a folder into series.
+// Finds the files of folders, and sorts them into series.
 #include "index/formats/series/folder_files.h"
 
 #include "index/error.h"
-#include "index/formats/known_formats.h"
-#include "index/formats/series/dicom_files.h"
 #include "index/formats/series/natural_order.h"
-#include "index/formats/text_header.h"
 #include "index/lower_case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -22,29 +18,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of the first kind name files of the others.
-struct NamesOthers {
-    std::string_view extension;
-    std::array<std::string_view, 4> others;
-};
+void sort_naturally(std::vector<KnownFile>& files) {
+    std::ranges::sort(files, [](const KnownFile& a, const KnownFile& b) {
+        return natural_less(a.given.string(), b.given.string());
+    });
+}
 
-constexpr std::array kNamesOthers{
-    NamesOthers{".xmf", {".h5", ".hdf5", ".hdf", ".raw"}},
-    NamesOthers{".xdmf", {".h5", ".hdf5", ".hdf", ".raw"}},
-    NamesOthers{".pvti", {".vti"}},
-    NamesOthers{".pvtr", {".vtr"}},
-    NamesOthers{".pvtu", {".vtu"}},
-    NamesOthers{".pvts", {".vts"}},
-    NamesOthers{".vtm", {".vti", ".vtr", ".vtu", ".vts"}},
-    NamesOthers{".vth", {".vti"}},
-    NamesOthers{".hdr", {".img"}},
-    NamesOthers{".hdr.gz", {".img.gz"}},
-};
+/// Disks have a file that lists the others.
+bool is_directory_of_dicom(const fs::path& path) {
+    return lower_case(path.filename().string()).starts_with("dicomdir");
+}
 
-std::string extension_of(const fs::path& path) {
-    const std::string extension = lower_case(path.extension().string());
-    return extension == ".gz" ? lower_case(path.stem().extension().string()) + extension
-                              : extension;
+/// The DICOM files in a folder and in its subfolders, by their content: they have any name.
+std::vector<KnownFile> dicom_files_in(const fs::path& folder) {
+    constexpr std::size_t kMost = 1'000'000;
+    const Format& dicom = format_named("dicom");
+    std::vector<KnownFile> found;
+    std::error_code ignored;
+    std::size_t seen = 0;
+    for (fs::recursive_directory_iterator at(folder, ignored), end; at != end;
+         at.increment(ignored)) {
+        if (++seen > kMost)
+            throw Error(fmt::format("{}: more than {} files in it", folder.string(), kMost));
+        KnownFile file{.given = at->path(), .path = at->path()};
+        if (at->is_regular_file(ignored) && !is_directory_of_dicom(file.path) &&
+            is_of_format(dicom, file)) {
+            file.format = &dicom;
+            found.push_back(std::move(file));
+        }
+    }
+    sort_naturally(found);
+    return found;
 }
 
 /// Whether a file is as large as some steps of raw values.
@@ -58,19 +62,22 @@ bool fits_raw(const fs::path& path, const ReadOptions& options) {
            (size - options.header_bytes) % step == 0;
 }
 
-bool holds_values(const fs::path& path, const ReadOptions& options) {
+bool holds_values(const KnownFile& file, const ReadOptions& options) {
     if (options.dims)
-        return fits_raw(path, options);
+        return fits_raw(file.path, options);
     // A raw file without dimensions belongs to a header beside it, or cannot be read.
-    return lists_files(path) ||
-           (extension_of(path) != ".raw" && (format_of(path) || is_dicom(path)));
+    return file.format && !file.format->headerless;
 }
 
-/// All files with values, hidden ones left out; of a Zarr folder itself alone.
-std::vector<fs::path> values_within(const fs::path& folder, const ReadOptions& options) {
+bool is_list(const KnownFile& file) {
+    return file.format && file.format->list;
+}
+
+/// All files with values, hidden ones left out; of a folder that is one volume itself alone.
+std::vector<KnownFile> values_within(const fs::path& folder, const ReadOptions& options) {
     constexpr std::size_t kMost = 1'000'000;
     constexpr int kDeepest = 3;
-    std::vector<fs::path> found;
+    std::vector<KnownFile> found;
     std::error_code error;
     std::size_t seen = 0;
     fs::recursive_directory_iterator at(folder, error);
@@ -82,28 +89,28 @@ std::vector<fs::path> values_within(const fs::path& folder, const ReadOptions& o
         if (++seen > kMost)
             throw Error(fmt::format("{}: more than {} files in it", folder.string(), kMost));
         std::error_code ignored;
+        const bool is_folder = at->is_directory(ignored);
         if (path.filename().string().starts_with('.')) {
             at.disable_recursion_pending();
-        } else if (at->is_directory(ignored)) {
-            if (described_in(path) != path)
-                found.push_back(path);
-            if (described_in(path) != path || at.depth() >= kDeepest)
+        } else if (is_folder || at->is_regular_file(ignored)) {
+            KnownFile file = known_file(path);
+            if (is_folder && (file.format || at.depth() >= kDeepest))
                 at.disable_recursion_pending();
-        } else if (at->is_regular_file(ignored) && holds_values(path, options)) {
-            found.push_back(path);
+            if (is_folder ? file.format != nullptr : holds_values(file, options))
+                found.push_back(std::move(file));
         }
     }
     return found;
 }
 
-void drop_named(std::vector<fs::path>& files) {
-    std::set<std::string> there, named;
-    for (const fs::path& file : files)
-        there.insert(extension_of(file));
-    for (const NamesOthers& each : kNamesOthers)
-        if (there.contains(std::string(each.extension)))
-            named.insert(each.others.begin(), each.others.end());
-    std::erase_if(files, [&](const fs::path& file) { return named.contains(extension_of(file)); });
+/// Leaves out the files that others name.
+void drop_named(std::vector<KnownFile>& files) {
+    std::set<std::string_view> named;
+    for (const KnownFile& file : files)
+        if (file.end)
+            named.insert(file.end->named.begin(), file.end->named.end());
+    std::erase_if(files,
+                  [&](const KnownFile& file) { return file.end && named.contains(file.end->end); });
 }
 
 /// What the names of a series have in common, as a pattern.
@@ -126,26 +133,23 @@ std::string some_of(const std::vector<std::string>& names) {
     return text;
 }
 
-} // namespace
-
-FolderFiles files_in_folder(const fs::path& folder, const ReadOptions& options) {
-    std::vector<fs::path> files = values_within(folder, options);
+/// @throws Error naming the folder
+FoundFiles series_in(const fs::path& folder, const ReadOptions& options) {
+    std::vector<KnownFile> files = values_within(folder, options);
     if (files.empty())
         throw Error(fmt::format("{}: a folder without {}", folder.string(),
                                 options.dims ? "a file as large as --dims and --type say"
                                              : "a file of values of a known format; raw values "
                                                "need --dims and --type"));
-    if (std::ranges::any_of(files, lists_files))
-        std::erase_if(files, [](const fs::path& file) { return !lists_files(file); });
+    const bool list = std::ranges::any_of(files, is_list);
+    if (list)
+        std::erase_if(files, [](const KnownFile& file) { return !is_list(file); });
     drop_named(files);
-    std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
-        return natural_less(a.string(), b.string());
-    });
-    std::map<std::string, std::vector<fs::path>> series;
-    for (const fs::path& file : files)
-        series[pattern_of(file.lexically_relative(folder))].push_back(file);
+    sort_naturally(files);
+    std::map<std::string, std::vector<KnownFile>> series;
+    for (const KnownFile& file : files)
+        series[pattern_of(file.given.lexically_relative(folder))].push_back(file);
     const auto is_series = [](const auto& each) { return each.second.size() > 1; };
-    const bool list = lists_files(files.front());
     if (list ? files.size() == 1 : series.size() == 1)
         return {files, std::nullopt};
     if (list || std::ranges::count_if(series, is_series) != 1) {
@@ -153,7 +157,7 @@ FolderFiles files_in_folder(const fs::path& folder, const ReadOptions& options) 
         for (const auto& [pattern, of_it] : series)
             listed.push_back(
                 of_it.size() == 1
-                    ? fmt::format("'{}'", of_it.front().string())
+                    ? fmt::format("'{}'", of_it.front().given.string())
                     : fmt::format("'{}' ({} files)", (folder / pattern).string(), of_it.size()));
         throw Error(fmt::format("{}: a folder with several series or files, expected one: {}",
                                 folder.string(), some_of(listed)));
@@ -161,9 +165,36 @@ FolderFiles files_in_folder(const fs::path& folder, const ReadOptions& options) 
     std::vector<std::string> left;
     for (const auto& [pattern, of_it] : series)
         if (of_it.size() == 1)
-            left.push_back(of_it.front().lexically_relative(folder).string());
+            left.push_back(of_it.front().given.lexically_relative(folder).string());
     return {std::ranges::find_if(series, is_series)->second,
             fmt::format("left out of {}: {}", folder.string(), some_of(left))};
+}
+
+FoundFiles files_in(const KnownFile& folder, const ReadOptions& options) {
+    if (std::vector<KnownFile> dicom = dicom_files_in(folder.given); !dicom.empty())
+        return {std::move(dicom), std::nullopt};
+    if (folder.format)
+        return {{folder}, std::nullopt};
+    return series_in(folder.given, options);
+}
+
+} // namespace
+
+FoundFiles found_files(const std::vector<fs::path>& given, const ReadOptions& options) {
+    FoundFiles all;
+    std::error_code ignored;
+    for (const fs::path& path : given) {
+        const KnownFile file = known_file(path);
+        if (!fs::is_directory(path, ignored)) {
+            all.files.push_back(file);
+            continue;
+        }
+        FoundFiles found = files_in(file, options);
+        all.files.insert(all.files.end(), found.files.begin(), found.files.end());
+        if (found.note)
+            all.note = all.note ? *all.note + "; " + *found.note : found.note;
+    }
+    return all;
 }
 
 } // namespace isochron::index

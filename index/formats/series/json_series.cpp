@@ -11,8 +11,7 @@
 
 namespace isochron::index {
 
-std::vector<std::pair<std::filesystem::path, double>>
-read_json_series(const std::filesystem::path& path) {
+ListedFiles read_json_series(const std::filesystem::path& path) {
     constexpr std::uint64_t kLargest = std::uint64_t{64} << 20;
     const std::string name = path.string();
     const auto json = nlohmann::json::parse(read_text(path, kLargest), nullptr, false);
@@ -20,7 +19,7 @@ read_json_series(const std::filesystem::path& path) {
         throw Error(fmt::format("{}: no list of files, expected {{\"files\": [{{\"name\": ..., "
                                 "\"time\": ...}}, ...]}}",
                                 name));
-    std::vector<std::pair<std::filesystem::path, double>> files;
+    ListedFiles files;
     for (const auto& file : json["files"]) {
         if (!file.is_object() || !file.contains("name") || !file["name"].is_string() ||
             !file.contains("time") || !file["time"].is_number())

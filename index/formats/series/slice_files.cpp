@@ -3,7 +3,7 @@
 
 #include "index/error.h"
 #include "index/formats/data_stream.h"
-#include "index/formats/readers.h"
+#include "index/formats/foreign_file.h"
 #include "index/formats/series/natural_order.h"
 #include "index/formats/series/numbered_name.h"
 #include "index/formats/text_header.h"
@@ -125,21 +125,19 @@ fs::path common_folder(const std::vector<fs::path>& files) {
     return common;
 }
 
-SeriesFile of_slices(std::vector<fs::path> slices) {
+SeriesFile of_slices(const Format& format, std::vector<fs::path> slices) {
     SeriesFile file{.path = slices.front(), .open = {}, .time = {}};
-    file.open = [slices = std::move(slices)](const fs::path& path, const ReadOptions& options) {
+    file.open = [&format, slices = std::move(slices)](const fs::path& path,
+                                                      const ReadOptions& options) {
         ReadOptions with = options;
         with.slices = slices;
-        return open_tiff(path, with);
+        return open_in_format(format, path, with);
     };
     return file;
 }
 
-SeriesFile of_stack(const fs::path& path) {
-    return {.path = path, .open = open_tiff, .time = {}};
-}
-
-/// Reads numbers of a TIFF header, of either byte order and size.
+/// Tells by the header and the description of a TIFF file, of either byte order and size, whether it
+/// has one page alone.
 class TiffHead {
   public:
     explicit TiffHead(const fs::path& path) : size_(file_bytes(path)), file_(path) {}
@@ -204,24 +202,18 @@ class TiffHead {
 
 } // namespace
 
-bool is_tiff(const fs::path& path) {
-    const std::string name = lower_case(path.filename().string());
-    return name.ends_with(".tif") || name.ends_with(".tiff") || name.ends_with(".btf");
-}
-
-bool is_flat_tiff(const fs::path& path) {
-    return TiffHead(path).flat().value_or(false);
-}
-
-std::vector<SeriesFile> tiff_series(const std::vector<fs::path>& files,
+std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::path>& files,
                                     const ReadOptions& options) {
+    const auto of_stack = [&](const fs::path& path) {
+        return SeriesFile{.path = path, .open = opener_of(format), .time = {}};
+    };
     if (files.size() == 1)
         return {of_stack(files.front())};
     std::vector<fs::path> sorted = files;
     std::ranges::stable_sort(sorted, [](const fs::path& a, const fs::path& b) {
         return natural_less(a.string(), b.string());
     });
-    const bool flat = is_flat_tiff(sorted.front());
+    const bool flat = TiffHead(sorted.front()).flat().value_or(false);
     std::vector<NumberedName> names;
     const std::string::size_type folder = common_folder(sorted).string().size();
     for (const fs::path& file : sorted) {
@@ -265,12 +257,12 @@ std::vector<SeriesFile> tiff_series(const std::vector<fs::path>& files,
         std::vector<fs::path> paths;
         for (const auto& [number, path] : of_step)
             paths.push_back(path);
-        series.push_back(flat ? of_slices(std::move(paths)) : of_stack(paths.front()));
+        series.push_back(flat ? of_slices(format, std::move(paths)) : of_stack(paths.front()));
         if (!flat && found.size() > 1)
-            series.back().open = [](const fs::path& path, const ReadOptions& given) {
+            series.back().open = [&format](const fs::path& path, const ReadOptions& given) {
                 ReadOptions within = given;
                 within.array.reset(); // it chose the file
-                return open_tiff(path, within);
+                return open_in_format(format, path, within);
             };
     }
     return series;

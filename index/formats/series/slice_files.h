@@ -1,15 +1,10 @@
 // Series of TIFF files: a file for each step, or for each slice of the steps.
 #pragma once
 
+#include "index/formats/format.h"
 #include "index/formats/series/file_series.h"
 
 namespace isochron::index {
-
-bool is_tiff(const std::filesystem::path& path);
-
-/// Whether a TIFF file has one page alone, by its header and its description.
-/// @throws Error naming the file when it cannot be read
-bool is_flat_tiff(const std::filesystem::path& path);
 
 /// Numbers in the names say what a file is: behind `z` or `slice` the slice, behind `t`, `time` or
 /// `frame` the step, behind `c`, `ch` or `channel` the channel, which `--array "channel 1"` picks.
@@ -17,7 +12,9 @@ bool is_flat_tiff(const std::filesystem::path& path);
 /// in the names of folders count, too: `t00/z001.tif`, `003/0001.tif`.
 /// @throws Error naming files: names that are not alike, numbers that are missing, no channel
 ///         chosen
-std::vector<SeriesFile> tiff_series(const std::vector<std::filesystem::path>& files,
+/// @see Format::join
+std::vector<SeriesFile> tiff_series(const Format& format,
+                                    const std::vector<std::filesystem::path>& files,
                                     const ReadOptions& options);
 
 } // namespace isochron::index

@@ -1,7 +1,7 @@
 // Configuration files: what is shipped is valid, and what is wrong is named with its place.
 #include "app/config/color_map_file.h"
 #include "app/config/config.h"
-#include "app/config/toml_reader.h"
+#include "app/text.h"
 #include "tests/app/config/config_error.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_folder.h"

@@ -147,16 +147,15 @@ TEST_P(Conformance, ValuesPlacesAndTimesAreTheLibrarys) {
 /// round in circles for ever in some damaged files.
 void read_impatiently(const fs::path& file, const ReadOptions& options) {
     static ReaderPool readers({.patience = std::chrono::milliseconds(1500)});
-    static const std::map<std::string, ForeignFormat> formats{
-        {".h5", ForeignFormat::hdf5},     {".hdf5", ForeignFormat::hdf5},
-        {".vtkhdf", ForeignFormat::hdf5}, {".tif", ForeignFormat::tiff},
-        {".tiff", ForeignFormat::tiff},   {".btf", ForeignFormat::tiff}};
+    static const std::map<std::string, std::string_view> formats{
+        {".h5", "hdf5"},  {".hdf5", "hdf5"}, {".vtkhdf", "hdf5"},
+        {".tif", "tiff"}, {".tiff", "tiff"}, {".btf", "tiff"}};
     const auto format = formats.find(file.extension());
     if (format == formats.end()) {
         scaled_values(*open_series({file}, options));
         return;
     }
-    const auto volume = open_foreign(readers, format->second, file, options);
+    const auto volume = open_foreign(readers, format_named(format->second), file, options);
     std::vector<std::byte> bytes(volume->info().step_bytes());
     for (std::size_t step = 0; step < volume->steps(); ++step)
         volume->read(step, bytes);

@@ -55,7 +55,7 @@ std::vector<pid_t> running_readers(pid_t parent = ::getpid()) {
 }
 
 std::unique_ptr<VolumeFile> open_in(ReaderPool& pool, const fs::path& file) {
-    return open_foreign(pool, ForeignFormat::vti, file, {});
+    return open_foreign(pool, format_named("vti"), file, {});
 }
 
 std::vector<std::int16_t> values_in(VolumeFile& file) {
@@ -152,7 +152,7 @@ TEST(ForeignFile, IsReadInSlabs) {
     TestFolder folder;
     constexpr std::size_t kSlices = 70; // several slabs, and a last one of another size
     ReaderPool pool;
-    const auto file = open_foreign(pool, ForeignFormat::vtk, large_file(folder, kSlices), {});
+    const auto file = open_foreign(pool, format_named("vtk"), large_file(folder, kSlices), {});
     std::vector<std::uint8_t> values(kSlices * 65536), expected(values.size());
     file->read(0, std::as_writable_bytes(std::span(values)));
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -165,7 +165,7 @@ TEST(ForeignFile, WhoseReaderWantsTooMuchMemoryIsOneLine) {
     TestFolder folder;
     ReaderPool pool({.memory = 4 << 20});
     const fs::path file = large_file(folder, 200);
-    EXPECT_THAT(error_of([&] { open_foreign(pool, ForeignFormat::vtk, file, {}); }),
+    EXPECT_THAT(error_of([&] { open_foreign(pool, format_named("vtk"), file, {}); }),
                 StartsWith(file.string() + ": cannot be read: "));
     expect_good(*open_in(pool, kFolder / "ascii.vti"));
 }

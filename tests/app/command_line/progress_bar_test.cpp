@@ -1,5 +1,5 @@
 // The bar on a terminal, and its lines elsewhere.
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Shows the progress of long work on the terminal.
-#include "app/indexing/progress_bar.h"
+#include "app/command_line/progress_bar.h"
 
 #include "app/text.h"
 

@@ -1,0 +1,232 @@
+// Opens what a session needs, runs it, and keeps what is left of it.
+#include "app/explore/exploration.h"
+
+#include "app/config/tracker_setup.h"
+#include "app/config/user_folders.h"
+#include "app/explore/explore_start.h"
+#include "app/explore/explored_data.h"
+#include "app/explore/kept_session.h"
+#include "app/explore/live_setup.h"
+#include "app/explore/pattern_exploration.h"
+#include "app/indexing/open_index.h"
+#include "app/session/data_choice.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/system/new_file.h"
+#include "interaction/recording/recording.h"
+#include "stereo/context/display_loss.h"
+#include "stereo/loading_picture.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
+                                             const index::IndexFile& file) {
+    if (options.session)
+        return index::end_of_links(*options.session);
+    return session_path(*options.data, data_hash_of(file));
+}
+
+/// Where the earlier session lies. If the data have grown since, its name has their earlier hash.
+std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
+                                                     const index::IndexFile& file) {
+    const auto path = kept_in(options, file);
+    return options.session || !path ? path : kept_on_fewer_steps(*path, file);
+}
+
+/// What the user chooses in a window of its own, where the command line names no data.
+/// @return nothing: they leave
+std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob& job) {
+    const CancelOnSignal signals;
+    Config config = configure(options);
+    if (config.rendering.context != stereo::ContextKind::glfw)
+        throw UsageError("file is required: an index made by `isochron build`");
+    config.openxr.enabled = false; // nobody chooses a file in a headset
+    const stereo::Windows windows = open_windows(options, config, job, nullptr);
+    const auto chosen =
+        choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
+                              .why_not_open = [&](const auto& data) { return why_not_open(data); },
+                              .window = {.ended = [] { return CancelOnSignal::received() != 0; },
+                                         .background = config.rendering.background,
+                                         .frame_rate_limit = config.rendering.frame_rate_limit,
+                                         .font_scale = config.panel.font_scale}});
+    signals.check();
+    return chosen ? std::optional(chosen->string()) : std::nullopt;
+}
+
+} // namespace
+
+void explore(const ExploreOptions& options, ClusterJob& job) {
+    ExploreOptions now = with_index(options);
+    if (now.test_pattern)
+        return explore_test_pattern(now, job);
+    if (now.sources.files.empty() && job.size() == 1) {
+        const auto chosen = chosen_data(now, job);
+        if (!chosen)
+            return;
+        now = with_data(std::move(now), *chosen);
+    }
+    while (const auto next = Exploration(now, job).run())
+        now = with_data(std::move(now), *next);
+}
+
+Exploration::Exploration(ExploreOptions options, ClusterJob& job)
+    : options_(std::move(options)), job_(job) {
+    job_.together([this] { open_data(); });
+    signals_.check();
+    if (!file_)
+        return;
+    job_.require_same(facts_of(config_, *file_));
+    job_.set_limits(config_.cluster.limits);
+    job_.together([this] { open_session(); });
+    job_.require_same(start_fact(*session_));
+    job_.tell_shared_processors(session_->outputs().gl());
+    job_.share_frames(*session_);
+}
+
+void Exploration::open_outputs() {
+    headset_ = open_headset(config_.openxr);
+    windows_.emplace(open_windows(options_, config_, job_, headset_.get()));
+    stereo::show_loading(*windows_, config_.rendering.background);
+}
+
+void Exploration::open_data() {
+    if (!options_.data && options_.sources.files.empty())
+        throw UsageError("file is required in a job: an index made by `isochron build`");
+    config_ = configure(options_);
+    if (job_.leads())
+        warn(config_);
+    if (config_.openxr.enabled && job_.size() > 1)
+        throw UsageError("a headset belongs to one process: start it without mpirun");
+    prepare_walls(config_, job_, options_.emulate);
+    if (job_.leads())
+        open_trackers(config_, trackers_);
+    indexing_ = begin_indexing(options_, job_);
+    if (indexing_) {
+        open_outputs();
+        options_.data = wait_for_index(*indexing_, *windows_, options_, config_);
+        if (!options_.data)
+            return;
+    }
+    file_ = open_index_to_show(*options_.data, config_.memory.cache_bytes());
+    if (job_.leads()) {
+        warn_of_colors(config_, *file_);
+        check_start(options_, *file_, indexing_ ? indexing_->state().of : file_->info().steps());
+    }
+    check_outputs(options_, job_, *file_);
+}
+
+void Exploration::open_session() {
+    if (job_.size() == 1)
+        earlier_ = earlier_session(earlier_kept_in(options_, *file_), options_.resume);
+    else if (options_.resume)
+        throw UsageError("--resume is for one process, without mpirun");
+    if (!windows_)
+        open_outputs();
+    session_.emplace(config_, file_, std::move(*windows_), index::Extract(), std::move(headset_));
+    set_start();
+    session_->outputs().set_screenshots(options_.screenshots);
+    session_->set_data_name(std::filesystem::path(options_.data_name).filename().string());
+    if (config_.cluster.swap_group && job_.size() > 1)
+        stereo::join_swap_group(session_->outputs().windows());
+}
+
+void Exploration::set_start() {
+    const std::size_t steps = file_->info().steps();
+    if (earlier_) {
+        session_->set_state(state_of(*earlier_, session_->state(),
+                                     held_hash(*file_, earlier_->data_hash), steps, "--resume"));
+        session_->recall_arrays(earlier_->arrays);
+    } else {
+        session_->set_state(session_->state());
+        session_->set_state(first_look(*session_, options_, config_, file_));
+    }
+    session_->set_state(start_from(session_->state(), options_, steps));
+}
+
+std::optional<std::string> Exploration::run() {
+    if (!session_)
+        return std::nullopt;
+    UserMemory memory(job_.size() == 1 ? user_state_folder() : std::nullopt);
+    BackgroundWork remembering; // no frame waits for that disk
+    LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
+                  session_->outputs().headset());
+    session_->set_clock(live.clock());
+    if (job_.leads())
+        lead(live);
+    else
+        job_.follow(*session_);
+    session_->frames().end();
+    finish(live, memory);
+    signals_.check();
+    if (live.next_data())
+        return live.next_data()->string();
+    if (indexing_)
+        indexing_->check();
+    return std::nullopt;
+}
+
+/// Greets the user of a process that is alone, too.
+LiveOptions Exploration::live_options_with(UserMemory& memory, BackgroundWork& writing) {
+    LiveOptions how = live_options(options_);
+    if (job_.size() > 1)
+        return how;
+    how.why_not_open = [this](const std::filesystem::path& data) {
+        return why_not_open(options_, data);
+    };
+    if (indexing_)
+        how.standing = [this] {
+            const Indexing::State now = indexing_->state();
+            return now.failure.empty() ? now.line() : "indexing has ended: " + now.failure;
+        };
+    greet(*session_, memory, writing, name_to_remember(options_));
+    return how;
+}
+
+void Exploration::lead(LiveLoop& live) {
+    if (job_.size() == 1)
+        keep_session(live, kept_in(options_, *file_), *options_.data, *file_, *session_, earlier_);
+    const auto header = header_of(*session_, config_, *file_, *options_.data);
+    if (options_.record) {
+        live.record(index::end_of_links(*options_.record), header);
+        session_->set_recording(true);
+    }
+    if (job_.size() == 1)
+        live.offer_movies(movie_orders(options_, header));
+    live.watch(*options_.data, file_);
+    const stereo::DisplayLoss loss([&] { save(live); });
+    live.run(*session_);
+}
+
+void Exploration::finish(LiveLoop& live, UserMemory& memory) {
+    live.finish(*session_);
+    session_->outputs().pictures().finish();
+    if (session_->panel().introduced())
+        memory.set_introduced();
+    print_status(live);
+    if (options_.report)
+        session_->log().write(job_.own_file(*options_.report), session_->drawing(),
+                              session_->reading());
+    job_.finish();
+    if (options_.record && job_.leads())
+        fmt::print(stderr, "recording: {}\n", *options_.record);
+}
+
+/// What there is of a session whose display is gone.
+void Exploration::save(LiveLoop& live) {
+    try {
+        live.finish(*session_);
+        session_->outputs().pictures().finish();
+        if (options_.record)
+            fmt::print(stderr, "recording: {}\n", *options_.record);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "isochron: {}\n", one_line(error.what()));
+    }
+}
+
+} // namespace isochron::app

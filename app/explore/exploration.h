@@ -1,0 +1,61 @@
+// An exploration: from the options of `explore` to a session that runs, and to what is shown next.
+//
+//     run_in_cluster([&](ClusterJob& job) { explore(options, job); });
+#pragma once
+
+#include "app/command_line/cancel.h"
+#include "app/explore/cluster_job.h"
+#include "app/explore/explore_options.h"
+#include "app/indexing/indexing.h"
+#include "app/session/live_loop.h"
+#include "app/session/session_file.h"
+#include "app/session/user_memory.h"
+#include "stereo/headset.h"
+#include "stereo/windows.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace isochron::app {
+
+/// Shows what the options name, or the user chooses, and then what the user opens next, until the
+/// user leaves. @throws index::Error, UsageError and so on: nothing can be shown
+void explore(const ExploreOptions& options, ClusterJob& job);
+
+/// The data that one session shows, with its devices, windows and index.
+class Exploration {
+  public:
+    /// Opens all of it in every process of the job. @throws as `explore`
+    Exploration(ExploreOptions options, ClusterJob& job);
+
+    /// Runs the session until its user leaves, at once if they left before there was anything to
+    /// see. @return other data that they want to see
+    std::optional<std::string> run();
+
+  private:
+    void open_data();
+    void open_outputs();
+    void open_session();
+    void set_start();
+
+    LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);
+    void lead(LiveLoop& live);
+    void finish(LiveLoop& live, UserMemory& memory);
+    void save(LiveLoop& live);
+
+    /// A signal ends the session as its user would: the recording gets its final name.
+    CancelOnSignal signals_;
+    ExploreOptions options_;
+    ClusterJob& job_;
+    Config config_;
+    std::shared_ptr<const index::IndexFile> file_; ///< null: the user left before it was there
+    interaction::CompositeInput trackers_;
+    std::unique_ptr<Indexing> indexing_; ///< of these data, while they are shown
+    std::unique_ptr<stereo::Headset> headset_;
+    std::optional<stereo::Windows> windows_;
+    std::optional<Session> session_;
+    std::optional<SavedSession> earlier_; ///< which is resumed
+};
+
+} // namespace isochron::app

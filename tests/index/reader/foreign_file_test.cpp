@@ -10,10 +10,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <cstddef>
 #include <fstream>
 #include <future>
 
@@ -175,6 +182,39 @@ TEST(Readers, AreFencedIn) {
     const auto file = open_in(pool, kFolder / "ascii.vti");
     const std::string status = read_file(fmt::format("/proc/{}/status", running_readers().at(0)));
     EXPECT_THAT(status, AllOf(HasSubstr("NoNewPrivs:\t1"), HasSubstr("Seccomp:\t2")));
+}
+
+/// From now on this process and those that it starts get no filter of system calls.
+bool refuse_filters() {
+    std::array<sock_filter, 4> code{{
+        BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_seccomp, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+    }};
+    const sock_fprog program{code.size(), code.data()};
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+           ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+TEST(Readers, ReadNothingWhereTheyCannotBeFencedIn) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        [&]() noexcept {
+            EXPECT_TRUE(refuse_filters());
+            ReaderPool pool;
+            for (int round = 0; round < 2; ++round)
+                EXPECT_THAT(error_of([&] { open_in(pool, kFolder / "ascii.vti"); }),
+                            EndsWith("ascii.vti: cannot be read: its reader cannot be fenced in: "
+                                     "the system refuses its list of system calls (seccomp)"));
+            EXPECT_TRUE(running_readers().empty());
+        }();
+        ::_exit(testing::Test::HasFailure() ? 1 : 0);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
 }
 #endif
 

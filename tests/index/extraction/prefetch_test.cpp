@@ -1,17 +1,21 @@
 // Prefetching: steps are made before a playback asks for them, as far as there is room.
 #include "index/extraction/extractor.h"
+#include "tests/support/eventually.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 namespace isochron::index {
 namespace {
+
+using test_support::eventually;
+using test_support::kPatience;
 
 /// Extractions of some bytes, at once; which steps were made, in order.
 class SizedExtraction {
@@ -22,8 +26,11 @@ class SizedExtraction {
             auto extraction = std::make_shared<Extraction>();
             extraction->query = query;
             extraction->bricks.bytes.resize(bytes_);
-            const std::scoped_lock lock(mutex_);
-            steps_.push_back(query.step);
+            {
+                const std::scoped_lock lock(mutex_);
+                steps_.push_back(query.step);
+            }
+            came_.notify_all();
             return extraction;
         };
     }
@@ -33,18 +40,20 @@ class SizedExtraction {
     }
     /// Waits until so many steps were made and are at hand.
     void wait_for(const Extractor& extractor, std::size_t made) {
-        while (steps().size() < made)
-            std::this_thread::yield();
-        const std::uint32_t last = steps().back();
-        for (bool there = false; !there; std::this_thread::yield()) {
+        std::unique_lock lock(mutex_);
+        ASSERT_TRUE(came_.wait_for(lock, kPatience, [&] { return steps_.size() >= made; }));
+        const std::uint32_t last = steps_.back();
+        lock.unlock();
+        ASSERT_TRUE(eventually([&] {
             const auto at_hand = extractor.at_hand();
-            there = std::ranges::find(at_hand, last) != at_hand.end();
-        }
+            return std::ranges::find(at_hand, last) != at_hand.end();
+        }));
     }
 
   private:
     std::size_t bytes_;
     std::mutex mutex_;
+    std::condition_variable came_;
     std::vector<std::uint32_t> steps_;
 };
 
@@ -117,10 +126,10 @@ TEST(Prefetch, OfAStepThatFailsEndsThere) {
         },
         1 << 20);
     extractor.request({.query = {1, {1.0}}, .ahead = StepsAhead{2, 6}});
-    for (bool tried = false; !tried; std::this_thread::yield()) {
+    ASSERT_TRUE(eventually([&] {
         const std::scoped_lock lock(mutex);
-        tried = !asked.empty() && asked.back() == 3;
-    }
+        return !asked.empty() && asked.back() == 3;
+    }));
     extractor.request({.query = {2, {1.0}}, .ahead = {}});
     EXPECT_EQ(extractor.newest()->query.step, 2u);
     EXPECT_FALSE(extractor.failure());

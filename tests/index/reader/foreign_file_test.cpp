@@ -134,13 +134,22 @@ TEST(ForeignFile, IsReadAgainWhereItsReaderHadSeenOthers) {
 
 TEST(ForeignFile, WhoseReaderHangsIsOneLine) {
     ReaderPool pool({.patience = std::chrono::milliseconds(300)});
-    const auto file = open_in(pool, kFolder / "ascii.vti");
+    std::unique_ptr<VolumeFile> file;
+    // On a busy machine a reader may get no processor for so long: then it is another's turn.
+    ASSERT_TRUE(eventually([&] {
+        try {
+            file = open_in(pool, kFolder / "ascii.vti");
+        } catch (const Error&) {
+        }
+        return file != nullptr;
+    }));
     ::kill(running_readers().at(0), SIGSTOP);
     EXPECT_THAT(error_of([&] { values_in(*file); }),
                 EndsWith("ascii.vti: cannot be read: its reader made no progress for 0.3 s and was "
                          "stopped"));
     EXPECT_TRUE(running_readers().empty());
-    expect_good(*open_in(pool, kFolder / "ascii.vti"));
+    ReaderPool patient;
+    expect_good(*open_in(patient, kFolder / "ascii.vti"));
 }
 
 /// Legacy VTK with so many bytes of values.
@@ -276,7 +285,7 @@ TEST(Readers, AreNotSharedWithAForkOfTheirProcess) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        ::alarm(20); // rather than wait for ever
+        ::alarm(std::chrono::seconds(test_support::kPatience).count()); // rather than wait for ever
         [&]() noexcept {
             expect_good(*file);
             expect_good(*open_in(*pool, kFolder / "raw_zlib64.vti"));

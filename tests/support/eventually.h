@@ -25,4 +25,11 @@ inline bool eventually(const std::function<bool()>& holds) {
     return true;
 }
 
+/// Waits at a condition variable until `holds` returns true. @return false if it does not within
+/// `kPatience`
+template <class Condition, class Lock, class Holds>
+bool is_told(Condition& condition, Lock& lock, const Holds& holds) {
+    return condition.wait_for(lock, kPatience, holds);
+}
+
 } // namespace isochron::test_support

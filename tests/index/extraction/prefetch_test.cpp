@@ -15,7 +15,6 @@ namespace isochron::index {
 namespace {
 
 using test_support::eventually;
-using test_support::kPatience;
 
 /// Extractions of some bytes, at once; which steps were made, in order.
 class SizedExtraction {
@@ -39,9 +38,9 @@ class SizedExtraction {
         return steps_;
     }
     /// Waits until so many steps were made and are at hand.
-    void wait_for(const Extractor& extractor, std::size_t made) {
+    void await(const Extractor& extractor, std::size_t made) {
         std::unique_lock lock(mutex_);
-        ASSERT_TRUE(came_.wait_for(lock, kPatience, [&] { return steps_.size() >= made; }));
+        ASSERT_TRUE(test_support::is_told(came_, lock, [&] { return steps_.size() >= made; }));
         const std::uint32_t last = steps_.back();
         lock.unlock();
         ASSERT_TRUE(eventually([&] {
@@ -62,18 +61,18 @@ TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
     SizedExtraction made(kBytes);
     Extractor extractor(made.extract(), 5 * kBytes + kBytes / 2);
     extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
-    made.wait_for(extractor, 6);
+    made.await(extractor, 6);
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 9}));
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3}));
     extractor.request({.query = {9, {1.0}}, .ahead = StepsAhead{0, 10}});
     EXPECT_EQ(extractor.newest()->query.step, 9u) << "at once";
     EXPECT_FALSE(extractor.busy());
-    made.wait_for(extractor, 7);
+    made.await(extractor, 7);
     EXPECT_EQ(made.steps().back(), 4u);
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
     // Backwards, what is nearest comes first.
     extractor.request({.query = {7, {1.0}}, .ahead = StepsAhead{6, 10, true}});
-    made.wait_for(extractor, 10);
+    made.await(extractor, 10);
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3, 4, 7, 6, 5}));
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{2, 3, 4, 5, 6}));
 }
@@ -101,11 +100,11 @@ TEST(Prefetch, WithoutRoomIsOfTheNextStepAlone) {
     SizedExtraction made(1000);
     Extractor extractor(made.extract());
     extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
-    made.wait_for(extractor, 2);
+    made.await(extractor, 2);
     for (std::uint32_t step = 9; step < 30; ++step) {
         extractor.request({.query = {step % 10, {1.0}}, .ahead = StepsAhead{(step + 1) % 10, 10}});
         EXPECT_EQ(extractor.newest()->query.step, step % 10);
-        made.wait_for(extractor, step - 6);
+        made.await(extractor, step - 6);
         EXPECT_EQ(made.steps().back(), (step + 1) % 10);
         EXPECT_LE(extractor.at_hand().size(), 3u);
     }

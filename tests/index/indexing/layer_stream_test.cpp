@@ -97,8 +97,8 @@ class SharedSeries final : public MemorySeries {
         readers_->most = std::max(readers_->most, ++readers_->reading);
         readers_->came.notify_all();
         // Until as many as expected have read at the same time; who reads alone gives up.
-        readers_->came.wait_for(lock, test_support::kPatience,
-                                [&] { return readers_->most >= readers_->expected; });
+        test_support::is_told(readers_->came, lock,
+                              [&] { return readers_->most >= readers_->expected; });
         --readers_->reading;
         if (step == readers_->bad)
             throw std::runtime_error("step " + std::to_string(step));

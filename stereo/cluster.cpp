@@ -78,7 +78,7 @@ class Cluster::Watch {
 
     /// @throws ProcessLost
     void check() {
-        const Clock::time_point now = Clock::now();
+        const Clock::time_point now = cluster_.now_();
         // If this process itself was stopped, it has missed the others' signs of life.
         if (now - last_ > kStoodStill)
             alive_ = now;
@@ -98,12 +98,13 @@ class Cluster::Watch {
     const Cluster& cluster_;
     const unsigned from_;
     ClusterLimits limits_;
-    const Clock::time_point start_ = Clock::now();
+    const Clock::time_point start_ = cluster_.now_();
     Clock::time_point alive_ = start_, last_ = start_;
 };
 
-Cluster::Cluster(index::Team& team, const ClusterLimits& limits)
-    : team_(team), inbox_(team.size()), heard_(team.size()), limits_(limits) {
+Cluster::Cluster(index::Team& team, const ClusterLimits& limits,
+                 std::function<Clock::time_point()> now)
+    : team_(team), now_(std::move(now)), inbox_(team.size()), heard_(team.size()), limits_(limits) {
     if (size() > 1)
         beating_ = std::jthread([this](const std::stop_token& stop) { beat(stop); });
     const std::string mine = host_name();
@@ -161,7 +162,7 @@ void Cluster::post(unsigned to, std::span<const std::byte> message) {
 
 std::optional<index::Team::Message> Cluster::poll() {
     while (auto message = team_.poll()) {
-        heard_[message->from] = Clock::now();
+        heard_[message->from] = now_();
         if (message->bytes.empty() || message->bytes.front() == kBeat)
             continue;
         message->bytes.erase(message->bytes.begin());

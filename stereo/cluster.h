@@ -46,9 +46,13 @@ class ProcessLost : public std::runtime_error {
 /// are. Everything that waits may throw ProcessLost.
 class Cluster final : public index::Team {
   public:
+    using Clock = std::chrono::steady_clock;
+
     /// All members must call it.
     /// @param team outlives this; use it only through this from now on
-    explicit Cluster(index::Team& team, const ClusterLimits& limits = {});
+    /// @param now the clock of the limits, asked from the thread that waits
+    explicit Cluster(index::Team& team, const ClusterLimits& limits = {},
+                     std::function<Clock::time_point()> now = Clock::now);
     ~Cluster() override;
 
     unsigned rank() const override { return team_.rank(); }
@@ -74,7 +78,6 @@ class Cluster final : public index::Team {
     std::string name_of(unsigned rank) const;
 
   private:
-    using Clock = std::chrono::steady_clock;
     class Watch;
 
     std::vector<std::byte> await(unsigned from);
@@ -83,6 +86,7 @@ class Cluster final : public index::Team {
     ClusterLimits::Duration beat_interval() const;
 
     index::Team& team_;
+    const std::function<Clock::time_point()> now_;
     std::function<void()> check_ = [] {};
     std::vector<std::string> hosts_;
     std::vector<std::deque<std::vector<std::byte>>> inbox_; ///< by rank

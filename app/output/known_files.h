@@ -19,8 +19,7 @@ enum class OutputKind : std::uint8_t {
     manual_page,
     configuration,
     recording,
-    movie, ///< in one file, or as frames in a folder
-    series ///< a file of a series that `generate` makes
+    movie ///< in one file, or as frames in a folder
 };
 
 struct Output {

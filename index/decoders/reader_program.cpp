@@ -47,6 +47,17 @@ void go_first() {
     ::close(file);
 }
 
+/// Answers that nothing is read without the fence, and waits until the program has closed the
+/// socket: were this process to end before the program asks, the program would see only that.
+void refuse(MessageSocket& socket) {
+    if (!socket.send(
+            encoded(ReaderReply(Refused{"its reader cannot be fenced in: the system refuses "
+                                        "its list of system calls (seccomp)"}))))
+        return;
+    while (socket.receive()) {
+    }
+}
+
 } // namespace
 
 int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection) {
@@ -59,10 +70,13 @@ int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection)
     }
     end_with_the_program();
     go_first();
-    if (!kReaderIsWatched)
-        fence_in();
+    const bool fenced = kReaderIsWatched || fence_in();
     try {
         MessageSocket socket{Descriptor(kReaderSocket)};
+        if (!fenced) {
+            refuse(socket);
+            ::_exit(1);
+        }
         serve(socket, decoders, collection);
     } catch (const Error&) {
         ::_exit(1); // the program knows which message it sent

@@ -60,7 +60,8 @@ struct CloseFile {
 
 using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile>;
 
-/// Sent once by the reader, before any request. @see kReaderVersion
+/// Sent once by the reader, before any request; in its place `Refused` where the reader cannot be
+/// fenced in. @see kReaderVersion
 struct Ready {
     std::string version;
 };
@@ -76,7 +77,7 @@ struct Collected {
 struct Closed {};
 /// The reply to any request that failed.
 struct Refused {
-    std::string message; ///< one line that names the file
+    std::string message; ///< one line that names the file, if one was asked for
 };
 
 using ReaderReply = std::variant<Ready, Described, SlabRead, Collected, Closed, Refused>;

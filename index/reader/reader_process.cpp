@@ -122,6 +122,8 @@ void ReaderProcess::send(const ReaderRequest& request, int attached) {
 ReaderReply ReaderProcess::reply() {
     if (!ready_) {
         const ReaderReply first = next_reply();
+        if (const auto* refused = std::get_if<Refused>(&first))
+            fail(refused->message);
         const auto* ready = std::get_if<Ready>(&first);
         if (!ready || ready->version != kReaderVersion)
             fail(fmt::format("{} is of another version, expected {}", program_, kReaderVersion));

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <latch>
 #include <random>
@@ -32,15 +34,31 @@ Bytes said(unsigned rank, unsigned round) {
     return bytes;
 }
 
+using Now = std::function<Cluster::Clock::time_point()>;
+
+/// A clock on which 10 ms pass whenever a test says so.
+class TestClock {
+  public:
+    void tick() { ++ticks_; }
+    Cluster::Clock::time_point now() const {
+        return Cluster::Clock::time_point(std::chrono::milliseconds(10 * ticks_));
+    }
+
+  private:
+    std::atomic<int> ticks_ = 0;
+};
+
 /// A member for each part, each in a thread of its own.
+/// @param now the clock of rank 0, or of all: else no time passes, and nobody is ever missed
 void play(const std::vector<std::function<void(Cluster&)>>& parts, ClusterLimits limits = {},
-          ThreadPost* post = nullptr) {
+          ThreadPost* post = nullptr, const Now& now = {}, bool of_all = false) {
+    const Now still = [] { return Cluster::Clock::time_point(); };
     ThreadPost own(static_cast<unsigned>(parts.size()));
     std::vector<std::jthread> threads;
     for (unsigned rank = 0; rank < parts.size(); ++rank)
         threads.emplace_back([&, rank] {
             ThreadTeam team(post ? *post : own, rank);
-            Cluster cluster(team, limits);
+            Cluster cluster(team, limits, now && (of_all || rank == 0) ? now : still);
             parts[rank](cluster);
         });
 }
@@ -74,10 +92,25 @@ TEST(Cluster, EverybodyGetsWhatEverybodySaysAndWhatRankZeroTells) {
 
 TEST(Cluster, AMemberThatFallsSilentIsNamedFirstByRankZero) {
     const ClusterLimits limits{ClusterLimits::Duration(0.2), ClusterLimits::Duration(60)};
+    TestClock clock; // goes on while rank 0 waits, then while rank 2 does
+    std::latch named(1);
     std::string first, second;
-    play({[&](Cluster& cluster) { first = loss(cluster); }, [](Cluster&) {},
-          [&](Cluster& cluster) { second = loss(cluster); }},
-         limits);
+    play(
+        {[&](Cluster& cluster) {
+             cluster.while_waiting([&] { clock.tick(); });
+             first = loss(cluster);
+             named.count_down();
+         },
+         [](Cluster&) {},
+         [&](Cluster& cluster) {
+             cluster.while_waiting([&] {
+                 if (named.try_wait())
+                     clock.tick();
+             });
+             second = loss(cluster);
+             EXPECT_TRUE(named.try_wait());
+         }},
+        limits, nullptr, [&] { return clock.now(); }, true);
     EXPECT_THAT(first, StartsWith("process 1 on "));
     EXPECT_THAT(first, HasSubstr(": no sign of life for "));
     EXPECT_THAT(second, StartsWith("process 0 on ")) << "who has left by then";
@@ -86,6 +119,10 @@ TEST(Cluster, AMemberThatFallsSilentIsNamedFirstByRankZero) {
 TEST(Cluster, WorkThatTakesLongIsNoSilence) {
     const ClusterLimits limits{ClusterLimits::Duration(1.0), ClusterLimits::Duration(600)};
     ThreadPost post(2);
+    // A beat of the one who works is an eighth of the silence, however long it takes here.
+    const Now by_beats = [&] {
+        return Cluster::Clock::time_point(std::chrono::milliseconds(125 * post.posted[1]));
+    };
     play({[](Cluster& cluster) { EXPECT_EQ(loss(cluster), ""); },
           [&](Cluster& cluster) {
               // Two silences long, by its own signs of life.
@@ -93,19 +130,21 @@ TEST(Cluster, WorkThatTakesLongIsNoSilence) {
                   post.posted[1].wait(beats);
               EXPECT_EQ(loss(cluster), "");
           }},
-         limits, &post);
+         limits, &post, by_beats);
 }
 
 TEST(Cluster, AMemberThatLivesButDoesNotGetOnIsNamed) {
     const ClusterLimits limits{ClusterLimits::Duration(60), ClusterLimits::Duration(0.2)};
+    TestClock clock;
     std::latch noticed(1);
     std::string said_of_it;
     play({[&](Cluster& cluster) {
+              cluster.while_waiting([&] { clock.tick(); });
               said_of_it = loss(cluster);
               noticed.count_down();
           },
           [&](Cluster&) { noticed.wait(); }},
-         limits);
+         limits, nullptr, [&] { return clock.now(); });
     EXPECT_THAT(said_of_it, StartsWith("process 1 on "));
     EXPECT_THAT(said_of_it, HasSubstr("alive, but at one thing for "));
 }

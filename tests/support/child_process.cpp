@@ -9,7 +9,6 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -39,16 +38,7 @@ std::string file_contents(const fs::path& path) {
             ::setrlimit(RLIMIT_FSIZE, &limit);
             ::signal(SIGXFSZ, SIG_IGN); // so that a write fails, without a signal
         }
-        if (options.dies_after > 0) {
-            const auto most = static_cast<std::uint64_t>(1'000'000);
-            const struct itimerval alarm {
-                {}, {
-                    static_cast<time_t>(options.dies_after / most),
-                        static_cast<suseconds_t>(options.dies_after % most)
-                }
-            };
-            ::setitimer(ITIMER_REAL, &alarm, nullptr); // stays active after exec
-        }
+        ::alarm(static_cast<unsigned>(options.dies_after.count())); // stays active after exec
         for (const std::string& variable : options.environment)
             ::putenv(const_cast<char*>(variable.c_str()));
         ::execv(program.c_str(), argv.data());

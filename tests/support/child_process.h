@@ -3,6 +3,7 @@
 
 #include "tests/support/test_folder.h"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,10 +15,10 @@ namespace isochron::app {
 using test_support::TestFolder;
 
 struct ChildOptions {
-    std::string out{};              ///< file for its stdout, which is then not in the result
-    std::uint64_t largest_file = 0; ///< [byte] limit of files, as on a full disk; 0: no limit
-    std::string interrupt_after{};  ///< send SIGINT when stderr contains this text
-    std::uint64_t dies_after = 0;   ///< [us] until an alarm kills it, whatever it does; 0: never
+    std::string out{};                  ///< file for its stdout, which is then not in the result
+    std::uint64_t largest_file = 0;     ///< [byte] limit of files, as on a full disk; 0: no limit
+    std::string interrupt_after{};      ///< send SIGINT when stderr contains this text
+    std::chrono::seconds dies_after{0}; ///< until an alarm kills it, whatever it does; 0: never
     std::vector<std::string> environment{}; ///< NAME=VALUE, beside what this process has
 };
 

@@ -1,6 +1,8 @@
 // Starts Xvfb, and sends it requests through Xlib and xdotool.
 #include "tests/support/virtual_display.h"
 
+#include "tests/support/eventually.h"
+
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
@@ -16,6 +18,34 @@
 #include <utility>
 
 namespace isochron::test_support {
+
+namespace {
+
+/// While it lives, a window that has just gone is no reason for Xlib to end the test.
+class Lost {
+  public:
+    explicit Lost(Display* display)
+        : display_(display), before_(XSetErrorHandler([](Display*, XErrorEvent*) {
+              met = true;
+              return 0;
+          })) {
+        met = false;
+    }
+    ~Lost() {
+        XSync(display_, False);
+        XSetErrorHandler(before_);
+    }
+    Lost(const Lost&) = delete;
+    Lost& operator=(const Lost&) = delete;
+
+    static inline bool met = false; ///< Xlib's handlers have no room for state
+
+  private:
+    Display* display_;
+    XErrorHandler before_;
+};
+
+} // namespace
 
 struct VirtualDisplay::Connection {
     Display* display;
@@ -41,8 +71,7 @@ struct VirtualDisplay::Connection {
     }
     /// Hands out what is dragged, until the target says this. @return false when it never does
     bool serve_dnd(const std::string& uris, const char* last_word) const {
-        constexpr int kPatience = 3000; // of 10 ms
-        for (int waited = 0; waited < kPatience; ++waited) {
+        return eventually([&] {
             while (XPending(display) > 0) {
                 XEvent event;
                 XNextEvent(display, &event);
@@ -68,11 +97,45 @@ struct VirtualDisplay::Connection {
                 XSendEvent(display, asked.requestor, False, NoEventMask, &answer);
                 XFlush(display);
             }
-            usleep(10'000);
-        }
-        return false;
+            return false;
+        });
     }
-    Window window(const std::string& title) const {
+    /// Asks a window whether its program is at work, which answers when it has taken all input
+    /// before (_NET_WM_PING). @return false when the window is gone
+    bool ping(Window window) const {
+        static long number = 0;
+        ++number;
+        bool is_gone = false;
+        const Window root = DefaultRootWindow(display);
+        XSelectInput(display, root, SubstructureNotifyMask); // answers go there
+        XEvent event{};
+        event.xclient.type = ClientMessage;
+        event.xclient.window = window;
+        event.xclient.message_type = atom("WM_PROTOCOLS");
+        event.xclient.format = 32;
+        event.xclient.data.l[0] = static_cast<long>(atom("_NET_WM_PING"));
+        event.xclient.data.l[1] = number;
+        event.xclient.data.l[2] = static_cast<long>(window);
+        XSendEvent(display, window, False, NoEventMask, &event);
+        XSync(display, False);
+        bool answers = false;
+        const bool in_time = eventually([&] {
+            while (!answers && !is_gone && XPending(display) > 0) {
+                XNextEvent(display, &event);
+                answers = event.type == ClientMessage && event.xclient.window == root &&
+                          event.xclient.data.l[1] == number;
+                is_gone = event.type == DestroyNotify && event.xdestroywindow.window == window;
+            }
+            is_gone = is_gone || Lost::met;
+            return answers || is_gone;
+        });
+        XSelectInput(display, root, NoEventMask);
+        if (!in_time)
+            throw std::runtime_error("a window does not answer");
+        return answers;
+    }
+    /// The window with this title, or the last one whose title begins so.
+    Window window(const std::string& title, bool whole = true) const {
         Window root, parent, *children = nullptr;
         unsigned count = 0;
         XQueryTree(display, DefaultRootWindow(display), &root, &parent, &children, &count);
@@ -80,7 +143,7 @@ struct VirtualDisplay::Connection {
         for (unsigned i = 0; i < count; ++i) {
             char* name = nullptr;
             if (XFetchName(display, children[i], &name) && name) {
-                if (title == name)
+                if (whole ? title == name : std::string(name).starts_with(title))
                     found = children[i];
                 XFree(name);
             }
@@ -147,15 +210,21 @@ void VirtualDisplay::xdotool(std::vector<std::string> arguments) const {
     if (refused != 0)
         throw std::runtime_error("xdotool does not start");
     // `search --sync` would wait forever for a window of a program that has died.
-    constexpr int kPatience = 6000; // of 10 ms
     int status = -1;
-    for (int waited = 0; waitpid(child, &status, WNOHANG) == 0; ++waited) {
-        if (waited == kPatience)
-            kill(child, SIGKILL);
-        usleep(10'000);
+    if (!eventually([&] { return waitpid(child, &status, WNOHANG) != 0; })) {
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
     }
     if (status != 0)
         throw std::runtime_error("xdotool " + arguments.front() + " failed");
+}
+
+void VirtualDisplay::await_frame(const std::string& begin) const {
+    const Lost lost(connection_->display);
+    // Input that the program takes along with one answer is in the frame before the next answer.
+    const Window window = connection_->window(begin, false);
+    if (connection_->ping(window))
+        connection_->ping(window);
 }
 
 void VirtualDisplay::resize_window(const std::string& title, int width, int height) const {

@@ -20,6 +20,9 @@ class VirtualDisplay {
 
     /// Input as from a real keyboard and mouse: `{"key", "a"}`, `{"mousemove", "10", "20"}`, ...
     void xdotool(std::vector<std::string> arguments) const;
+    /// Waits until the program whose window's title begins so has taken all input up to now and
+    /// drawn a frame with it, or the window is gone. Windows of GLFW can tell.
+    void await_frame(const std::string& begin) const;
     void resize_window(const std::string& title, int width, int height) const;
     /// Asks the window to close, like its close button.
     void close_window(const std::string& title) const;

@@ -1,6 +1,8 @@
 // The bar on a terminal, and its lines elsewhere.
 #include "app/command_line/progress_bar.h"
 
+#include "tests/support/eventually.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <string>
 
@@ -18,13 +21,15 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What a terminal shows up to the end of its n-th line, or what came within ten seconds: a
-/// terminal passes on what is written to it piece by piece.
+/// What a terminal shows up to the end of its n-th line: a terminal passes on what is written to it
+/// piece by piece.
 std::string lines(int terminal, std::ptrdiff_t n) {
     std::string shown;
     std::array<char, 4096> bytes{};
     pollfd ready{terminal, POLLIN, 0};
-    while (std::ranges::count(shown, '\n') < n && ::poll(&ready, 1, 10'000) == 1) {
+    constexpr auto kPatience = std::chrono::milliseconds(test_support::kPatience);
+    while (std::ranges::count(shown, '\n') < n &&
+           ::poll(&ready, 1, static_cast<int>(kPatience.count())) == 1) {
         const ssize_t size = ::read(terminal, bytes.data(), bytes.size());
         if (size <= 0)
             break;

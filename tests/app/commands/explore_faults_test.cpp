@@ -19,6 +19,7 @@ class ExploreFaults : public Faults {
         EXPECT_EQ(isochron(build_of("t[01].raw")).status, 0);
         const ChildResult explored = isochron(explore_to("walk.jsonl"));
         EXPECT_EQ(explored.status, 0) << explored.err;
+        make_twelve_frames("walk.jsonl");
     }
     static std::vector<std::string> explore_to(const std::string& recording) {
         return {"explore", "a.isochron", "--size",  "96",      "64",        "--seconds",

@@ -3,6 +3,7 @@
 
 #include "tests/support/session_fixture.h"
 
+#include "tests/support/eventually.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"
 
@@ -30,6 +31,12 @@ class Program {
         EXPECT_EQ(posix_spawn(&pid_, argv[0], nullptr, nullptr, argv.data(), environ), 0);
     }
     pid_t pid() const { return pid_; }
+    /// Whether it has not ended yet.
+    bool runs() const {
+        siginfo_t ended{};
+        return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+               ended.si_pid == 0;
+    }
     void signal(int number) const { kill(pid_, number); }
     int exit_status() const {
         int status = 0;
@@ -64,7 +71,27 @@ class ExploreTest : public testing::Test {
     }
 
     /// Escape asks, Enter says yes; each has a frame of its own, however slow.
-    void leave() { screen_.xdotool({"key", "Escape", "sleep", "0.3", "key", "Return"}); }
+    void leave() {
+        screen_.xdotool({"key", "Escape"});
+        await_frame();
+        screen_.xdotool({"key", "Return"});
+    }
+    /// Waits for a frame in which the explorer has seen all input up to now.
+    void await_frame() const { screen_.await_frame("Isochron"); }
+
+    /// Clicks, once a frame at most, until a file has this text. @return false if it never does
+    bool clicks_until(const std::string& name, const std::string& text) const {
+        return test_support::eventually([&] {
+            screen_.xdotool({"click", "1"});
+            await_frame();
+            return folder_.read(name).find(text) != std::string::npos;
+        });
+    }
+    /// Waits until a file has this text. @return false if it never does
+    bool comes(const std::string& name, const std::string& text) const {
+        return test_support::eventually(
+            [&] { return folder_.read(name).find(text) != std::string::npos; });
+    }
 
     TestFolder folder_, state_; ///< the data's, and the user's for what programs remember
     test_support::VirtualDisplay screen_;

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <thread>
 
 namespace isochron::app {
 namespace {
@@ -93,8 +92,7 @@ TEST_F(ExploreTest, EndedByASignalItLeavesAWholeRecordingUnderItsName) {
     for (const int number : {SIGTERM, SIGINT}) {
         const auto program = explore({"--record", file("walk.jsonl")});
         screen_.xdotool({"key", "2"});
-        while (folder_.read("walk.jsonl.part").find("\"fast\"") == std::string::npos)
-            std::this_thread::yield(); // the test's limit ends a hang
+        ASSERT_TRUE(comes("walk.jsonl.part", "\"fast\""));
         program->signal(number);
         EXPECT_EQ(program->exit_status(), 128 + number);
         EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
@@ -107,9 +105,7 @@ TEST_F(ExploreTest, PressingOnTheHistogramPicksAnIsovalue) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8"});
     screen_.xdotool({"mousemove_relative", "--", "-10", "-130"});
     // Each click is faster than a frame: the panel sees it all the same, once it is there at all.
-    // The test's limit ends a hang.
-    while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
-        screen_.xdotool({"click", "1", "sleep", "0.2"});
+    ASSERT_TRUE(clicks_until("walk.jsonl.part", "\"panel\":{\"isovalue\""));
     leave();
     ASSERT_EQ(program->exit_status(), 0);
     const auto recording = read_recording(file("walk.jsonl"));
@@ -128,9 +124,7 @@ TEST_F(ExploreTest, FromTheConsoleAnOperatorSteersWithThePanelAndKeys) {
     screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "console"});
     // The middle of the histogram, below the title.
     screen_.xdotool({"mousemove", "1000", "160"});
-    // The test's limit ends a hang.
-    while (folder_.read("walk.jsonl.part").find("\"panel\":{\"isovalue\"") == std::string::npos)
-        screen_.xdotool({"click", "1", "sleep", "0.2"});
+    ASSERT_TRUE(clicks_until("walk.jsonl.part", "\"panel\":{\"isovalue\""));
     // What is drawn need not be on the screen at once.
     EXPECT_TRUE(test_support::eventually([&] {
         const auto title = screen_.pixel(1150, 110);
@@ -157,9 +151,7 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
     const auto program = explore({"--screenshots", file("pictures/new"), "--isovalue", "8"});
     screen_.xdotool({"key", "p"});
     const auto picture = folder_.path() / "pictures/new/isochron_0001.png";
-    while (!std::filesystem::exists(picture))
-        screen_.xdotool(
-            {"getmouselocation"}); // the program is at work; the test's limit ends a hang
+    ASSERT_TRUE(test_support::eventually([&] { return std::filesystem::exists(picture); }));
     leave();
     EXPECT_EQ(program->exit_status(), 0);
     const render::Image image = stereo::read_image(picture);
@@ -175,12 +167,10 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
 TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheCamera) {
     const auto program =
         explore({"--config", "cave4", "--emulate", "--record", file("walk.jsonl"), "--no-panel"});
-    // The test's limit ends a hang.
     screen_.xdotool({"keydown", "c", "mousedown", "1"});
     screen_.xdotool({"mousemove_relative", "60", "20"});
     screen_.xdotool({"mouseup", "1", "keyup", "c", "key", "m"});
-    while (folder_.read("walk.jsonl.part").find("stamp-1") == std::string::npos)
-        screen_.xdotool({"getmouselocation"});
+    ASSERT_TRUE(comes("walk.jsonl.part", "stamp-1"));
     leave();
     ASSERT_EQ(program->exit_status(), 0);
     const auto recording = read_recording(file("walk.jsonl"));
@@ -222,9 +212,10 @@ TEST_F(ExploreTest, ARecordingIsReplacedOnlyWithForce) {
 
 TEST_F(ExploreTest, ASessionEndedByASignalIsKeptAndResumed) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel"});
-    screen_.xdotool({"key", "Up", "Up", "h", "keydown", "w", "sleep", "0.3", "keyup", "w"});
-    while (folder_.read("walk.jsonl.part").find("\"grid\":true") == std::string::npos)
-        screen_.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    screen_.xdotool({"key", "Up", "Up", "h", "keydown", "w"});
+    await_frame();
+    screen_.xdotool({"keyup", "w"});
+    ASSERT_TRUE(comes("walk.jsonl.part", "\"grid\":true"));
     program->signal(SIGTERM);
     ASSERT_EQ(program->exit_status(), 128 + SIGTERM);
     const auto first = read_recording(file("walk.jsonl"));
@@ -246,16 +237,12 @@ TEST_F(ExploreTest, ASessionEndedByASignalIsKeptAndResumed) {
 TEST_F(ExploreTest, ClosingTheWindowAsksWhereSomethingHasChanged) {
     const auto program = explore({"--record", file("walk.jsonl"), "--no-panel"});
     screen_.xdotool({"key", "h"});
-    while (folder_.read("walk.jsonl.part").find("\"grid\":true") == std::string::npos)
-        screen_.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    ASSERT_TRUE(comes("walk.jsonl.part", "\"grid\":true"));
     const std::string title = "Isochron: " + file("sphere.isochron");
     screen_.close_window(title);
-    while (folder_.read("walk.jsonl.part").find("\"leaving\":true") == std::string::npos)
-        screen_.xdotool({"getmouselocation"});
+    ASSERT_TRUE(comes("walk.jsonl.part", "\"leaving\":true"));
     screen_.xdotool({"key", "Escape"}); // stay
-    while (folder_.read("walk.jsonl.part").find("\"commands\":{\"leaving\":false") ==
-           std::string::npos)
-        screen_.xdotool({"getmouselocation"});
+    ASSERT_TRUE(comes("walk.jsonl.part", "\"commands\":{\"leaving\":false"));
     leave();
     EXPECT_EQ(program->exit_status(), 0);
 }
@@ -311,9 +298,7 @@ TEST_F(ExploreTest, ResumesAfterTheDataHaveGrown) {
             {"explore", file("grown.isochron"), "--step", "1", "--record", file("first.jsonl")});
         screen_.xdotool(
             {"search", "--sync", "--onlyvisible", "--name", "Isochron", "windowfocus", "key", "3"});
-        while (folder_.read("first.jsonl.part").find("\"quality\":\"quality\"") ==
-               std::string::npos)
-            std::this_thread::yield(); // the test's limit ends a hang
+        ASSERT_TRUE(comes("first.jsonl.part", "\"quality\":\"quality\""));
         first.signal(SIGTERM);
         ASSERT_EQ(first.exit_status(), 128 + SIGTERM);
     }

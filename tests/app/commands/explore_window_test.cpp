@@ -6,8 +6,8 @@
 #include "app/session/user_memory.h"
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
-#include <thread>
 
 namespace isochron::app {
 namespace {
@@ -23,6 +23,17 @@ class ExploreWindow : public ExploreTest {
         return system(
                    ("xdotool search --onlyvisible --name " + data + " > /dev/null 2>&1").c_str()) ==
                0;
+    }
+    /// Does it, once a frame at most, until these data are shown. @return false if they never are
+    bool is_shown_after(const std::string& data, const std::function<void()>& act) const {
+        return test_support::eventually([&] {
+            try {
+                act();
+                await_frame();
+            } catch (const std::runtime_error&) { // the window has just given way to another one
+            }
+            return is_shown(data);
+        });
     }
     /// The panel's title is blue, what is behind it nearly black.
     bool is_title(int x) {
@@ -43,13 +54,12 @@ TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
     const auto program = explore({});
     // The second line: the first are the data that are open. Until the list is there, nothing is
     // clicked.
-    while (!is_shown("other.isochron")) {
-        try {
-            screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320",
-                             "126", "key", "ctrl+o", "sleep", "0.4", "click", "1", "sleep", "0.4"});
-        } catch (const std::runtime_error&) { // the window has just given way to another one
-        }
-    }
+    EXPECT_TRUE(is_shown_after("other.isochron", [&] {
+        screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320",
+                         "126", "key", "ctrl+o"});
+        await_frame();
+        screen_.xdotool({"click", "1"});
+    }));
     program->signal(SIGTERM);
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
     EXPECT_EQ(UserMemory(state_.path() / "isochron").recent().front(), file("other.isochron"));
@@ -60,9 +70,10 @@ TEST_F(ExploreWindow, WithoutDataItLetsTheUserChooseSome) {
     const Program program({"explore", "--size", "640", "480", "--seconds", "300"});
     wait_for_window("Isochron: open data");
     // The first of those that were open lately; until it is there, nothing is clicked.
-    while (!is_shown("sphere.isochron"))
+    EXPECT_TRUE(is_shown_after("sphere.isochron", [&] {
         screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
-                         "%1", "320", "104", "sleep", "0.2", "click", "1", "sleep", "0.3"});
+                         "%1", "320", "104", "click", "1"});
+    }));
     program.signal(SIGTERM);
     EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
     const Program leaves({"explore", "--size", "640", "480"});
@@ -101,8 +112,7 @@ TEST_F(ExploreWindow, OfFilesWithoutAnIndexItShowsAllStepsInTheEnd) {
                            file("walk.jsonl"), "--report", file("report.json"), "--seconds",
                            "300"});
     // Until all steps are there: at the start, or as the index grows.
-    while (folder_.read("walk.jsonl.part").find("\"steps\":5") == std::string::npos)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20)); // the test's limit ends a hang
+    ASSERT_TRUE(comes("walk.jsonl.part", "\"steps\":5"));
     program.signal(SIGTERM);
     EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
     EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
@@ -125,8 +135,7 @@ TEST_F(ExploreWindow, OpensFilesOfValuesThatAreDroppedOntoIt) {
 TEST_F(ExploreWindow, EndsWithItsDisplayAndKeepsTheRecording) {
     const auto program = explore({"--record", file("walk.jsonl")});
     screen_.xdotool({"key", "2"});
-    while (folder_.read("walk.jsonl.part").find("\"fast\"") == std::string::npos)
-        std::this_thread::yield(); // the test's limit ends a hang
+    ASSERT_TRUE(comes("walk.jsonl.part", "\"fast\""));
     screen_.die();
     EXPECT_EQ(program->exit_status(), 1);
     EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());

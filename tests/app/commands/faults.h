@@ -2,10 +2,14 @@
 #pragma once
 
 #include "tests/app/commands/command_line.h"
+#include "tests/support/eventually.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <sstream>
 
 namespace isochron::app {
 
@@ -31,7 +35,7 @@ class Faults : public CommandLine {
         std::filesystem::remove(mark());
         return isochron(
             arguments,
-            {.dies_after = 60'000'000,
+            {.dies_after = test_support::kPatience,
              .environment = {"LD_PRELOAD=" + test_support::binary_root() + "/libfaulty_calls.so",
                              fmt::format("ISOCHRON_FAULT={}:{}:{}", fault.kind, at, fault.how),
                              "ISOCHRON_FAULT_MARK=" + mark()}});
@@ -90,6 +94,22 @@ class Faults : public CommandLine {
     void copy(const std::string& from, const std::string& to) {
         std::filesystem::copy_file(folder.path() / from, folder.path() / to,
                                    std::filesystem::copy_options::overwrite_existing);
+    }
+
+    /// Makes a recording one of 12 frames, all as its first one and a sixtieth of a second apart,
+    /// however many were drawn.
+    void make_twelve_frames(const std::string& recording) {
+        std::istringstream lines(folder.read(recording));
+        std::string text, first;
+        std::getline(lines, text);
+        std::getline(lines, first);
+        nlohmann::json frame = nlohmann::json::parse(first);
+        frame.erase("latched");
+        for (int i = 0; i < 12; ++i) {
+            frame["t"] = i / 60.0;
+            text += "\n" + frame.dump();
+        }
+        folder.write(recording, text + "\n");
     }
 
     /// The lines that are errors; the last must be one. Some commands first say what they do.

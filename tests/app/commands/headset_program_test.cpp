@@ -1,5 +1,6 @@
 // `isochron explore` with a headset, as a separate program.
 #include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
 #include "stereo/image_file.h"
@@ -9,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -44,10 +46,10 @@ class HeadsetProgram : public testing::Test {
         text.replace(text.find(line), line.size(), into);
         return folder_.write("hmd.toml", text).string();
     }
-    ChildResult explore(std::vector<std::string> more) {
+    ChildResult explore(std::vector<std::string> more, const ChildOptions& how = {}) {
         std::vector<std::string> arguments{"explore", file("sphere.isochron")};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path(), how);
     }
     /// Lines of the played headset's log that have this member.
     std::vector<json> logged(const char* member) const {
@@ -86,9 +88,9 @@ TEST_F(HeadsetProgram, ShowsTheDataWithoutAWindowUntilItsUserLeaves) {
 }
 
 TEST_F(HeadsetProgram, LeavesWithTheRuntimesConsentAndTellsWhatItDid) {
-    play(json::array());
-    const ChildResult result = explore({"--config", "hmd", "--context", "egl", "--seconds", "1"});
-    EXPECT_EQ(result.status, 0) << result.err;
+    play({{{"at", 60}, {"happens", "interrupt"}}});
+    const ChildResult result = explore({"--config", "hmd", "--context", "egl"});
+    EXPECT_EQ(result.status, 128 + SIGINT) << result.err;
     EXPECT_EQ(logged("violation"), std::vector<json>());
     EXPECT_THAT(result.err, HasSubstr("poses"));
 }
@@ -124,7 +126,7 @@ TEST_F(HeadsetProgram, TheWindowsAreShownWhereThatIsConfigured) {
     setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
     const std::string config = changed_config("fallback = \"wait\"", "fallback = \"window\"");
     const ChildResult result =
-        explore({"--config", config, "--size", "320", "160", "--seconds", "1"});
+        explore({"--config", config, "--size", "320", "160", "--seconds", "0.1"});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("the windows are shown instead"));
 }
@@ -132,10 +134,12 @@ TEST_F(HeadsetProgram, TheWindowsAreShownWhereThatIsConfigured) {
 TEST_F(HeadsetProgram, AMissingRuntimeIsLookedForAndTheWindowShowsTheScene) {
     test_support::VirtualDisplay screen;
     setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
+    const std::string told = "headset not there, looking for it: OpenXR: no runtime";
     const ChildResult result =
-        explore({"--config", "hmd", "--size", "320", "160", "--seconds", "1", "--isovalue", "8"});
-    EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_THAT(result.err, HasSubstr("headset not there, looking for it: OpenXR: no runtime"));
+        explore({"--config", "hmd", "--size", "320", "160", "--isovalue", "8"},
+                {.interrupt_after = told, .dies_after = test_support::kPatience});
+    EXPECT_EQ(result.status, 128 + SIGINT) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(told));
     EXPECT_EQ(result.err.find("Error ["), std::string::npos) << "the loader's own messages";
 }
 

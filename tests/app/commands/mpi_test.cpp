@@ -165,7 +165,7 @@ TEST_F(MpiBuild, AFailureOfOneProcessEndsTheJobInOneLineAndLeavesNothing) {
 ChildResult struck_job(TestFolder& folder, const std::string& signal) {
     const std::string build = test_support::binary_root() +
                               "/isochron build n?.raw --dims 96 96 96 --type u8 --lattice 256 "
-                              "--timeout 1 -o job";
+                              "--timeout 5 -o job";
     const std::string when_under_way =
         "(while kill -0 $$ && ! ls .job.????.tmp; do sleep 0.02; done; kill -" + signal +
         " $$) >/dev/null 2>&1 & exec " + build;

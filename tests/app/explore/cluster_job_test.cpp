@@ -1,5 +1,6 @@
 // The whole program as a job of several processes: they show one picture and end together.
 #include "tests/support/child_process.h"
+#include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
 #include "app/session/recording_file.h"
@@ -13,10 +14,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <functional>
 #include <future>
 #include <map>
 #include <set>
-#include <thread>
 
 namespace isochron::app {
 namespace {
@@ -215,16 +216,16 @@ TEST_F(ClusterJobTest, AKilledProcessEndsTheJob) {
 }
 
 TEST_F(ClusterJobTest, AStoppedProcessEndsTheJobWithItsName) {
-    record(small_cave("\n[cluster]\ntimeout = 1.0\n"), 20000);
+    record(small_cave(), 20000);
     const ChildResult result = job({kReplay, kReplay, struck_by("STOP", kReplay)});
     expect_one_line(result, "process 2 on ", "no sign of life for ");
-    // Nobody is left behind; mpirun may take a moment. The test's limit ends a hang.
-    while (kill(std::stoi(folder_.read("struck")), 0) == 0)
-        std::this_thread::yield();
+    const pid_t struck = std::stoi(folder_.read("struck"));
+    EXPECT_TRUE(test_support::eventually([&] { return kill(struck, 0) != 0; }))
+        << "nobody is left behind; mpirun may take a moment";
 }
 
 TEST_F(ClusterJobTest, AStoppedFirstProcessIsNamedByOneOfTheOthers) {
-    record(small_cave("\n[cluster]\ntimeout = 1.0\n"), 20000);
+    record(small_cave(), 20000);
     const ChildResult result = job({struck_by("STOP", kReplay), kReplay, kReplay});
     expect_one_line(result, "process 0 on ", "no sign of life for ");
 }
@@ -325,19 +326,19 @@ TEST_F(ClusterJobTest, InWindowsEveryProcessShowsItsOwnAndAllLeaveTogether) {
     const std::string explore = "$isochron explore sphere.isochron --config lab.toml --no-panel "
                                 "--record walk.jsonl --report timing.json";
     auto ended = std::async(std::launch::async, [&] { return job(2, explore); });
-    const auto wait_for = [&](const std::string& file) {
-        while (!std::filesystem::exists(folder_.path() / file))
-            screen.xdotool({"getmouselocation"}); // the test's limit ends a hang
+    const auto comes = [&](const std::function<bool()>& it) {
+        EXPECT_TRUE(test_support::eventually(it));
+    };
+    const auto has = [&](const char* name) {
+        return std::filesystem::exists(folder_.path() / name);
     };
     screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron.*floor"});
     screen.xdotool(
         {"search", "--sync", "--onlyvisible", "--name", "Isochron.*left", "windowfocus"});
     screen.xdotool({"key", "p"});
-    wait_for("isochron_0001_front.png");
-    wait_for("isochron_0001_floor.png");
+    comes([&] { return has("isochron_0001_front.png") && has("isochron_0001_floor.png"); });
     screen.xdotool({"key", "space"}); // time runs: every frame may bring other cells
-    while (folder_.read("walk.jsonl.part").find("\"step\":3") == std::string::npos)
-        screen.xdotool({"getmouselocation"});
+    comes([&] { return folder_.read("walk.jsonl.part").find("\"step\":3") != std::string::npos; });
     screen.close_window("Isochron: sphere.isochron: floor");
     const ChildResult result = ended.get();
     EXPECT_EQ(result.status, 0) << result.err;

@@ -9,8 +9,6 @@
 
 #include <gmock/gmock.h>
 
-#include <thread>
-
 namespace isochron::app {
 namespace {
 
@@ -31,6 +29,12 @@ class KeptIndex : public testing::Test {
     std::size_t count() const {
         return static_cast<std::size_t>(
             std::distance(fs::directory_iterator(cache_), fs::directory_iterator()));
+    }
+
+    /// Gives a file another time of writing, however coarse the clock of the file system is.
+    void make_later(const std::string& name) const {
+        const fs::path file = folder_.path() / name;
+        fs::last_write_time(file, fs::last_write_time(file) + std::chrono::seconds(7));
     }
 
     TestFolder folder_;
@@ -63,8 +67,8 @@ TEST_F(KeptIndex, IsMadeOnceForTheSameFilesAndOptions) {
 TEST_F(KeptIndex, IsMadeAgainWhereAFileWasWrittenTo) {
     const fs::path first = kept(arguments_);
     const auto hash = index::IndexFile::open(first)->content_hash();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // another time of writing
     write('b');
+    make_later("t.raw");
     EXPECT_EQ(kept(arguments_), first);
     EXPECT_NE(index::IndexFile::open(first)->content_hash(), hash);
     EXPECT_EQ(index::IndexFile::open(first)->stats().low, 'b');
@@ -136,8 +140,8 @@ TEST_F(LargeKeptIndex, HasItsFirstStepSoonAndGoesOnWhereItEnded) {
 
 TEST_F(LargeKeptIndex, IsBegunAnewWhereAFileWasWrittenToInBetween) {
     EXPECT_THAT(held(2), testing::ElementsAre(1, 2));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // another time of writing
     folder_.write("s0.raw", std::string(kBytes, 'z'));
+    make_later("s0.raw");
     EXPECT_THAT(held(100), testing::ElementsAre(1, 2, 4, 5));
     EXPECT_EQ(index::IndexFile::open(path_)->stats().high, 'z');
 }

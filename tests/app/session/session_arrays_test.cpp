@@ -2,6 +2,7 @@
 #include "app/session/replay.h"
 #include "index/error.h"
 #include "interaction/input/actions.h"
+#include "tests/support/eventually.h"
 #include "tests/support/nearness_series.h"
 #include "tests/support/session_fixture.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -147,17 +149,19 @@ TEST_P(SessionArrays, FramesGoOnWhileTheCellsOfTheNewArrayAreSearched) {
     Session session(small_config(), both_, *context_);
     session.frame(head_at_rest(0), {}, Waiting::for_cells);
     Commands there = session.way_to_array(1);
-    for (int frame = 1;; ++frame) { // the last good picture stays until the new one is there
+    int frame = 0;
+    // The last good picture stays until the new one is there.
+    EXPECT_TRUE(test_support::eventually([&] {
         const FrameReport& report =
-            session.frame(head_at_rest(frame / 60.0), there, Waiting::never);
-        there = {};
-        ASSERT_TRUE(report.shown);
-        ASSERT_GT(report.cells, 0u);
+            session.frame(head_at_rest(++frame / 60.0), std::exchange(there, {}), Waiting::never);
+        EXPECT_TRUE(report.shown);
+        EXPECT_GT(report.cells, 0u);
         EXPECT_EQ(report.asked.array, 1u);
-        if (report.shown->array == 1)
-            break;
+        if (!report.shown || report.shown->array == 1)
+            return true;
         EXPECT_NE(report.shown->isovalues, report.asked.isovalues);
-    }
+        return false;
+    }));
     EXPECT_EQ(session.failure(), "");
 }
 

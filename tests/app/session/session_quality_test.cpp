@@ -1,7 +1,7 @@
 // The quality of a session: by measurement when live, by pace only in a fixed-step replay; captures
 // wait for it.
+#include "tests/app/session/quality_session.h"
 #include "tests/support/eventually.h"
-#include "tests/support/session_fixture.h"
 
 #include "app/session/replay.h"
 #include "stereo/image_file.h"
@@ -18,55 +18,15 @@ namespace {
 using interaction::Commands;
 using interaction::QualityMode;
 using render::Footprint;
-
-constexpr double kRate = 60; ///< [Hz] of the frames' clock, which is the tests'
-
-class SessionQuality : public SessionTest {
-  protected:
-    static constexpr double kPlenty = 1000, kNothing = 1e-6; // ms: any frame fits, none does
-
-    Config config_with(double budget_ms) const {
-        Config config = small_config();
-        config.rendering.frame_rate_limit = kRate;
-        config.quality.frame_budget_ms = budget_ms;
-        config.quality.still_budget_ms = 0;
-        return config;
-    }
-    interaction::Seconds now() const { return interaction::Seconds(frame_ / kRate); }
-
-    /// Frames with a head at rest.
-    FrameReport rest(Session& session, int frames, const Commands& first = {}) {
-        FrameReport report;
-        for (int i = 0; i < frames; ++i, ++frame_)
-            report = session.frame(head_at_rest(now().count()), i == 0 ? first : Commands{},
-                                   Waiting::never);
-        return report;
-    }
-    /// Frames with a head that walks.
-    FrameReport walk(Session& session, int frames, const Commands& first = {}) {
-        FrameReport report;
-        for (int i = 0; i < frames; ++i, ++frame_) {
-            interaction::InputState input = head_at_rest(now().count());
-            input.devices[0].pose->position.x = static_cast<float>(0.5 * now().count());
-            report = session.frame(input, i == 0 ? first : Commands{}, Waiting::never);
-        }
-        return report;
-    }
-    /// Starts with cells on the screen.
-    void start(Session& session) {
-        session.frame(head_at_rest(now().count()), {}, Waiting::for_cells);
-        ++frame_;
-    }
-    bool captured(Session& session) const {
-        session.outputs().pictures().finish();
-        return std::filesystem::exists(folder_.path() / "isochron_0001.png");
-    }
-    int frame_ = 0;
-};
+using test_support::eventually;
 
 INSTANTIATE_TEST_SUITE_P(Contexts, SessionQuality,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);
+
+bool is_best(const FrameReport& frame) {
+    return frame.final && frame.footprint == render::kBestFootprint;
+}
 
 std::ptrdiff_t frames_with(const Session& session, Footprint footprint) {
     return std::ranges::count(session.log().frames(), footprint, &FrameReport::footprint);
@@ -76,7 +36,8 @@ TEST_P(SessionQuality, WithinTheBudgetASettledPictureEndsAtTheBestAndIsThenLeftA
     Session session(config_with(kPlenty), file_, *context_);
     start(session);
     EXPECT_EQ(walk(session, 20).reason, QualityReason::moving);
-    const FrameReport report = rest(session, 120);
+    rest_until(session, is_best);
+    const FrameReport report = rest(session, 60);
     EXPECT_EQ(report.footprint, render::kBestFootprint);
     EXPECT_EQ(report.reason, QualityReason::fits);
     EXPECT_TRUE(report.final);
@@ -88,14 +49,13 @@ TEST_P(SessionQuality, WithinTheBudgetASettledPictureEndsAtTheBestAndIsThenLeftA
 TEST_P(SessionQuality, OverTheBudgetASettledPictureGoesBackToQuadsAndSaysWhy) {
     Session session(config_with(kNothing), file_, *context_);
     start(session);
-    rest(session, 60);
-    EXPECT_GT(frames_with(session, Footprint::gaussian), 0) << "it is not known before";
-    rest(session, 6000);
-    EXPECT_GT(frames_with(session, Footprint::quad), 5900);
-    const auto& frames = session.log().frames();
-    EXPECT_TRUE(std::ranges::any_of(frames, [](const FrameReport& frame) {
+    rest_until(session, [](const FrameReport& frame) {
         return frame.reason == QualityReason::over_budget && frame.final && frame.better;
-    }));
+    });
+    EXPECT_GT(frames_with(session, Footprint::gaussian), 0) << "it is not known before";
+    const auto before = frames_with(session, Footprint::quad);
+    rest(session, 6000);
+    EXPECT_GT(frames_with(session, Footprint::quad) - before, 5900);
 }
 
 TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
@@ -103,8 +63,8 @@ TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
     config.quality.still_budget_ms = kPlenty;
     Session session(config, file_, *context_);
     start(session);
-    rest(session, 10);
-    FrameReport report = rest(session, 100);
+    rest_until(session, is_best);
+    FrameReport report = rest(session, 60);
     EXPECT_EQ(report.footprint, render::kBestFootprint);
     EXPECT_TRUE(report.final);
     EXPECT_EQ(report.reason, QualityReason::in_slices);
@@ -164,7 +124,7 @@ TEST_P(SessionQuality, AHeadThatSwaysEndsAtTheExactSurfaceThoughItIsGuessedTooDe
         }
         return report.footprint == Footprint::surface;
     };
-    EXPECT_TRUE(test_support::eventually(sways));
+    EXPECT_TRUE(eventually(sways));
     EXPECT_EQ(report.pace, interaction::Pace::settled);
     EXPECT_EQ(frames_with(session, Footprint::gaussian), 0) << "which may take too long";
     sways();
@@ -184,10 +144,12 @@ TEST_P(SessionQuality, AHeadThatSwaysEndsAtTheExactSurfaceThoughItIsGuessedTooDe
 TEST_P(SessionQuality, TimesOfTheGpuReachTheReport) {
     Session session(config_with(kPlenty), file_, *context_);
     start(session);
-    walk(session, 200);
     const auto& frames = session.log().frames();
-    EXPECT_GT(
-        std::ranges::count_if(frames, [](const auto& frame) { return frame.gpu.has_value(); }), 20);
+    EXPECT_TRUE(eventually([&] {
+        walk(session, 20);
+        return std::ranges::count_if(frames,
+                                     [](const auto& frame) { return frame.gpu.has_value(); }) > 20;
+    }));
     EXPECT_GT(session.log().known(&FrameReport::gpu).median, 0);
 }
 
@@ -201,20 +163,16 @@ TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest)
     start(session);
     const std::uint32_t before = session.log().frames().back().shown->step;
     const auto first = session.log().frames().size();
-    while (session.log().frames().back().shown->step == before) {
-        Commands commands;
-        commands.step = before + 1;
-        walk(session, 1, commands);
-    }
+    Commands commands;
+    commands.step = before + 1;
+    ASSERT_TRUE(eventually([&] { return walk(session, 1, commands).shown->step != before; }));
     walk(session, 5);
     const auto& frames = session.log().frames();
     std::uint64_t in_motion = 0;
     for (auto i = first; i < frames.size(); ++i)
         in_motion += frames[i].uploaded.brick_bytes;
     EXPECT_EQ(in_motion == 0, follows);
-    const FrameReport& report = rest(session, 120);
-    EXPECT_EQ(report.footprint, render::kBestFootprint);
-    EXPECT_TRUE(report.final);
+    rest_until(session, is_best);
     const auto sending = std::ranges::count_if(
         frames, [](const auto& frame) { return frame.uploaded.brick_bytes > 0; });
     EXPECT_GT(sending, 2);
@@ -236,7 +194,9 @@ TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
     {
         Session session(config, file_, *context_);
         start(session);
-        EXPECT_EQ(rest(session, 120).footprint, Footprint::surface);
+        rest_until(session, [](const FrameReport& frame) {
+            return frame.footprint == Footprint::surface && frame.final;
+        });
         EXPECT_EQ(mesh_bytes(session) > 0,
                   std::ranges::any_of(session.log().frames(), [](const FrameReport& frame) {
                       return frame.footprint == Footprint::mesh;
@@ -253,9 +213,9 @@ TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
         config.memory.mesh_megabytes = megabytes;
         Session session(config, file_, *context_);
         start(session);
-        FrameReport report = rest(session, 60);
-        for (int i = 0; i < 20000 && !report.final; ++i) // the worker takes its time
-            report = rest(session, 1);
+        rest(session, 60);
+        const FrameReport report =
+            rest_until(session, [](const FrameReport& frame) { return frame.final; });
         const bool meshed = makes && megabytes > 0;
         EXPECT_EQ(report.footprint, meshed ? Footprint::mesh : Footprint::gaussian);
         EXPECT_TRUE(report.final);
@@ -285,8 +245,8 @@ TEST_P(SessionQuality, WhatIsConfiguredForASettledPictureIsTaken) {
     config.quality.settled = Footprint::gaussian;
     Session session(config, file_, *context_);
     start(session);
-    const FrameReport report = rest(session, 60);
-    EXPECT_EQ(report.footprint, Footprint::gaussian);
+    const FrameReport report = rest_until(
+        session, [](const FrameReport& frame) { return frame.footprint == Footprint::gaussian; });
     EXPECT_EQ(report.reason, QualityReason::configured);
 }
 
@@ -298,8 +258,8 @@ TEST_P(SessionQuality, ACaptureInMotionIsTakenOnceThePictureIsSettled) {
     capture.screenshot = true;
     EXPECT_EQ(walk(session, 60, capture).pace, interaction::Pace::moving);
     EXPECT_FALSE(captured(session));
-    rest(session, 120);
-    ASSERT_TRUE(captured(session));
+    rest_until(session, [&](const FrameReport&) { return captured(session); });
+    rest(session, 60);
     // The settled picture, which nothing has changed since.
     session.outputs().kept_pictures().each([&](std::size_t, const stereo::Display& display) {
         EXPECT_EQ(stereo::read_image(folder_.path() / "isochron_0001.png").rgba,
@@ -316,7 +276,7 @@ TEST_P(SessionQuality, ACaptureOfWhatDoesNotFitIsTakenAtWhatDoes) {
     capture.screenshot = true;
     rest(session, 60, capture);
     // The trial of a mesh waits for one, which is made in the background.
-    EXPECT_TRUE(test_support::eventually([&] {
+    EXPECT_TRUE(eventually([&] {
         rest(session, 10);
         return captured(session);
     }));
@@ -368,12 +328,14 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     to_step_1.step = 1;
     to_step_1.screenshot = true;
     const std::size_t first = session.log().frames().size();
-    const FrameReport report = rest(session, static_cast<int>(2 * kRate), to_step_1);
-    EXPECT_EQ(report.shown->step, 0u);
-    EXPECT_EQ(report.footprint, render::kBestFootprint) << "of the cells that are there";
-    EXPECT_FALSE(captured(session)) << "these are not the cells that were asked for";
+    rest(session, static_cast<int>(2 * kRate), to_step_1);
     const auto& frames = session.log().frames();
     EXPECT_EQ(frames.size() - first, 2 * kRate);
+    const FrameReport report = rest_until(session, [](const FrameReport& frame) {
+        return frame.footprint == render::kBestFootprint;
+    }); // of the cells that are there
+    EXPECT_EQ(report.shown->step, 0u);
+    EXPECT_FALSE(captured(session)) << "these are not the cells that were asked for";
     EXPECT_EQ(session.log().missed(), 0u);
     EXPECT_TRUE(std::ranges::all_of(
         frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
@@ -381,8 +343,8 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     release.set_value();
     session.frame(head_at_rest(now().count()), {}, Waiting::for_cells);
     ++frame_;
-    EXPECT_EQ(rest(session, 60).shown->step, 1u);
-    EXPECT_TRUE(captured(session));
+    EXPECT_EQ(rest(session, 1).shown->step, 1u);
+    rest_until(session, [&](const FrameReport&) { return captured(session); });
 }
 
 TEST_P(SessionQuality, RefreshesWithoutAFrameAreCounted) {

@@ -1,12 +1,12 @@
 // What a picture at rest comes to: all cells, from pictures that only get better.
 #include "tests/app/session/large_session.h"
+#include "tests/support/gate.h"
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <random>
 #include <stop_token>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -52,12 +52,13 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
     Config config = config_with(1e-6);
     config.quality.still_budget_ms = 1e-6; // a piece in each frame
     const auto second_picture = [&](bool in_the_midst) {
-        std::atomic<bool> wait = true, found = false;
+        test_support::Gate at_rest;
+        std::atomic<bool> found = false;
         const index::Extract real = extract();
         const index::Extract controlled = [&](const index::SurfacesQuery& query,
                                               std::stop_token stop) -> index::ExtractionPtr {
-            while (query.detail.at_rest && wait && !stop.stop_requested())
-                std::this_thread::yield();
+            if (query.detail.at_rest)
+                at_rest.pass(stop);
             if (!query.detail.at_rest)
                 return real(query, stop);
             const index::ExtractionPtr set = with_cells(real, 20'000, query, stop);
@@ -77,7 +78,7 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
             report = frame(session, false);
         EXPECT_NE(made(), in_the_midst);
         const std::uint64_t cells = report.cells;
-        wait = false;
+        at_rest.open();
         EXPECT_TRUE(test_support::eventually([&] { return found.load(); }));
         EXPECT_TRUE(test_support::eventually([&] {
             report = frame(session, false);
@@ -236,12 +237,13 @@ TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheS
 TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
     const index::Extract real = extract();
     constexpr std::uint64_t kMany = 3 * kFew / 2;
-    std::atomic<bool> stalls = false, hold = false, held = false, rest_waits = true;
+    std::atomic<bool> stalls = false, hold = false, held = false;
+    test_support::Gate at_rest;
     std::atomic<std::uint64_t> late = 0; // cells
     // One that has just been found when it is no longer wanted cannot be stopped.
     const index::Extract controlled = [&](const index::SurfacesQuery& query, std::stop_token stop) {
-        while (query.detail.at_rest && late > 0 && rest_waits && !stop.stop_requested())
-            std::this_thread::yield();
+        if (query.detail.at_rest && late > 0)
+            at_rest.pass(stop);
         if (query.detail.at_rest || query.detail.most_cells >= kMany || !hold)
             return real(query, std::move(stop));
         held = true;
@@ -275,7 +277,7 @@ TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {
     EXPECT_LT(late, many);
     for (int i = 0; i < 30; ++i)
         EXPECT_EQ(frame(session, false).cells, many) << i;
-    rest_waits = false;
+    at_rest.open();
     std::uint64_t most = many;
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);

@@ -7,7 +7,9 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -27,8 +29,15 @@ bool refused(long result) {
 
 /// The number of the first claim that does not hold; 0 when all do.
 int first_that_fails(const std::string& file) {
-    if (!fence_in())
+    const int open = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (open < 0 || !fence_in())
         return 1;
+    struct rlimit limit {};
+    ::getrlimit(RLIMIT_CPU, &limit);
+    const f_owner_ex owner{F_OWNER_PID, ::getppid()};
+    struct flock lock {};
+    lock.l_type = F_RDLCK;
+    int on = 1;
     char name[] = "true";
     char* const arguments[]{name, nullptr};
     int claim = 2;
@@ -45,8 +54,27 @@ int first_that_fails(const std::string& file) {
              refused(::chmod(file.c_str(), 0)),
              refused(::execv("/bin/true", arguments)),
              refused(::kill(::getppid(), 0)),
+             refused(::prlimit(::getppid(), RLIMIT_CPU, nullptr, &limit)),
+             refused(::prlimit(::getppid(), RLIMIT_CPU, &limit, nullptr)),
+             refused(::fcntl(open, F_SETOWN, ::getppid())),
+             refused(::fcntl(open, F_SETOWN_EX, &owner)),
+             refused(::fcntl(open, F_SETSIG, SIGKILL)),
+             refused(::fcntl(open, F_SETFL, O_ASYNC)),
+             refused(::fcntl(open, F_SETFL, O_ASYNC | O_NONBLOCK)),
+             refused(::ioctl(open, FIOASYNC, &on)),
+             refused(::ioctl(open, FIOSETOWN, &owner.pid)),
+             refused(::fcntl(open, F_SETLEASE, F_RDLCK)),
+             refused(::fcntl(open, F_SETLK, &lock)),
+             refused(::fcntl(open, F_NOTIFY, DN_MODIFY)),
              refused(::fork()),
              ::open(file.c_str(), O_RDONLY) >= 0,
+             ::getrlimit(RLIMIT_CPU, &limit) == 0,
+             ::setrlimit(RLIMIT_CPU, &limit) == 0,
+             ::prlimit(0, RLIMIT_CPU, &limit, nullptr) == 0,
+             ::fcntl(open, F_GETFD) == FD_CLOEXEC,
+             ::fcntl(open, F_SETFD, FD_CLOEXEC) == 0,
+             ::fcntl(open, F_SETFL, ::fcntl(open, F_GETFL) | O_NONBLOCK) == 0,
+             ::fcntl(open, F_DUPFD_CLOEXEC, 0) >= 0,
              ::mmap(nullptr, 1 << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
                  MAP_FAILED,
          }) {

@@ -1,5 +1,8 @@
 // The extraction thread: the newest query wins; prefetch and failures; it never blocks the caller.
 #include "index/extraction/extractor.h"
+#include "tests/index/extraction/held_extraction.h"
+#include "tests/support/eventually.h"
+#include "tests/support/gate.h"
 #include "tests/support/test_field.h"
 
 #include <gtest/gtest.h>
@@ -8,54 +11,14 @@
 #include <atomic>
 #include <future>
 #include <latch>
-#include <map>
-#include <mutex>
 #include <random>
-#include <semaphore>
 #include <thread>
 #include <vector>
 
 namespace isochron::index {
 namespace {
 
-using namespace std::chrono_literals;
-
-ExtractionPtr empty_extraction(const SurfacesQuery& query) {
-    auto extraction = std::make_shared<Extraction>();
-    extraction->query = query;
-    return extraction;
-}
-
-/// An extraction whose runs the test holds and lets go one by one.
-class HeldExtraction {
-  public:
-    /// Obedient: a stopped run returns nothing, as the real one does.
-    explicit HeldExtraction(bool obedient = true) : obedient_(obedient) {}
-
-    Extract extract() {
-        return [this](const SurfacesQuery& query, const std::stop_token& stop) -> ExtractionPtr {
-            {
-                const std::scoped_lock lock(mutex_);
-                ++calls_[query.step];
-            }
-            started_.release();
-            release_.acquire();
-            return obedient_ && stop.stop_requested() ? nullptr : empty_extraction(query);
-        };
-    }
-    void wait_until_started() { started_.acquire(); }
-    void let_go(int runs = 1) { release_.release(runs); }
-    int calls(std::uint32_t step) {
-        const std::scoped_lock lock(mutex_);
-        return calls_[step];
-    }
-
-  private:
-    bool obedient_;
-    std::mutex mutex_;
-    std::map<std::uint32_t, int> calls_;
-    std::counting_semaphore<> started_{0}, release_{0};
-};
+using test_support::eventually;
 
 TEST(Extractor, AnswersWhatIsAsked) {
     Extractor extractor(
@@ -171,11 +134,11 @@ TEST(Extractor, APrefetchGivesWayToARequest) {
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{9, {2.0}}));
 }
 
-void wait_until_at_hand(const Extractor& extractor, std::uint32_t step) {
-    for (bool there = false; !there; std::this_thread::yield()) {
+bool comes_to_hand(const Extractor& extractor, std::uint32_t step) {
+    return eventually([&] {
         const auto at_hand = extractor.at_hand();
-        there = std::ranges::find(at_hand, step) != at_hand.end();
-    }
+        return std::ranges::find(at_hand, step) != at_hand.end();
+    });
 }
 
 TEST(Extractor, WhatIsAtHandIsNotReplacedByAnOlderSearch) {
@@ -192,7 +155,7 @@ TEST(Extractor, WhatIsAtHandIsNotReplacedByAnOlderSearch) {
     extractor.request({.query = {1, {1.0}}, .ahead = {}});
     EXPECT_EQ(extractor.newest()->query.step, 1u);
     held.let_go();
-    wait_until_at_hand(extractor, 3);
+    ASSERT_TRUE(comes_to_hand(extractor, 3));
     EXPECT_EQ(extractor.newest()->query.step, 1u);
     extractor.request({.query = {4, {1.0}}, .ahead = {}});
     held.wait_until_started();
@@ -208,17 +171,16 @@ TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
     for (std::uint32_t step = 0; step < 50; ++step) {
         extractor.request({.query = {step, {1.0 + step}}, .ahead = StepsAhead{100 + step}});
         extractor.wait();
-        while (step == 0 && held.calls(100) == 0) // nothing says that it is dragged
-            std::this_thread::yield();
+        if (step == 0) {
+            ASSERT_TRUE(held.is_searched(100)) << "nothing says that it is dragged";
+        }
     }
-    std::this_thread::sleep_for(20ms);
+    ASSERT_TRUE(eventually([&] { return held.worker_rests(); }));
     for (std::uint32_t step = 1; step < 50; ++step)
         EXPECT_EQ(held.calls(100 + step), 0);
     // Held still, at the same step or at the next.
     const auto expect_prefetch_of = [&](std::uint32_t step) {
-        const auto end = std::chrono::steady_clock::now() + 10s;
-        while (held.calls(step) == 0 && std::chrono::steady_clock::now() < end)
-            std::this_thread::yield();
+        EXPECT_TRUE(held.is_searched(step));
         EXPECT_EQ(held.calls(step), 1);
     };
     extractor.request({.query = {49, {50.0}}, .ahead = StepsAhead{149}});
@@ -323,8 +285,7 @@ TEST(Extractor, DestructionStopsTheSearchAndJoins) {
         Extractor extractor(
             [&](const SurfacesQuery&, const std::stop_token& stop) -> ExtractionPtr {
                 started.count_down();
-                while (!stop.stop_requested())
-                    std::this_thread::yield();
+                test_support::Gate().pass(stop);
                 ended = true;
                 return nullptr;
             });

@@ -1,17 +1,20 @@
 // Prefetching: steps are made before a playback asks for them, as far as there is room.
 #include "index/extraction/extractor.h"
+#include "tests/support/eventually.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
 namespace isochron::index {
 namespace {
+
+using test_support::eventually;
 
 /// Extractions of some bytes, at once; which steps were made, in order.
 class SizedExtraction {
@@ -22,8 +25,11 @@ class SizedExtraction {
             auto extraction = std::make_shared<Extraction>();
             extraction->query = query;
             extraction->bricks.bytes.resize(bytes_);
-            const std::scoped_lock lock(mutex_);
-            steps_.push_back(query.step);
+            {
+                const std::scoped_lock lock(mutex_);
+                steps_.push_back(query.step);
+            }
+            came_.notify_all();
             return extraction;
         };
     }
@@ -32,19 +38,21 @@ class SizedExtraction {
         return steps_;
     }
     /// Waits until so many steps were made and are at hand.
-    void wait_for(const Extractor& extractor, std::size_t made) {
-        while (steps().size() < made)
-            std::this_thread::yield();
-        const std::uint32_t last = steps().back();
-        for (bool there = false; !there; std::this_thread::yield()) {
+    void await(const Extractor& extractor, std::size_t made) {
+        std::unique_lock lock(mutex_);
+        ASSERT_TRUE(test_support::is_told(came_, lock, [&] { return steps_.size() >= made; }));
+        const std::uint32_t last = steps_.back();
+        lock.unlock();
+        ASSERT_TRUE(eventually([&] {
             const auto at_hand = extractor.at_hand();
-            there = std::ranges::find(at_hand, last) != at_hand.end();
-        }
+            return std::ranges::find(at_hand, last) != at_hand.end();
+        }));
     }
 
   private:
     std::size_t bytes_;
     std::mutex mutex_;
+    std::condition_variable came_;
     std::vector<std::uint32_t> steps_;
 };
 
@@ -53,18 +61,18 @@ TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
     SizedExtraction made(kBytes);
     Extractor extractor(made.extract(), 5 * kBytes + kBytes / 2);
     extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
-    made.wait_for(extractor, 6);
+    made.await(extractor, 6);
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 9}));
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3}));
     extractor.request({.query = {9, {1.0}}, .ahead = StepsAhead{0, 10}});
     EXPECT_EQ(extractor.newest()->query.step, 9u) << "at once";
     EXPECT_FALSE(extractor.busy());
-    made.wait_for(extractor, 7);
+    made.await(extractor, 7);
     EXPECT_EQ(made.steps().back(), 4u);
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
     // Backwards, what is nearest comes first.
     extractor.request({.query = {7, {1.0}}, .ahead = StepsAhead{6, 10, true}});
-    made.wait_for(extractor, 10);
+    made.await(extractor, 10);
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3, 4, 7, 6, 5}));
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{2, 3, 4, 5, 6}));
 }
@@ -92,11 +100,11 @@ TEST(Prefetch, WithoutRoomIsOfTheNextStepAlone) {
     SizedExtraction made(1000);
     Extractor extractor(made.extract());
     extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
-    made.wait_for(extractor, 2);
+    made.await(extractor, 2);
     for (std::uint32_t step = 9; step < 30; ++step) {
         extractor.request({.query = {step % 10, {1.0}}, .ahead = StepsAhead{(step + 1) % 10, 10}});
         EXPECT_EQ(extractor.newest()->query.step, step % 10);
-        made.wait_for(extractor, step - 6);
+        made.await(extractor, step - 6);
         EXPECT_EQ(made.steps().back(), (step + 1) % 10);
         EXPECT_LE(extractor.at_hand().size(), 3u);
     }
@@ -117,10 +125,10 @@ TEST(Prefetch, OfAStepThatFailsEndsThere) {
         },
         1 << 20);
     extractor.request({.query = {1, {1.0}}, .ahead = StepsAhead{2, 6}});
-    for (bool tried = false; !tried; std::this_thread::yield()) {
+    ASSERT_TRUE(eventually([&] {
         const std::scoped_lock lock(mutex);
-        tried = !asked.empty() && asked.back() == 3;
-    }
+        return !asked.empty() && asked.back() == 3;
+    }));
     extractor.request({.query = {2, {1.0}}, .ahead = {}});
     EXPECT_EQ(extractor.newest()->query.step, 2u);
     EXPECT_FALSE(extractor.failure());

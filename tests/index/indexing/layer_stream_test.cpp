@@ -4,6 +4,7 @@
 #include "index/indexing/index_build.h"
 #include "index/indexing/layer_stream.h"
 #include "index/indexing/level_choice.h"
+#include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -97,8 +97,8 @@ class SharedSeries final : public MemorySeries {
         readers_->most = std::max(readers_->most, ++readers_->reading);
         readers_->came.notify_all();
         // Until as many as expected have read at the same time; who reads alone gives up.
-        readers_->came.wait_for(lock, std::chrono::seconds(20),
-                                [&] { return readers_->most >= readers_->expected; });
+        test_support::is_told(readers_->came, lock,
+                              [&] { return readers_->most >= readers_->expected; });
         --readers_->reading;
         if (step == readers_->bad)
             throw std::runtime_error("step " + std::to_string(step));

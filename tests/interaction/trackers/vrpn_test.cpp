@@ -2,6 +2,7 @@
 #include "interaction/trackers/vrpn_input.h"
 
 #include "tests/interaction/controls/control_desk.h"
+#include "tests/support/eventually.h"
 
 #include <vrpn_Analog.h>
 #include <vrpn_Button.h>
@@ -91,9 +92,10 @@ TEST(VrpnInput, PosesButtonsAndValuatorsArriveAndRestWhenTheServerGoes) {
         } while (wand.buttons != 0);
         EXPECT_NE(input.status()[0].find(": connected"), std::string::npos);
     }
-    do
+    EXPECT_TRUE(test_support::eventually([&] {
         wand = *input.poll(session.now()).find("wand");
-    while (wand.tracking() != Tracking::lost);
+        return wand.tracking() == Tracking::lost;
+    }));
     expect_near(wand.pose->position, {0.3, 1.5, -0.5}, 0.051);
 }
 

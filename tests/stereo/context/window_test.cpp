@@ -2,12 +2,12 @@
 #include "stereo/display.h"
 #include "stereo/loading_picture.h"
 #include "tests/stereo/each_eye.h"
+#include "tests/support/eventually.h"
 #include "tests/support/virtual_display.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <optional>
@@ -16,7 +16,6 @@ namespace isochron::stereo {
 namespace {
 
 using namespace interaction;
-using std::chrono::steady_clock;
 
 constexpr glm::ivec2 kPosition{100, 50}, kSize{640, 480};
 
@@ -28,14 +27,11 @@ class WindowTest : public testing::Test {
     }
     /// Polls until the condition holds; the X server answers when it likes, a loaded one late.
     bool eventually(GlContext& context, const std::function<bool()>& holds) {
-        const auto deadline = steady_clock::now() + std::chrono::minutes(5);
-        while (!holds()) {
-            if (steady_clock::now() > deadline)
-                return false;
+        return test_support::eventually([&] {
             for (const WindowEvent& event : context.poll_events())
                 events_.push_back(event);
-        }
-        return true;
+            return holds();
+        });
     }
     template <typename Event>
     std::vector<Event> received(const std::function<bool(const Event&)>& wanted) const {

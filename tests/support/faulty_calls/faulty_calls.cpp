@@ -6,6 +6,7 @@
 //     ISOCHRON_FAULT_MARK=FILE         appears once the fault has been met
 //     ISOCHRON_CALL_LOG=FILE           gets a line for each call on a file that is written: open, write, size, sync (with
 //                                      the file's number), rename
+//     ISOCHRON_KILL_AT=7               kills the program at the seventh line of the log
 //
 // Kinds: open, read, write, sync, rename, size, new. Faults: ENOSPC and EIO (from then on), EINTR and short (once).
 #include <dlfcn.h>
@@ -18,6 +19,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -79,6 +81,10 @@ void note(const char* line) {
     static const long log =
         ::syscall(SYS_openat, AT_FDCWD, name, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     ::syscall(SYS_write, log, line, std::strlen(line));
+    static const char* const at = std::getenv("ISOCHRON_KILL_AT");
+    static std::atomic<long> lines{0};
+    if (at && ++lines == std::atol(at))
+        ::raise(SIGKILL);
 }
 void note(const char* kind, int file) {
     std::array<char, 32> line{};

@@ -5,12 +5,13 @@
 // size of an eye's picture (2 numbers). `frames` is a list of changes. Each has `at`, the frame from
 // which it holds (counted by xrWaitFrame), and any of `head`, `left` and `right` (7 numbers: x y z,
 // then the quaternion x y z w), `inputs` (`right/squeeze/value`: 1), `happens` (`exit`,
-// `lose_session`, ...), `picture` (a file for the left eye's picture of the previous frame, as PPM)
-// and `right_picture` (likewise).
+// `lose_session`, ..., or `interrupt`, which is Ctrl+C in the terminal), `picture` (a file for the
+// left eye's picture of the previous frame, as PPM) and `right_picture` (likewise).
 #include "tests/support/played_headset/world.h"
 
 #include <nlohmann/json.hpp>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -112,7 +113,9 @@ void play_script(std::size_t frame) {
             const bool left = name.starts_with("left/");
             (left ? headset.left : headset.right).inputs[name.substr(left ? 5 : 6)] = value;
         }
-        if (each.contains("happens"))
+        if (each.value("happens", "") == "interrupt")
+            ::raise(SIGINT);
+        else if (each.contains("happens"))
             headset.happens(happening_of(each["happens"]));
     }
     write_log();

@@ -5,6 +5,7 @@
 #include "app/config/toml_reader.h"
 #include "app/text.h"
 #include "app/version.h"
+#include "stereo/image_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -237,7 +238,7 @@ std::string_view command_for(const std::filesystem::path& file) {
         return "explore";
     if (suffix == ".jsonl")
         return "replay";
-    return suffix == ".png" || suffix == ".exr" ? "reproduce" : "build";
+    return stereo::is_picture_name(file) ? "reproduce" : "build";
 }
 
 /// What the user may have meant by a word that is no command.

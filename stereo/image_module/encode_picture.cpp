@@ -22,8 +22,8 @@ constexpr int kJpegSide = 65500;
 /// libjpeg ends the program where there are more. What stands around the note needs the rest.
 constexpr std::size_t kMostNote = 64'000;
 
-/// Threads of OpenImageIO. TIFF's strips are compressed by zlib if there are several, and by
-/// libtiff if there is one, which gives other bytes: so there are several on every machine.
+/// Threads of OpenImageIO. It compresses the strips of a TIFF by zlib if there are several, and
+/// leaves them to libtiff if there is one: so there are several on every machine.
 constexpr int kThreads = 4;
 
 [[noreturn]] void fail(OIIO::ImageOutput& output) {

@@ -17,7 +17,7 @@ bool is_picture_name(const std::filesystem::path& path);
 
 /// Writes the colors without alpha, as windows are opaque: .png, .tif and .tiff as they are (sRGB,
 /// 8 bits), .jpg and .jpeg with the losses of JPEG, .exr converted to linear light (half floats).
-/// The file appears complete or not at all. The first call loads OpenImageIO, which takes a third
+/// The file appears complete or not at all. The first call loads OpenImageIO, which takes a fifth
 /// of a second.
 /// @throws render::Error for another extension, an empty picture, or a picture or a note that is
 /// too large for the format; index::Error when the file cannot be written or OpenImageIO is not

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -44,6 +45,26 @@ std::string one_line(std::string text) {
             text.erase(at, name.size());
     return text.empty() ? "the picture cannot be read" : text;
 }
+
+/// A file that a picture is read from. OpenImageIO loses memory where a PNG ends early: that one goes
+/// on with zeros, which are no PNG either, and is refused afterwards.
+class PictureFile final : public OIIO::Filesystem::IOFile {
+  public:
+    explicit PictureFile(const std::string& path) : IOFile(path, IOProxy::Read) {}
+    std::size_t read(void* bytes, std::size_t size) override {
+        const std::size_t done = IOFile::read(bytes, size);
+        ended_ |= done < size;
+        if (!goes_on_)
+            return done;
+        std::memset(static_cast<char*>(bytes) + done, 0, size - done);
+        return size;
+    }
+    void go_on() { goes_on_ = true; }
+    bool ended() const { return ended_; }
+
+  private:
+    bool goes_on_ = false, ended_ = false;
+};
 
 /// The format of a file by its first bytes, so that no other of OpenImageIO's many readers sees it.
 PictureFormat format_in(OIIO::Filesystem::IOProxy& file) {
@@ -176,11 +197,36 @@ render::Image image_in(OIIO::Filesystem::IOProxy& file) {
         same);
 }
 
+std::string note_in(OIIO::Filesystem::IOProxy& file) {
+    const Reader reader(file);
+    std::string note(reader.input->spec().get_string_attribute(note_attribute_of(reader.format)));
+    // JPEG's comments may end with a zero.
+    note.erase(std::ranges::find(note, '\0'), note.end());
+    return note;
+}
+
+/// What a function reads in the file at a path.
+template <typename Function>
+auto read_from(const std::string& path, Function function) {
+    PictureFile file(path);
+    if (format_in(file) != PictureFormat::png)
+        return function(file);
+    file.go_on();
+    try {
+        auto result = function(file);
+        if (!file.ended())
+            return result;
+    } catch (const std::exception&) {
+        if (!file.ended())
+            throw;
+    }
+    throw std::runtime_error("the file ends early");
+}
+
 } // namespace
 
 render::Image read(const std::string& path) {
-    OIIO::Filesystem::IOFile file(path, OIIO::Filesystem::IOProxy::Read);
-    return image_in(file);
+    return read_from(path, image_in);
 }
 
 render::Image decode(std::span<const std::byte> bytes) {
@@ -189,12 +235,7 @@ render::Image decode(std::span<const std::byte> bytes) {
 }
 
 std::string note_of(const std::string& path) {
-    OIIO::Filesystem::IOFile file(path, OIIO::Filesystem::IOProxy::Read);
-    const Reader reader(file);
-    std::string note(reader.input->spec().get_string_attribute(note_attribute_of(reader.format)));
-    // JPEG's comments may end with a zero.
-    note.erase(std::ranges::find(note, '\0'), note.end());
-    return note;
+    return read_from(path, note_in);
 }
 
 } // namespace isochron::stereo::image_module

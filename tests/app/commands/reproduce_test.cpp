@@ -218,7 +218,7 @@ TEST_F(ReproduceTest, WhatIsNoPictureOfOursIsOneLine) {
          {std::pair{"plain.png", "it has no note of what it shows"},
           std::pair{"cut.png", "not JSON at byte "}, std::pair{"text.png", "text.png: "},
           std::pair{"none.png", "none.png: "},
-          std::pair{"half.png", "half.png: Read error: hit end of file"}}) {
+          std::pair{"half.png", "half.png: the file ends early"}}) {
         const ChildResult result = isochron({"reproduce", name});
         EXPECT_EQ(result.status, 1) << name;
         EXPECT_THAT(result.err, HasSubstr(what));

@@ -15,7 +15,15 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME isochron)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libegl1, libgl1, libgl1-mesa-dri")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6")
+# Loaded when they are needed, and named by the program where they are missing.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6, ${ISOCHRON_PICTURE_PACKAGE}")
+file(WRITE ${CMAKE_BINARY_DIR}/dependencies_of_program
+  "#!/bin/sh\n# What the programs and modules are linked with, without that.\nexec dpkg-shlibdeps -x${ISOCHRON_PICTURE_PACKAGE} \"$@\"\n")
+file(CHMOD ${CMAKE_BINARY_DIR}/dependencies_of_program
+  PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+file(WRITE ${CMAKE_BINARY_DIR}/package_settings.cmake
+  "set(SHLIBDEPS_EXECUTABLE \"${CMAKE_BINARY_DIR}/dependencies_of_program\")\n")
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_BINARY_DIR}/package_settings.cmake)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, openmpi-bin")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "Isochron lets scientists stand inside a series of volumes, such as a

@@ -1,6 +1,7 @@
 // Reads and writes pictures through the module that handles their formats.
 #include "stereo/image_file.h"
 
+#include "index/error.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
 #include "render/gl/gl.h"
@@ -9,34 +10,68 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
+#include <string_view>
 
 namespace isochron::stereo {
 namespace {
 
-constexpr const char* kModule = "isochron_images";
+using image_module::PictureFormat;
 
+/// A function of the picture module. @throws index::Error naming the picture, and the package that
+/// is missing where the library of pictures is
 template <typename Function>
-Function* module_function(const char* name) {
-    return reinterpret_cast<Function*>(index::module_symbol(kModule, name));
+Function* picture_function(const char* name, const std::filesystem::path& picture) {
+    try {
+        index::file_of_program("libisochron_images.so");
+    } catch (const index::Error& error) {
+        throw index::Error(fmt::format("{}: {}", picture.string(), error.what()));
+    }
+    try {
+        return reinterpret_cast<Function*>(index::module_symbol("isochron_images", name));
+    } catch (const index::Error& error) {
+        throw index::Error(fmt::format("{}: pictures need the package {}: {}", picture.string(),
+                                       ISOCHRON_PICTURE_PACKAGE, error.what()));
+    }
 }
 
-/// The format of a path, `png` or `exr`. @throws render::Error for anything else
-std::string format_of(const std::filesystem::path& path) {
+std::optional<PictureFormat> format_of(const std::filesystem::path& path) {
+    struct Extension {
+        std::string_view name;
+        PictureFormat format;
+    };
+    constexpr std::array kExtensions{
+        Extension{".png", PictureFormat::png},  Extension{".exr", PictureFormat::exr},
+        Extension{".tif", PictureFormat::tiff}, Extension{".tiff", PictureFormat::tiff},
+        Extension{".jpg", PictureFormat::jpeg}, Extension{".jpeg", PictureFormat::jpeg}};
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".png" && extension != ".exr")
-        throw render::Error(fmt::format("{}: pictures are written as .png or .exr, not as '{}'",
-                                        path.string(), extension));
-    return extension.substr(1);
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto* found = std::ranges::find(kExtensions, extension, &Extension::name);
+    return found == kExtensions.end() ? std::nullopt : std::optional(found->format);
+}
+
+/// @throws render::Error naming the picture, if the module says one
+void check(const std::string& error, const std::filesystem::path& picture) {
+    if (!error.empty())
+        throw render::Error(fmt::format("{}: {}", picture.string(), error));
 }
 
 } // namespace
 
+bool is_picture_name(const std::filesystem::path& path) {
+    return format_of(path).has_value();
+}
+
 std::vector<std::byte> encoded_image(const render::Image& image, const std::filesystem::path& path,
                                      const std::string& note) {
-    const std::string format = format_of(path);
+    const std::optional<PictureFormat> format = format_of(path);
+    if (!format)
+        throw render::Error(fmt::format("{}: pictures are written as .png, .exr, .tiff or .jpg, "
+                                        "not as '{}'",
+                                        path.string(), path.extension().string()));
     const auto pixels = static_cast<std::size_t>(std::max(image.width, 0)) *
                         static_cast<std::size_t>(std::max(image.height, 0));
     if (pixels == 0 || image.rgba.size() != 4 * pixels)
@@ -44,12 +79,11 @@ std::vector<std::byte> encoded_image(const render::Image& image, const std::file
                                         "written",
                                         path.string(), image.width, image.height,
                                         image.rgba.size()));
-    static const auto encode = module_function<image_module::Encode>(image_module::kEncode);
+    static const auto encode = picture_function<image_module::Encode>(image_module::kEncode, path);
     std::vector<std::byte> bytes;
     std::string error;
-    encode(image, format, note, bytes, error);
-    if (!error.empty())
-        throw render::Error(fmt::format("{}: {}", path.string(), error));
+    encode(image, *format, note, bytes, error);
+    check(error, path);
     return bytes;
 }
 
@@ -62,21 +96,29 @@ void write_image(const render::Image& image, const std::filesystem::path& path,
 }
 
 std::string read_note(const std::filesystem::path& path) {
-    static const auto read = module_function<image_module::ReadNote>(image_module::kReadNote);
+    static const auto read =
+        picture_function<image_module::ReadNote>(image_module::kReadNote, path);
     std::string note, error;
     read(path.string(), note, error);
-    if (!error.empty())
-        throw render::Error(fmt::format("{}: {}", path.string(), error));
+    check(error, path);
     return note;
 }
 
 render::Image read_image(const std::filesystem::path& path) {
-    static const auto decode = module_function<image_module::Decode>(image_module::kDecode);
+    static const auto read = picture_function<image_module::Read>(image_module::kRead, path);
     render::Image image;
     std::string error;
-    decode(path.string(), image, error);
-    if (!error.empty())
-        throw render::Error(fmt::format("{}: {}", path.string(), error));
+    read(path.string(), image, error);
+    check(error, path);
+    return image;
+}
+
+render::Image decoded_image(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+    static const auto decode = picture_function<image_module::Decode>(image_module::kDecode, path);
+    render::Image image;
+    std::string error;
+    decode(bytes, image, error);
+    check(error, path);
     return image;
 }
 

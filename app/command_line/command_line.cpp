@@ -4,6 +4,7 @@
 #include "app/command_line/cancel.h"
 #include "app/text.h"
 #include "app/version.h"
+#include "stereo/image_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -246,7 +247,7 @@ std::string_view command_for(const std::filesystem::path& file) {
         return "explore";
     if (suffix == ".jsonl")
         return "replay";
-    return suffix == ".png" || suffix == ".exr" ? "reproduce" : "build";
+    return stereo::is_picture_name(file) ? "reproduce" : "build";
 }
 
 /// What the user may have meant by a word that is no command.

@@ -281,8 +281,9 @@ void add_replay(Command& program) {
                 "viewport")
         .one_of({"window", "each"})
         .shows_default();
-    command.option("--format", options->format, "png, or exr (linear)")
-        .one_of({"png", "exr"})
+    command
+        .option("--format", options->format, "png, exr (linear light), tiff, or jpg (with losses)")
+        .one_of({"png", "exr", "tiff", "jpg"})
         .shows_default();
     command.option("--report", options->report,
                    "Write the times and the state of every frame to this JSON file");

@@ -168,7 +168,7 @@ std::string note_text_in(const std::filesystem::path& path) {
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     std::string text;
-    if (extension == ".png" || extension == ".exr") {
+    if (stereo::is_picture_name(path)) {
         text = stereo::read_note(path);
     } else {
         constexpr std::uint64_t kLargestMovie = std::uint64_t{1} << 34;

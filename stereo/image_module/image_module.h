@@ -4,22 +4,27 @@
 #include "render/gl/image.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace isochron::stereo::image_module {
 
-/// @param format `png` or `exr`
+enum class PictureFormat { png, exr, tiff, jpeg };
+
 /// @param note stored unchanged in the file; empty: none
 /// @param bytes takes the whole file
 /// @param error takes the reason if that fails; else unchanged
-using Encode = void(const render::Image& image, const std::string& format, const std::string& note,
+using Encode = void(const render::Image& image, PictureFormat format, const std::string& note,
                     std::vector<std::byte>& bytes, std::string& error);
 /// @param note takes the note; unchanged if there is none
 using ReadNote = void(const std::string& path, std::string& note, std::string& error);
-using Decode = void(const std::string& path, render::Image& image, std::string& error);
+using Read = void(const std::string& path, render::Image& image, std::string& error);
+/// @param bytes the whole file's
+using Decode = void(std::span<const std::byte> bytes, render::Image& image, std::string& error);
 
 constexpr const char* kEncode = "isochron_encode_image";
+constexpr const char* kRead = "isochron_read_image";
 constexpr const char* kDecode = "isochron_decode_image";
 constexpr const char* kReadNote = "isochron_read_note";
 

@@ -1,9 +1,11 @@
-// The codecs of the two picture formats, each by its reference library.
+// Encoding and decoding of pictures by OpenImageIO.
 #pragma once
 
 #include "render/gl/image.h"
+#include "stereo/image_module/image_module.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,18 +14,19 @@ namespace isochron::stereo::image_module {
 /// Pictures with more pixels are refused: no display has as many, so the header must be wrong.
 constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 
-/// The name of the note among a file's attributes.
-constexpr const char* kNote = "isochron";
+/// Before anything else is done: how OpenImageIO is to work.
+void set_up_library();
+/// OpenImageIO's name of a format.
+const char* library_name_of(PictureFormat format);
+/// The attribute that holds the note in pictures of a format.
+const char* note_attribute_of(PictureFormat format);
 
 /// All throw std::exception with one line, which does not name the file. `note` is ASCII; empty:
-/// none. They write three channels, and read one (gray), three or four.
-std::vector<std::byte> encode_png(const render::Image& image, const std::string& note);
-render::Image decode_png(const std::string& path);
-std::string png_note(const std::string& path);
-
-/// Writes linear light as half floats.
-std::vector<std::byte> encode_exr(const render::Image& image, const std::string& note);
-render::Image decode_exr(const std::string& path);
-std::string exr_note(const std::string& path);
+/// none. Three channels are written; one (gray), two (gray and alpha), three or four are read.
+std::vector<std::byte> encode(const render::Image& image, PictureFormat format,
+                              const std::string& note);
+render::Image read(const std::string& path);
+render::Image decode(std::span<const std::byte> bytes);
+std::string note_of(const std::string& path);
 
 } // namespace isochron::stereo::image_module

@@ -1,7 +1,9 @@
 // Computes differences of pictures, as numbers and as a picture.
 #include "tests/support/image_compare.h"
 
+#include "index/system/module.h"
 #include "stereo/image_file.h"
+#include "tests/support/image_differences.h"
 #include "tests/support/paths.h"
 
 #include <algorithm>
@@ -57,24 +59,17 @@ testing::AssertionResult images_match(const Image& actual, const Image& expected
                << expected.width << "x" << expected.height << "; see "
                << written(side_by_side({actual, expected}), name);
     constexpr int kSeen = 8;
-    int maximum = 0;
-    double sum = 0, strays = 0;
-    for (std::size_t i = 0; i < actual.rgba.size(); ++i)
-        if (i % 4 != 3) {
-            const int difference = std::abs(actual.rgba[i] - expected.rgba[i]);
-            maximum = std::max(maximum, difference);
-            sum += difference;
-            strays += difference > kSeen;
-        }
-    const double channels = std::max<double>(1, 0.75 * static_cast<double>(actual.rgba.size()));
-    const double mean = sum / channels;
-    strays /= channels;
-    if (maximum <= tolerance.maximum && mean <= tolerance.mean && strays <= tolerance.strays)
+    static const auto differences = reinterpret_cast<Differences*>(
+        index::module_symbol("isochron_image_compare", kDifferences));
+    const ImageDifferences found = differences(actual, expected, kSeen);
+    if (found.maximum <= tolerance.maximum && found.mean <= tolerance.mean &&
+        found.strays <= tolerance.strays)
         return testing::AssertionSuccess();
     return testing::AssertionFailure()
-           << name << ": differs by " << maximum << " at most and " << mean << " on average, "
-           << 100 * strays << " % of it by more than " << kSeen << ", allowed " << tolerance.maximum
-           << ", " << tolerance.mean << " and " << 100 * tolerance.strays << " %; see "
+           << name << ": differs by " << found.maximum << " at most and " << found.mean
+           << " on average, " << 100 * found.strays << " % of it by more than " << kSeen
+           << ", allowed " << tolerance.maximum << ", " << tolerance.mean << " and "
+           << 100 * tolerance.strays << " %; see "
            << written(side_by_side({actual, expected, difference_of(actual, expected)}), name);
 }
 

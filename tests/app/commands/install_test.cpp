@@ -55,6 +55,21 @@ TEST_F(Installed, WorksFromAnyPrefixAndWhereItIsMovedTo) {
     EXPECT_THAT(shell("file pictures/*"), HasSubstr("PNG image data, 64 x 64"));
 }
 
+/// Where the program stands beside a module whose library, by its name, is on no machine.
+TEST_F(Installed, WithoutOpenImageIOOneLineNamesThePackage) {
+    install("tree", "program");
+    const std::string module = "tree/libexec/isochron/libisochron_images.so";
+    std::string bytes = folder.read(module);
+    for (std::size_t at; (at = bytes.find("libOpenImageIO")) != bytes.npos;)
+        bytes.replace(at, 14, "libMissingImIO");
+    folder.write(module, bytes);
+    folder.write("a.png", "a picture");
+    const ChildResult result = run_child((folder.path() / "tree/bin/isochron").string(),
+                                         {"reproduce", "a.png"}, folder.path());
+    expect_failure(result, 1, "a.png: pictures need the package libopenimageio");
+    EXPECT_THAT(result.err, HasSubstr("libMissingImIO"));
+}
+
 TEST_F(Installed, HasAManualPageAndCompletionsForEachCommand) {
     install("tree", "program");
     const fs::path share = folder.path() / "tree" / "share";
@@ -107,6 +122,11 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
                       "CPACK_DEBIAN_COMPRESSION_TYPE=gzip >log "
                       "2>&1 || (cat log; exit 1)",
                       test_support::binary_root()));
+    // Two hundred libraries stand behind pictures: they come along unless a user leaves them out.
+    EXPECT_THAT(shell("dpkg-deb -f packages/isochron_*.deb Recommends"),
+                HasSubstr("libopenimageio"));
+    EXPECT_THAT(shell("dpkg-deb -f packages/isochron_*.deb Depends"),
+                testing::AllOf(HasSubstr("libegl1"), testing::Not(HasSubstr("libopenimageio"))));
     const std::string dpkg =
         "dpkg --root=$PWD/root --force-not-root --force-depends --log=$PWD/dpkg.log ";
     shell("mkdir -p root/var/lib/dpkg/info root/var/lib/dpkg/updates root/bin root/usr/bin && "

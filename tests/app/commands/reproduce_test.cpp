@@ -103,6 +103,8 @@ TEST_F(ReproduceTest, EveryFootprintFormatAndStereoModeIsTheSame) {
     record(kOne, "side_by_side");
     expect_same({});
     expect_same({"--format", "exr", "--samples", "1"});
+    expect_same({"--format", "tiff"}, 2);
+    expect_same({"--format", "jpg"}, 2);
     expect_same({"--quality", "fast"});
     expect_same({"--quality", "fast", "--shape", "voxel"});
     expect_same({"--footprint", "gaussian", "--stereo", "anaglyph_red_cyan"});
@@ -181,16 +183,42 @@ TEST_F(ReproduceTest, ChangedPixelsAndOtherStatesAreTold) {
     EXPECT_THAT(result.out, HasSubstr("differs: pixels: "));
 }
 
+// Such as those of a version that compresses otherwise.
+TEST_F(ReproduceTest, TheSamePixelsInOtherBytesAreTheSamePicture) {
+    record(kOne, "mono");
+    for (const char* format : {"png", "jpg"}) {
+        const std::string picture = pictures({"--format", format}).back();
+        folder_.write(std::string("longer.") + format, folder_.read(picture) + "more");
+        const ChildResult result = isochron({"reproduce", std::string("longer.") + format});
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_THAT(result.out,
+                    HasSubstr("made again: the same pixels, which the file stores in other bytes"));
+    }
+    // Of a JPEG, too, other pixels are told.
+    const std::string picture = pictures({"--format", "jpg"}).back();
+    render::Image image = stereo::read_image(folder_.path() / picture);
+    for (std::size_t i = 0; i < 4 * 96; ++i)
+        image.rgba[i] ^= 40;
+    stereo::write_image(image, folder_.path() / "other.jpg",
+                        note_text_in(folder_.path() / picture));
+    const ChildResult result = isochron({"reproduce", "other.jpg"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.out, HasSubstr("differs: pixels: "));
+}
+
 TEST_F(ReproduceTest, WhatIsNoPictureOfOursIsOneLine) {
     const render::Image image{8, 8, std::vector<std::uint8_t>(256, 9)};
     stereo::write_image(image, folder_.path() / "plain.png");
     stereo::write_image(image, folder_.path() / "cut.png",
                         "<isochron-picture>{</isochron-picture>");
     folder_.write("text.png", "no picture");
+    const std::string whole = folder_.read("plain.png");
+    folder_.write("half.png", whole.substr(0, 60));
     for (const auto& [name, what] :
          {std::pair{"plain.png", "it has no note of what it shows"},
           std::pair{"cut.png", "not JSON at byte "}, std::pair{"text.png", "text.png: "},
-          std::pair{"none.png", "none.png: "}}) {
+          std::pair{"none.png", "none.png: "},
+          std::pair{"half.png", "half.png: the file ends early"}}) {
         const ChildResult result = isochron({"reproduce", name});
         EXPECT_EQ(result.status, 1) << name;
         EXPECT_THAT(result.err, HasSubstr(what));

@@ -2,7 +2,6 @@
 #include "index/search/index_search.h"
 
 #include "index/error.h"
-#include "index/scan/brick_tiles.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/search/first_visit.h"
@@ -23,9 +22,6 @@ namespace {
 constexpr std::size_t kCandidatesPerLook =
     1 << 16;                                ///< candidates between two looks at the stop token
 constexpr std::size_t kScanChunk = 1 << 22; ///< cells between two looks at the stop token
-/// Searches of a step before its tiles are made, which takes as long as many of them. Fewer
-/// are often those of several surfaces, before the next step.
-constexpr std::size_t kSearchesBeforeTiles = 16;
 
 class IndexSearch {
   public:
@@ -147,24 +143,9 @@ class IndexSearch {
             return layers_.search(set, true, shading_ != Shading::none, stop);
         const LoadedStep& loaded = whole(set.query.step, stop);
         const LevelMapPtr levels = file_->chunks().levels(set.query.step);
-        if (const StepTilesPtr tiles = tiles_of(set.query.step, stop))
-            set.candidates = test_tiles(loaded.values, *levels, loaded.bricks, tiles->ranks(),
-                                        set.query, set.ids);
-        else
-            set.candidates =
-                search_bricks(loaded.values, *levels, loaded.bricks, set.query, set.ids);
+        set.candidates = search_bricks(loaded.values, *levels, loaded.bricks, set.query, set.ids);
         sort_ids(set.ids, file_->info().grid.cell_count());
         return !stop.stop_requested();
-    }
-
-    /// The tiles of a step that has been searched by bricks several times in a row; else null.
-    StepTilesPtr tiles_of(std::uint32_t step, const std::stop_token& stop) {
-        const bool again = repeated_ > 0 && step == repeated_step_;
-        repeated_ = again ? repeated_ + 1 : 1;
-        repeated_step_ = step;
-        return repeated_ > kSearchesBeforeTiles && file_->chunks().can_have_tiles()
-                   ? file_->chunks().tiles(step, stop)
-                   : nullptr;
     }
 
     bool search_tree(CellSet& set, const std::stop_token& stop) {
@@ -231,8 +212,6 @@ class IndexSearch {
     bool free_; ///< to search by bricks instead of cells
     Shading shading_;
     std::vector<bool> answered_; ///< by step
-    std::uint32_t repeated_step_ = 0;
-    std::size_t repeated_ = 0; ///< searches in a row by bricks of that step as a whole
     KeyMap keys_;
     ThiTree::Cursor cursor_;
     LayerSearch layers_;

@@ -7,6 +7,7 @@
 #include "index/search/first_visit.h"
 #include "index/search/id_sort.h"
 #include "index/search/layer_search.h"
+#include "index/search/tree_of_file.h"
 #include "index/surface/mesh_parts.h"
 #include "index/system/parallel.h"
 
@@ -149,8 +150,9 @@ class IndexSearch {
     }
 
     bool search_tree(CellSet& set, const std::stop_token& stop) {
-        // The first call of `tree` checks the tree, which happens here on the worker.
-        set.reused = file_->tree()->search_incremental(cursor_, set.query.step,
+        if (!tree_)
+            tree_ = tree_of(*file_);
+        set.reused = tree_->search_incremental(cursor_, set.query.step,
                                                        keys_.threshold(set.query.isovalue));
         candidates_ = cursor_.cells;
         set.candidates = candidates_.size();
@@ -213,6 +215,7 @@ class IndexSearch {
     Shading shading_;
     std::vector<bool> answered_; ///< by step
     KeyMap keys_;
+    std::shared_ptr<const ThiTree> tree_; ///< once it is needed
     ThiTree::Cursor cursor_;
     LayerSearch layers_;
     std::vector<MeshMaker> makers_{thread_count(0)};

@@ -131,7 +131,7 @@ TEST(IndexSearch, AStepThatIsSearchedAgainAndAgainGivesTheSameCellsAndTakesNoMor
         const auto isovalues = quantiles(sorted_values(values), 21);
         std::uint64_t held_at_first = 0;
         for (std::size_t i = 0; i < isovalues.size(); ++i) {
-            if (i == 1)
+            if (i == 2) // at the lowest value nothing is read
                 held_at_first = file->cache().held;
             ASSERT_EQ(search({1, isovalues[i]}, {})->ids, oracle.active(isovalues[i]))
                 << name_of(type) << ", search " << i;

@@ -8,6 +8,7 @@
 #include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/file/index_states.h"
 #include "index/indexing/appended_series.h"
 #include "index/indexing/index_build.h"
 #include "index/system/growing_file.h"
@@ -89,7 +90,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
         team.together([&] { file.emplace(asked.out, team.rank() == 0); });
         team.together([&] {
             held = index::IndexFile::open(asked.out);
-            if (const auto lost = held->lost_state())
+            if (const auto lost = index::lost_state(*held))
                 throw index::Error(*lost); // appending would overwrite what is left of it
             arguments = with_held(asked, *held);
         });

@@ -99,9 +99,9 @@ void run_change(const ChangeArguments& arguments) {
     if (arguments.json) {
         const nlohmann::ordered_json j{{"file", arguments.file.string()},
                                        {"array", file->info().array},
-                                       {"step", from.step},
+                                       {"step", std::uint32_t{from.step}},
                                        {"isovalue", from.isovalue},
-                                       {"to_step", to.step},
+                                       {"to_step", std::uint32_t{to.step}},
                                        {"to_isovalue", to.isovalue},
                                        {"added", found.added.size()},
                                        {"removed", found.removed.size()},
@@ -115,8 +115,8 @@ void run_change(const ChangeArguments& arguments) {
                "removed          {}\n"
                "found by         {}\n"
                "time             {:.4f} ms (median of {})\n",
-               from.isovalue, from.step, to.isovalue, to.step, grouped(found.added.size()),
-               grouped(found.removed.size()),
+               from.isovalue, std::uint32_t{from.step}, to.isovalue, std::uint32_t{to.step},
+               grouped(found.added.size()), grouped(found.removed.size()),
                whole ? "a search for all of the second set: little stays" : "what differs alone",
                middle->count(), times.size());
 }

@@ -6,6 +6,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/file/index_file.h"
+#include "index/file/index_states.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ void run_verify(const std::filesystem::path& path) {
                 bar.show(phase, fraction);
         });
     }
-    if (const auto lost = file->lost_state())
+    if (const auto lost = index::lost_state(*file))
         throw index::Error(*lost);
     fmt::print("{}: every checksum matches{}\n", path.string(),
                file->referral() ? ", those of its sources too" : "");

@@ -2,6 +2,7 @@
 #include "app/explore/kept_session.h"
 
 #include "app/version.h"
+#include "index/file/index_states.h"
 #include "interaction/error.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ bool is_held(const index::IndexFile& file, std::string_view hash) {
     std::uint64_t number = 0;
     const char* const end = hash.data() + hash.size();
     const auto read = std::from_chars(hash.data(), end, number, 16);
-    return read.ptr == end && read.ec == std::errc() && file.has_had(number);
+    return read.ptr == end && read.ec == std::errc() && index::has_had(file, number);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "app/indexing/series_report.h"
 #include "app/text.h"
+#include "index/search/tree_of_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -72,14 +73,15 @@ nlohmann::ordered_json array_json(const index::IndexFile& file) {
 
 /// The time nodes of the paper's tree if the index has one, else of the cell tier; may be empty.
 std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
-    if (file.tree())
-        return file.tree()->nodes();
+    if (const auto tree = index::tree_of(file))
+        return tree->nodes();
     return file.cells() ? file.cells()->nodes() : std::vector<index::TimeNodeCells>{};
 }
 
 /// Number of entries in the same tree; 0 without one.
 std::uint64_t entries_of(const index::IndexFile& file) {
-    return file.tree() ? file.tree()->entries() : file.stats().cell_entries;
+    const auto tree = index::tree_of(file);
+    return tree ? tree->entries() : file.stats().cell_entries;
 }
 
 /// Mean number of entries per cell and step.
@@ -200,10 +202,10 @@ std::string as_text(const IndexReport& report) {
              fmt::format("{:.4f} entries for each cell and step: the fewer, the longer "
                          "cells stay as they are ({} entries{})",
                          coherence(file), grouped(entries_of(file)),
-                         file.tree() ? fmt::format("; lattice {}, max variation {}",
-                                                   file.tree_options().lattice,
-                                                   file.tree_options().max_variation)
-                                     : ""));
+                         file.has_tree() ? fmt::format("; lattice {}, max variation {}",
+                                                       file.tree_options().lattice,
+                                                       file.tree_options().max_variation)
+                                         : ""));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
     text += sources_text(info.sources);
     for (const std::string& note : info.notes)

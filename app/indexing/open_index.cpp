@@ -4,6 +4,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/volume_bricks.h"
+#include "index/file/index_states.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +15,7 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
                                                    std::uint64_t cache_bytes) {
     try {
         auto file = index::IndexFile::open(path, cache_bytes);
-        if (const auto lost = file->lost_state())
+        if (const auto lost = index::lost_state(*file))
             fmt::print(stderr, "isochron: {}\n", *lost);
         return file;
     } catch (const index::Error& error) {

@@ -55,7 +55,7 @@ DetailSearch::DetailSearch(std::shared_ptr<const IndexFile> file)
 
 LayerSearch& DetailSearch::searcher(unsigned level) {
     if (!searchers_[level])
-        searchers_[level] = std::make_unique<LayerSearch>(file_, level);
+        searchers_[level] = std::make_unique<LayerSearch>(file_);
     return *searchers_[level];
 }
 
@@ -68,7 +68,7 @@ bool DetailSearch::search(const SurfacesQuery& query, unsigned level, const Chun
         set.query = query.surface(i);
         set.method = by_bricks_ ? SearchMethod::bricks : SearchMethod::scan;
         if (std::isfinite(set.query.isovalue) &&
-            !searcher(level).search(set, by_bricks_, true, stop, only))
+            !searcher(level).search(step(query.step, level), set, by_bricks_, true, stop, only))
             return false;
         if (!color(set.query, level, set, found.colors.emplace_back(), stop))
             return false;
@@ -110,7 +110,7 @@ bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
     const ChunkStore* const store = source_ ? source_->chunks(level) : nullptr;
     if (!store || set.ids.empty())
         return true;
-    return searcher(level).color_cells(set, *source_, colors, stop);
+    return searcher(level).color_cells(step(query.step, level), set, *source_, colors, stop);
 }
 
 /// Finds the whole levels, the coarsest first, until there are too many cells or the next level
@@ -153,13 +153,13 @@ double DetailSearch::expected_cells(std::size_t region, unsigned level) const {
 double DetailSearch::least_cells_of_volume(const SurfacesQuery& query) const {
     if (!by_bricks_)
         return 0;
-    const ChunkStore& store = file_->chunks();
+    const StepView at = step(query.step, 0);
     double chunks = 0;
     for (const double isovalue : query.isovalues) {
-        const auto cut = store.levels(query.step)->cut(store.info().scaling, isovalue);
-        for (std::uint32_t layer = 0; cut && layer < store.grid().layers(); ++layer)
-            chunks += static_cast<double>(
-                LayerCandidates::places_of(*store.layer(query.step, layer), *cut).size());
+        const auto cut = at.cut(isovalue);
+        for (std::uint32_t layer = 0; cut && layer < at.chunk_grid().layers(); ++layer)
+            chunks +=
+                static_cast<double>(LayerCandidates::places_of(*at.layer(layer), *cut).size());
     }
     return kLeastOfChunk * chunks;
 }
@@ -321,7 +321,8 @@ std::optional<std::uint64_t> DetailSearch::count(const SurfacesQuery& query,
     for (const double isovalue : query.isovalues) {
         if (!std::isfinite(isovalue))
             continue;
-        const auto of_surface = searcher(0).count({query.step, isovalue}, by_bricks_, stop);
+        const auto of_surface =
+            searcher(0).count(step(query.step, 0), {query.step, isovalue}, by_bricks_, stop);
         if (!of_surface)
             return std::nullopt;
         cells += *of_surface;

@@ -64,6 +64,7 @@ class DetailSearch {
     using Levels = std::vector<std::uint8_t>;
 
     LayerSearch& searcher(unsigned level);
+    StepView step(Instant at, unsigned level) const { return step_in_chunks(*file_, at, level); }
     bool search(const SurfacesQuery& query, unsigned level, const ChunkFilter& only,
                 LevelCells& found, const std::stop_token& stop);
     bool color(const Query& query, unsigned level, const CellSet& set,

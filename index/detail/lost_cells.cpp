@@ -87,9 +87,8 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
                      const std::stop_token& stop) {
     found = {};
     found.cells.query = query;
-    const ChunkStore& store = file_.chunks(finest_);
-    const auto map = store.levels(query.step);
-    const auto cut = map->cut(store.info().scaling, query.isovalue);
+    const StepView step = step_in_chunks(file_, query.step, finest_);
+    const auto cut = step.cut(query.isovalue);
     if (!cut)
         return true;
     std::vector<std::optional<HoldsDrawn>> drawn_in(std::ranges::max(levels) + 1u);
@@ -105,7 +104,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
                                        regions_.along(2, cell[2], finest_)})];
     };
 
-    const ChunkGrid& chunks = store.grid();
+    const ChunkGrid& chunks = step.chunk_grid();
     const auto cells = file_.info().grid.cells();
     using Share = HoldsDrawn::Share;
     const auto share = [&](std::uint32_t layer, std::uint32_t place) {
@@ -124,8 +123,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
     const auto count = [&](const ChunkFilter& only) {
         std::size_t all = 0;
         for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer)
-            all += LayerCandidates::places_of(*store.layer(query.step, layer), *cut, layer, only)
-                       .size();
+            all += LayerCandidates::places_of(*step.layer(layer), *cut, layer, only).size();
         return all;
     };
     ChunkFilter only = [&](std::uint32_t layer, std::uint32_t place) {
@@ -143,7 +141,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
         };
         for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer)
             for (const std::uint32_t place :
-                 LayerCandidates::places_of(*store.layer(query.step, layer), *cut, layer, wholly)) {
+                 LayerCandidates::places_of(*step.layer(layer), *cut, layer, wholly)) {
                 const auto [x, y] = chunks.at(place);
                 found.chunks.push_back({middle_of(x), middle_of(y), middle_of(layer), 0, 0});
             }
@@ -151,7 +149,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
     }
 
     CellSet& cells_found = found.cells;
-    if (!search_.search(cells_found, true, true, stop, only))
+    if (!search_.search(step, cells_found, true, true, stop, only))
         return false;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < cells_found.points.size(); ++i) {

@@ -22,7 +22,8 @@ class Extracting {
           shading_(has_wide_ids(file_->info().grid) ? Shading::cells : shading),
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
-          gatherer_(file_->info().grid, values_), colors_(file_, method), details_(file_) {}
+          gatherer_(file_->info().grid, values_), layers_(file_), colors_(file_, method),
+          details_(file_) {}
 
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
@@ -30,19 +31,19 @@ class Extracting {
             throw Error(fmt::format("{} isovalues: expected 1 to {}", count, kMostSurfaces));
         auto result = std::make_shared<Extraction>();
         result->query = query;
-        by_chunks_ = !file_->better_whole(query.step);
+        const StepView step = step_of_query(*file_, query.step);
         try {
             // A large step is not searched as a whole before it is known that its cells fit.
-            if (by_chunks_ && may_have_too_many(query))
+            if (step.by_chunks() && may_have_too_many(query))
                 if (const auto made = make_of_levels(result, stop))
                     return *made;
-            if (!search(*result, stop))
+            if (!search(step, *result, stop))
                 return nullptr;
             result->volume_cells = result->cells();
             if (may_have_too_many(query) && result->cells() > query.detail.most_cells)
                 if (const auto made = make_of_levels(result, stop))
                     return *made;
-            return fill(*result, stop) ? result : nullptr;
+            return fill(step, *result, stop) ? result : nullptr;
         } catch (const Stopped&) {
             return nullptr;
         }
@@ -76,26 +77,24 @@ class Extracting {
         result->levels = values_.levels(result->query.isovalues).units;
         result->bricks = gatherer_.none();
         if (result->cells() > 0)
-            find_surroundings(*result, nullptr, stop);
+            find_surroundings(step_in_chunks(*file_, result->query.step), *result, stop);
         result->gather_time = std::chrono::steady_clock::now() - started;
         return result;
     }
 
     /// Finds the cells of the volume itself. @return false when stopped
-    bool search(Extraction& found, const std::stop_token& stop) {
+    bool search(const StepView& step, Extraction& found, const std::stop_token& stop) {
         const SurfacesQuery& query = found.query;
         found.surfaces.clear();
         std::uint64_t room = query.mesh_room;
         for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
             if (searches_.size() == i)
                 searches_.push_back(search_into(file_, method_, shading_));
-            Query surface = query.surface(i);
-            surface.mesh_room = room;
             CellSet& set = found.surfaces.emplace_back();
-            if (!searches_[i](surface, stop, set))
+            if (!searches_[i](step, query.isovalues[i], stop, set) ||
+                !add_mesh(step, set, room, stop))
                 return false;
             room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
-            set.query.mesh_room = 0;
         }
         if (!found.meshed()) // some without the others are never drawn
             for (CellSet& surface : found.surfaces)
@@ -103,8 +102,23 @@ class Extracting {
         return true;
     }
 
+    /// Adds a mesh if it does not take more room. @return false when stopped
+    bool add_mesh(const StepView& step, CellSet& set, std::uint64_t room,
+                  const std::stop_token& stop) {
+        if (shading_ == Shading::none || set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
+            return true;
+        const auto started = std::chrono::steady_clock::now();
+        CellMesh mesh;
+        if (!layers_.make_mesh(step, set, mesh, stop))
+            return false;
+        if (bytes_of(mesh) <= room)
+            set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
+        set.shading_time += std::chrono::steady_clock::now() - started;
+        return true;
+    }
+
     /// Adds the bricks and the colors. @return false when stopped
-    bool fill(Extraction& result, const std::stop_token& stop) {
+    bool fill(const StepView& step, Extraction& result, const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
         const BrickLevels levels = values_.levels(result.query.isovalues);
         result.levels = levels.units;
@@ -113,25 +127,15 @@ class Extracting {
             return true;
         for (const CellSet& surface : result.surfaces)
             gatherer_.need(surface);
-        std::optional<LoadedStep> whole;
-        const std::uint32_t step = result.query.step;
-        if (by_chunks_) {
-            if (!gatherer_.gather(file_->chunks(), step, levels, result.bricks, stop))
-                return false;
-        } else {
-            whole = file_->load(step, stop);
-            if (!gatherer_.gather(whole->values, step, levels, result.bricks, stop))
-                return false;
-        }
-        find_surroundings(result, whole ? &*whole : nullptr, stop);
+        if (!gatherer_.gather(step, levels, result.bricks, stop))
+            return false;
+        find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
-        return colors_.fill(result.query, result.surfaces, whole ? &whole->values : nullptr,
-                            result.colors, stop);
+        return colors_.fill(result.query, result.surfaces, step, result.colors, stop);
     }
 
     /// In the finest level of detail that is small enough, so that little has to be read.
-    /// @param whole the step, if it is loaded
-    void find_surroundings(Extraction& result, const LoadedStep* whole,
+    void find_surroundings(const StepView& step, Extraction& result,
                            const std::stop_token& stop) const {
         const SurfacesQuery& query = result.query;
         std::size_t level = 0;
@@ -140,11 +144,11 @@ class Extracting {
         };
         while (level + 1 < file_->detail_levels() && !small())
             ++level;
-        if (level == 0 && !whole && !small())
+        if (level == 0 && step.by_chunks() && !small())
             return;
-        const LoadedStep loaded = level > 0 ? file_->chunks(level).whole(query.step, stop)
-                                  : whole   ? *whole
-                                            : file_->load(query.step, stop);
+        const LoadedStep loaded = level > 0          ? file_->chunks(level).whole(query.step, stop)
+                                  : step.by_chunks() ? file_->load(query.step, stop)
+                                                     : step.whole(stop);
         result.surroundings = surroundings_of(loaded.values, query.step,
                                               static_cast<unsigned>(level), query.isovalues);
     }
@@ -153,9 +157,9 @@ class Extracting {
     std::optional<SearchMethod> method_;
     Shading shading_;
     std::vector<SearchInto> searches_; ///< by surface
-    bool by_chunks_ = false;           ///< works on chunks instead of the whole step
     BrickValues values_;
     BrickGatherer gatherer_;
+    LayerSearch layers_; ///< for meshes
     SurfaceColors colors_;
     DetailSearch details_;
 };

@@ -13,7 +13,7 @@ SurfaceColors::SurfaceColors(std::shared_ptr<const IndexFile> file,
     : file_(std::move(file)), method_(method), layers_(file_) {}
 
 bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
-                         const StepValues* step, std::vector<std::uint16_t>& out,
+                         const StepView& step, std::vector<std::uint16_t>& out,
                          const std::stop_token& stop) {
     forget_all_but(query);
     out.clear();
@@ -33,7 +33,7 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         out.resize(rank + cells.size(), kNoColor);
         const auto part = std::span(out).subspan(rank);
         if (source) {
-            if (!color_by_value(surfaces[i], *source, step, part, stop))
+            if (!layers_.color_cells(step, surfaces[i], *source, part, stop))
                 return false;
         } else if (!has_wide_ids(file_->info().grid)) {
             const FirstCrossings* first = crossings(query.isovalues[i], stop);
@@ -44,16 +44,6 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         rank = out.size();
     }
     return true;
-}
-
-bool SurfaceColors::color_by_value(const CellSet& set, const ColorSource& source,
-                                   const StepValues* step, std::span<std::uint16_t> out,
-                                   const std::stop_token& stop) {
-    if (!step)
-        return layers_.color_cells(set, source, out, stop);
-    const ColorArray& array = source.array();
-    const LoadedStep colors = source.load(set.query.step, stop);
-    return color_cells(*step, colors.values, set.query, set.ids, array.low, array.high, out, stop);
 }
 
 void SurfaceColors::forget_all_but(const SurfacesQuery& query) {

@@ -22,15 +22,13 @@ class SurfaceColors {
     SurfaceColors(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method);
 
     /// Fills `out` with the coordinates in the order of `Extraction::colors`.
-    /// @param step the volume's values at the query's step; null to work on its chunks
+    /// @param step of the query
     /// @return false when it was stopped and `out` is incomplete
     /// @throws Error as loading a step and the search for first crossings do
     bool fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
-              const StepValues* step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
+              const StepView& step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
 
   private:
-    bool color_by_value(const CellSet& set, const ColorSource& source, const StepValues* step,
-                        std::span<std::uint16_t> out, const std::stop_token& stop);
     void forget_all_but(const SurfacesQuery& query);
     const FirstCrossings* crossings(double isovalue, const std::stop_token& stop);
 

@@ -1,6 +1,7 @@
 // The value at a place in an open index.
 #include "index/extraction/value_in_index.h"
 
+#include "index/file/step_view.h"
 #include "index/volume/sample.h"
 
 #include <array>
@@ -8,23 +9,22 @@
 
 namespace isochron::index {
 
-std::optional<double> value_in(const IndexFile& file, std::uint32_t step, const glm::dvec3& at) {
-    if (file.better_whole(step))
-        return value_at(file.load(step).values, step, at);
-    const ChunkStore& store = file.chunks();
-    const SeriesInfo& info = store.info();
-    return value_at(info.grid, at, [&](const std::array<std::uint32_t, 3>& vertex) {
+std::optional<double> value_in(const IndexFile& file, Instant step, const glm::dvec3& at) {
+    const StepView view = step_of(file, step);
+    if (!view.by_chunks())
+        return value_at(view.whole({}).values, step, at);
+    return value_at(view.grid(), at, [&](const std::array<std::uint32_t, 3>& vertex) {
         const std::uint32_t place =
-            store.grid().place(vertex[0] / kChunkEdge, vertex[1] / kChunkEdge);
+            view.chunk_grid().place(vertex[0] / kChunkEdge, vertex[1] / kChunkEdge);
         const ChunkPtr chunk =
-            store.chunks(step, vertex[2] / kChunkEdge, std::span(&place, 1)).front();
+            view.chunks(vertex[2] / kChunkEdge, std::span(&place, 1), {}).front();
         const std::size_t in_chunk =
             (std::size_t{vertex[2] % kChunkEdge} * chunk->size[1] + vertex[1] % kChunkEdge) *
                 chunk->size[0] +
             vertex[0] % kChunkEdge;
-        return visit_value_type(info.type, [&]<class T>(std::type_identity<T>) {
+        return visit_value_type(view.type(), [&]<class T>(std::type_identity<T>) {
             const auto* values = reinterpret_cast<const T*>(chunk->values.data());
-            return info.scaling(static_cast<double>(values[in_chunk]));
+            return view.scaling()(static_cast<double>(values[in_chunk]));
         });
     });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
+#include "index/volume/instant.h"
 
 #include <glm/vec3.hpp>
 
@@ -11,6 +12,6 @@ namespace isochron::index {
 
 /// The same as `value_at`. In a large step it reads only the chunks around the place.
 /// @throws Error when they cannot be read or are damaged
-std::optional<double> value_in(const IndexFile& file, std::uint32_t step, const glm::dvec3& at);
+std::optional<double> value_in(const IndexFile& file, Instant step, const glm::dvec3& at);
 
 } // namespace isochron::index

@@ -99,8 +99,8 @@ struct BrickGatherer::Box {
 
 /// Coordinates of a brick, in bricks.
 std::array<std::uint32_t, 3> BrickGatherer::at(BrickId brick) const {
-    const auto& tiles = tiling_.bricks;
-    return {brick % tiles[0], brick / tiles[0] % tiles[1], brick / tiles[0] / tiles[1]};
+    const auto& n = tiling_.bricks;
+    return {brick % n[0], brick / n[0] % n[1], brick / n[0] / n[1]};
 }
 
 void BrickGatherer::copy(const Box& from, const BrickLevels& levels, VolumeBricks& bricks,
@@ -143,10 +143,16 @@ void BrickGatherer::take_marked(VolumeBricks& bricks) {
     bricks.digests.resize(bricks.ids.size());
 }
 
-bool BrickGatherer::gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
+bool BrickGatherer::gather(const StepView& step, const BrickLevels& levels, VolumeBricks& bricks,
+                           const std::stop_token& stop) {
+    return step.by_chunks() ? gather_chunks(step, levels, bricks, stop)
+                            : gather(step.whole(stop).values, step.at(), levels, bricks, stop);
+}
+
+bool BrickGatherer::gather(const StepValues& step, Instant at_step, const BrickLevels& levels,
                            VolumeBricks& bricks, const std::stop_token& stop) {
     take_marked(bricks);
-    const std::byte* first = step.step_bytes(number).data();
+    const std::byte* first = step.step_bytes(at_step).data();
     const auto& n = grid_.vertices;
     const std::size_t size = size_of(values_.stored()), row = n[0] * size, plane = n[1] * row;
     for (std::size_t i = 0; i < bricks.ids.size(); ++i) {
@@ -164,9 +170,8 @@ bool BrickGatherer::gather(const StepValues& step, std::uint32_t number, const B
     return true;
 }
 
-bool BrickGatherer::gather(const ChunkStore& chunks, std::uint32_t number,
-                           const BrickLevels& levels, VolumeBricks& bricks,
-                           const std::stop_token& stop) {
+bool BrickGatherer::gather_chunks(const StepView& step, const BrickLevels& levels,
+                                  VolumeBricks& bricks, const std::stop_token& stop) {
     static_assert(kChunkEdge % kBrickEdge == 0);
     constexpr std::uint32_t kAcross = kChunkEdge / kBrickEdge;
     take_marked(bricks);
@@ -174,7 +179,7 @@ bool BrickGatherer::gather(const ChunkStore& chunks, std::uint32_t number,
     const std::uint64_t layer_bricks =
         std::uint64_t{tiling_.bricks[0]} * tiling_.bricks[1] * kAcross;
     parallel_for(
-        chunks.grid().layers(), thread_count(0),
+        step.chunk_grid().layers(), thread_count(0),
         [&](std::size_t layer, unsigned) {
             const auto first = std::ranges::lower_bound(bricks.ids, layer * layer_bricks);
             const auto last =
@@ -182,16 +187,16 @@ bool BrickGatherer::gather(const ChunkStore& chunks, std::uint32_t number,
             if (first == last || stop.stop_requested())
                 return;
             const auto place_of = [&](BrickId brick) {
-                const auto tile = at(brick);
-                return chunks.grid().place(tile[0] / kAcross, tile[1] / kAcross);
+                const auto [x, y, z] = at(brick);
+                return step.chunk_grid().place(x / kAcross, y / kAcross);
             };
             std::vector<std::uint32_t> places;
             std::transform(first, last, std::back_inserter(places), place_of);
             std::ranges::sort(places);
             places.erase(std::unique(places.begin(), places.end()), places.end());
             const auto at_layer = static_cast<std::uint32_t>(layer);
-            chunks.expect(number, at_layer, places);
-            const auto found = chunks.chunks(number, at_layer, places, stop);
+            step.expect(at_layer, places);
+            const auto found = step.chunks(at_layer, places, stop);
             for (auto brick = first; brick != last; ++brick) {
                 if ((brick - first) % 256 == 0 && stop.stop_requested())
                     return;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/extraction/brick_values.h"
-#include "index/file/chunks/chunk_store.h"
+#include "index/file/step_view.h"
 #include "index/surface/cell_set.h"
 #include "index/volume/step_values.h"
 
@@ -60,14 +60,15 @@ class BrickGatherer {
     VolumeBricks none() const;
     /// Marks the bricks that a set's cells need. @param set with points, if the grid has wide ids
     void need(const CellSet& set);
-    /// Copies the bricks that have been marked since the last call, then clears the marks.
+    /// Copies the bricks that have been marked since the last call, then clears the marks. From
+    /// chunks it does so with all cores.
     /// @return false when it was stopped and the bricks are incomplete
-    bool gather(const StepValues& step, std::uint32_t number, const BrickLevels& levels,
-                VolumeBricks& bricks, const std::stop_token& stop = {});
-
-    /// The same from the chunks of a step, with all cores. @throws Error as ChunkStore does
-    bool gather(const ChunkStore& chunks, std::uint32_t number, const BrickLevels& levels,
-                VolumeBricks& bricks, const std::stop_token& stop = {});
+    /// @throws Error as ChunkStore does
+    bool gather(const StepView& step, const BrickLevels& levels, VolumeBricks& bricks,
+                const std::stop_token& stop = {});
+    /// The same from values in memory.
+    bool gather(const StepValues& step, Instant at, const BrickLevels& levels, VolumeBricks& bricks,
+                const std::stop_token& stop = {});
 
   private:
     struct Box;
@@ -76,6 +77,8 @@ class BrickGatherer {
     void mark_row(std::uint32_t y, std::uint32_t z);
     std::array<std::uint32_t, 3> at(BrickId brick) const;
     void take_marked(VolumeBricks& bricks);
+    bool gather_chunks(const StepView& step, const BrickLevels& levels, VolumeBricks& bricks,
+                       const std::stop_token& stop);
     void copy(const Box& from, const BrickLevels& levels, VolumeBricks& bricks,
               std::size_t i) const;
 

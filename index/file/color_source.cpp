@@ -46,8 +46,15 @@ const ChunkStore* ColorSource::chunks(std::size_t level) const {
     return level == 0 && file_->referral() ? nullptr : &file_->chunks(level);
 }
 
-LoadedStep ColorSource::load(std::uint32_t step, const std::stop_token& stop) const {
-    return values_alone_ ? file_->load_color(step, stop) : file_->load(step, stop);
+StepView ColorSource::step(const StepView& surfaces) const {
+    if (surfaces.by_chunks())
+        return {*chunks(surfaces.level()), surfaces.at(), surfaces.level()};
+    return {{&surfaces.grid(), array_.type, array_.scaling, surfaces.steps()},
+            chunks(),
+            surfaces.at(),
+            [file = file_, alone = values_alone_](std::uint32_t step, const std::stop_token& stop) {
+                return alone ? file->load_color(step, stop) : file->load(step, stop);
+            }};
 }
 
 std::vector<std::string> color_source_names(const IndexFile& file) {

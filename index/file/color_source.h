@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
+#include "index/file/step_view.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +28,9 @@ class ColorSource {
     const ColorArray& array() const { return array_; }
     /// Its chunks at a level of detail; null if the index refers to its sources and has none there.
     const ChunkStore* chunks(std::size_t level = 0) const;
-    /// One step; see `IndexFile::load`.
-    LoadedStep load(std::uint32_t step, const std::stop_token& stop) const;
+    /// The same step of this array, whole or in chunks of the same level of detail, as the step of
+    /// the surfaces is. @param surfaces by chunks: there are chunks at its level
+    StepView step(const StepView& surfaces) const;
 
   private:
     const IndexFile* file_;

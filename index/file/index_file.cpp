@@ -2,6 +2,8 @@
 #include "index/file/index_file.h"
 
 #include "index/file/detail_levels.h"
+#include "index/file/index_check.h"
+#include "index/file/index_states.h"
 #include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"
@@ -25,6 +27,14 @@ const char* section_name(SectionKind kind) {
     return kSectionNames[static_cast<std::size_t>(kind)];
 }
 
+/// The header as it would be of a file with this array alone.
+FileHeader header_for(const ByteSource& file, FileHeader header, const ArrayPlace& place) {
+    header.content_hash = place.content_hash;
+    header.sections = place.sections;
+    check_sections(file, header, "list of arrays");
+    return header;
+}
+
 /// A step whose values and bricks come from two places.
 struct JoinedStep {
     LoadedStep values, bricks;
@@ -37,6 +47,40 @@ IndexFile::IndexFile(std::unique_ptr<ByteSource> bytes, std::uint64_t cache_byte
       cache_(std::make_shared<ByteCache>(cache_bytes_)), header_(checked_header(*bytes_)) {
     read();
     open_further();
+}
+
+IndexFile::IndexFile(const IndexFile& first, const ArrayPlace& place)
+    : first_(&first), bytes_(first.bytes_), cache_bytes_(first.cache_bytes_), cache_(first.cache_),
+      header_(header_for(*bytes_, first.header_, place)),
+      number_(static_cast<std::uint32_t>(first.further_.size() + 1)) {
+    read();
+    expect_same_shape(first);
+}
+
+void IndexFile::open_further() {
+    for (const ArrayPlace& place : metadata_.further)
+        further_.push_back(std::unique_ptr<IndexFile>(new IndexFile(*this, place)));
+}
+
+void IndexFile::expect_same_shape(const IndexFile& first) const {
+    const SeriesInfo &info = metadata_.info, &of_first = first.info();
+    if (info.grid != of_first.grid || info.times != of_first.times)
+        throw damaged(fmt::format("array {} has another grid or other times than array {}",
+                                  info.array, of_first.array));
+    if (first.array_called(info.array))
+        throw damaged(fmt::format("two arrays are called {}", info.array));
+    if (metadata_.referral.has_value() != first.referral().has_value())
+        throw damaged(fmt::format("only one of the arrays {} and {} refers to its sources",
+                                  of_first.array, info.array));
+    if (metadata_.color || !metadata_.further.empty())
+        throw damaged(fmt::format("array {} has arrays of its own", info.array));
+}
+
+std::optional<std::size_t> IndexFile::array_called(std::string_view name) const {
+    for (std::size_t number = 0; number < arrays(); ++number)
+        if (array(number).info().array == name)
+            return number;
+    return std::nullopt;
 }
 
 void IndexFile::read() {
@@ -281,76 +325,37 @@ const StepValues& IndexFile::values() const {
     return values_;
 }
 
-const ThiTree* IndexFile::tree() const {
-    if (header_.section(SectionKind::tree).bytes == 0)
-        return nullptr;
-    const std::lock_guard lock(reading_);
-    if (tree_)
-        return tree_.get();
-    tree_bytes_ = section<std::uint64_t>(SectionKind::tree);
-    try {
-        auto tree = std::make_unique<ThiTree>(std::as_bytes(std::span(tree_bytes_)));
-        if (tree->steps() != steps())
-            throw Error(fmt::format("{} steps, the volume has {}", tree->steps(), steps()));
-        tree_ = std::move(tree);
-    } catch (const Error& error) {
-        throw damaged(fmt::format("tree: {}", error.what()));
-    }
-    return tree_.get();
+std::vector<std::uint64_t> IndexFile::tree_bytes() const {
+    return section<std::uint64_t>(SectionKind::tree);
 }
 
-void IndexFile::check_step(const LoadedStep& loaded, std::uint32_t step, std::uint64_t checksum,
-                           const char* called) const {
-    if (checksum_of(loaded.values.step_bytes(step)) != checksum)
-        throw damaged(
-            fmt::format("the checksum of the {} of step {} does not match", called, step));
-}
-
-void IndexFile::verify_parts(const Progress& progress) const {
-    const auto total = static_cast<double>(checksums_.size());
-    std::size_t next = 0;
-    const auto take = [&](const char* called) {
-        if (progress)
-            progress(called, static_cast<double>(next) / total);
-        return checksums_[next++];
-    };
-    for (std::uint32_t step = 0; step < steps(); ++step) {
-        check_step(load(step), step, take("volume"), "volume");
-        if (metadata_.plan.tiers.has(Tier::bricks))
-            chunks().levels(step);
-    }
-    const std::uint32_t chunks = cells_ ? Chunking(metadata_.info.grid).count() : 1;
-    for (std::size_t i = 0; i < directory_.size(); ++i) {
-        const auto held = cells_->hold(); // frees memory beyond the budget
-        const UnitEntry& unit = directory_[i];
-        for (const auto& bytes : {part(i, unit.cells_offset, unit.cells_bytes),
-                                  part(i, unit.deltas_offset, unit.deltas_bytes)}) {
-            units_[i / chunks]->need(bytes);
-            if (checksum_of(bytes) != take("units"))
-                throw damaged("the checksum of the units does not match");
+IndexFile::Parts IndexFile::parts() const {
+    Parts parts;
+    for (std::size_t number = 0; number < arrays(); ++number) {
+        const IndexFile& of = array(number);
+        for (const StepEntry& step : of.step_entries_)
+            parts.emplace_back(step.offset, step.bytes);
+        for (const UnitEntry& unit : of.directory_) {
+            parts.emplace_back(unit.cells_offset, unit.cells_bytes);
+            parts.emplace_back(unit.deltas_offset, unit.deltas_bytes);
         }
-        cells_->verify_unit(i);
+        for (const Section& section : of.header_.sections)
+            if (section.bytes > 0)
+                parts.emplace_back(section.offset, section.bytes);
     }
-    if (metadata_.plan.tiers.has(Tier::tree))
-        section<std::byte>(SectionKind::tree);
-    for (std::uint32_t step = 0; !colors_.empty() && step < steps(); ++step)
-        check_step(load_color(step), step, take("colors"), "colors");
-    verify_details(progress);
+    return parts;
 }
 
-/// Checks the levels of detail by reading them: their chunks and tables have their own checksums.
-void IndexFile::verify_details(const Progress& progress) const {
-    for (const auto* array : {&volume_, &colors_})
-        for (std::size_t level = 1; level < array->size(); ++level)
-            for (std::uint32_t step = 0; step < steps(); ++step) {
-                if (progress)
-                    progress("levels of detail",
-                             static_cast<double>(step) / static_cast<double>(steps()));
-                const ChunkStore& store = *(*array)[level];
-                store.whole(step);
-                if (array == &volume_ && metadata_.plan.tiers.has(Tier::bricks))
-                    store.levels(step);
-            }
+std::span<const std::byte> IndexFile::read_unit(std::size_t unit, bool deltas) const {
+    const UnitEntry& entry = directory_[unit];
+    const auto bytes = deltas ? part(unit, entry.deltas_offset, entry.deltas_bytes)
+                              : part(unit, entry.cells_offset, entry.cells_bytes);
+    units_[unit / Chunking(metadata_.info.grid).count()]->need(bytes);
+    return bytes;
+}
+
+void IndexFile::verify(const Progress& progress) const {
+    check_index(*this, progress);
 }
 
 Error IndexFile::damaged(const std::string& what) const {

@@ -13,7 +13,6 @@
 #include "index/progress.h"
 #include "index/system/byte_source.h"
 #include "index/system/lazy_part.h"
-#include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 #include "index/volume/volume_series.h"
 
@@ -45,11 +44,6 @@ class IndexFile {
                                                  std::uint64_t cache_bytes = 0);
     static std::shared_ptr<const IndexFile> open(std::unique_ptr<ByteSource> bytes,
                                                  std::uint64_t cache_bytes = 0);
-    /// Opens the newest state. If the file grows meanwhile, so that the parts that were read belong
-    /// to different states, starts again.
-    using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
-    static std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open,
-                                                        std::uint64_t cache_bytes = 0);
 
     /// Number of arrays of the file that have search structures.
     std::size_t arrays() const { return first().further_.size() + 1; }
@@ -61,6 +55,10 @@ class IndexFile {
     std::optional<std::size_t> array_called(std::string_view name) const;
 
     const std::string& name() const { return bytes_->name(); }
+    /// All bytes of the file.
+    const ByteSource& bytes() const { return *bytes_; }
+    /// That the file is damaged, for whoever makes sense of its parts.
+    Error damaged(const std::string& what) const;
     const SeriesInfo& info() const { return metadata_.info; }
     const IndexStats& stats() const { return metadata_.stats; }
     const TierPlan& plan() const { return metadata_.plan; }
@@ -105,30 +103,19 @@ class IndexFile {
     /// first steps only.
     const CellTier* cells() const { return cells_ ? &*cells_ : nullptr; }
     bool has_cells(std::uint32_t step) const { return cells_ && step < cells_->steps(); }
-    /// The THI tree; null if there is none. The first call reads and checks it: do not call it on
-    /// the render thread. @throws Error when it is damaged
-    const ThiTree* tree() const;
+    bool has_tree() const { return header_.section(SectionKind::tree).bytes > 0; }
+    /// The bytes of the THI tree (index/search/tree_of_file.h opens it). Reads them, and checks the
+    /// checksum. @throws Error when they are damaged
+    std::vector<std::uint64_t> tree_bytes() const;
 
     /// Hash of values, grid and times: the same data give the same hash.
     std::uint64_t content_hash() const { return header_.content_hash; }
-    /// Whether this is the hash of the data, or was when the series had fewer steps. Knows every
-    /// state from which the index has grown, and any number of first steps up to 16,384.
-    bool has_had(std::uint64_t content_hash) const;
-    /// Whether this is the hash of the first `steps` steps.
-    bool has_had(std::uint64_t content_hash, std::size_t steps) const;
-    /// A message if the other header is of a newer state and is damaged, though its sections are
-    /// whole.
-    std::optional<std::string> lost_state() const;
-    /// The place of the previous state's sections, of all arrays, which the next state may
-    /// overwrite.
-    struct Room {
-        std::uint64_t offset = 0, bytes = 0;
-    };
-    Room free_room() const;
     /// The header that counts, with the offsets of all sections.
     const FileHeader& header() const { return header_; }
     std::span<const StepEntry> step_entries() const { return step_entries_; }
     std::span<const UnitEntry> directory() const { return directory_; }
+    /// The bytes of a unit of the directory, read and not checked.
+    std::span<const std::byte> read_unit(std::size_t unit, bool deltas) const;
     /// The section `checksums` as stored: of the values of each step, of each unit, of the array to
     /// color by, and the state of each step's source.
     std::span<const std::uint64_t> checksums() const { return checksums_; }
@@ -136,6 +123,11 @@ class IndexFile {
     std::span<const std::uint64_t> color_checksums() const;
     /// The state of each step's source when it was indexed; 0 if unknown.
     std::span<const std::uint64_t> source_states() const;
+    /// Where the parts of all arrays lie, and how many bytes they have.
+    using Parts = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
+    Parts parts() const;
+    /// Keeps what is made of the file's parts, within the budget of the values.
+    ByteCache& kept() const { return *cache_; }
     /// Use and budget of the cache of values.
     ByteCache::Use cache() const { return cache_->use(); }
     /// The budget [bytes] of everything that is kept of the file.
@@ -155,10 +147,6 @@ class IndexFile {
     void read();
     void open_further();
     void expect_same_shape(const IndexFile& first) const;
-    void verify_parts(const Progress& progress) const;
-    using Used = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
-    void add_parts(Used& used) const;
-    Used all_parts() const;
     std::size_t steps() const { return metadata_.info.steps(); }
     template <class T>
     std::vector<T> section(SectionKind kind) const;
@@ -166,17 +154,12 @@ class IndexFile {
                                     std::uint64_t bytes) const;
 
     void set_arrays();
-    void verify_details(const Progress& progress) const;
     void set_cells();
     std::vector<std::unique_ptr<ChunkStore>> array_of(const char* called, std::size_t first,
                                                       const SeriesInfo& info);
     ChunkArray level_of(const std::string& called, std::size_t number, const SeriesInfo& info,
                         bool fine) const;
     bool lies_within(std::uint64_t offset, std::uint64_t bytes) const;
-    void check_gaps() const;
-    void check_step(const LoadedStep& loaded, std::uint32_t step, std::uint64_t checksum,
-                    const char* called) const;
-    Error damaged(const std::string& what) const;
     Error mismatch(SectionKind kind) const;
 
     const IndexFile* first_ = nullptr; ///< the first array of the file; null: this is it
@@ -198,8 +181,6 @@ class IndexFile {
     std::optional<CellTier> cells_;
     /// Of what is read when it is first asked for; a failure leaves it for the next to ask.
     mutable std::mutex reading_;
-    mutable std::vector<std::uint64_t> tree_bytes_;
-    mutable std::unique_ptr<ThiTree> tree_;
     mutable std::shared_ptr<std::byte> all_;
     mutable StepValues values_;
     std::vector<std::unique_ptr<IndexFile>> further_; ///< the other arrays, of the first one only

@@ -1,6 +1,7 @@
 // Earlier states of an index: hashes, a damaged newer header, and the room that a state leaves.
+#include "index/file/index_states.h"
+
 #include "index/error.h"
-#include "index/file/index_file.h"
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/series_content.h"
 
@@ -39,8 +40,7 @@ std::uint64_t newest_state(const ByteSource& bytes) {
 
 } // namespace
 
-std::shared_ptr<const IndexFile> IndexFile::open_newest(const OpenBytes& open,
-                                                        std::uint64_t cache_bytes) {
+std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open, std::uint64_t cache_bytes) {
     constexpr int kMostTimes = 8;
     for (int time = 1;; ++time) {
         const std::uint64_t state = newest_state(*open());
@@ -53,22 +53,23 @@ std::shared_ptr<const IndexFile> IndexFile::open_newest(const OpenBytes& open,
     }
 }
 
-bool IndexFile::has_had(std::uint64_t content_hash, std::size_t steps) const {
-    return content_hash_of(metadata_.info, std::span(checksums_).first(steps)) == content_hash;
+bool has_had(const IndexFile& file, std::uint64_t content_hash, std::size_t steps) {
+    return content_hash_of(file.info(), file.checksums().first(steps)) == content_hash;
 }
 
-bool IndexFile::has_had(std::uint64_t content_hash) const {
-    if (content_hash == header_.content_hash ||
-        std::ranges::find(metadata_.earlier, content_hash) != metadata_.earlier.end())
+bool has_had(const IndexFile& file, std::uint64_t content_hash) {
+    const auto& earlier = file.metadata().earlier;
+    if (content_hash == file.content_hash() ||
+        std::ranges::find(earlier, content_hash) != earlier.end())
         return true;
-    for (std::size_t steps = std::min(this->steps() - 1, kHashedSteps); steps > 0; --steps)
-        if (has_had(content_hash, steps))
+    for (std::size_t steps = std::min(file.info().steps() - 1, kHashedSteps); steps > 0; --steps)
+        if (has_had(file, content_hash, steps))
             return true;
     return false;
 }
 
-std::optional<std::string> IndexFile::lost_state() const {
-    const OtherSlot other = other_slot(*bytes_, header_);
+std::optional<std::string> lost_state(const IndexFile& file) {
+    const OtherSlot other = other_slot(file.bytes(), file.header());
     if (other.sound || other.blank)
         return std::nullopt;
     // A header fits in one sector of any disk, so a power failure leaves it either whole or
@@ -76,25 +77,26 @@ std::optional<std::string> IndexFile::lost_state() const {
     // newer.
     for (std::size_t i = 0; i < kSectionNames.size(); ++i)
         if (const Section& section = other.header.sections[i];
-            section.bytes > header_.sections[i].bytes && is_whole(*bytes_, section))
+            section.bytes > file.header().sections[i].bytes && is_whole(file.bytes(), section))
             return fmt::format(
                 "{}: the header of a newer state is damaged, though what it names is "
                 "whole: its first {} steps are what is left; isochron build makes "
                 "it anew",
-                name(), steps());
+                file.name(), file.info().steps());
     return std::nullopt;
 }
 
-IndexFile::Room IndexFile::free_room() const {
-    const OtherSlot other = other_slot(*bytes_, header_);
+FreeRoom free_room(const IndexFile& file) {
+    const FileHeader& header = file.header();
+    const OtherSlot other = other_slot(file.bytes(), header);
     if (!other.sound || other.header.section(SectionKind::tree).bytes > 0)
         return {};
-    Room room{header_.file_bytes, 0};
+    FreeRoom room{header.file_bytes, 0};
     for (const Section& section : other.header.sections)
         if (section.bytes > 0)
             room.offset = std::min(room.offset, section.offset);
-    std::uint64_t end = header_.file_bytes;
-    for (const auto& [offset, bytes] : all_parts())
+    std::uint64_t end = header.file_bytes;
+    for (const auto& [offset, bytes] : file.parts())
         if (bytes > 0 && offset + bytes > room.offset)
             end = std::min(end, std::max(offset, room.offset));
     room.bytes = end - room.offset;

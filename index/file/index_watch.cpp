@@ -1,6 +1,8 @@
 // Watches whether an open index has grown.
 #include "index/file/index_watch.h"
 
+#include "index/file/index_states.h"
+
 #include <utility>
 
 namespace isochron::index {
@@ -24,7 +26,7 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
             return nullptr;
         auto file = IndexFile::open(path, known.cache_bytes());
         return file->info().steps() > known.info().steps() && has_arrays_of(*file, known) &&
-                       file->has_had(known.content_hash(), known.info().steps())
+                       has_had(*file, known.content_hash(), known.info().steps())
                    ? file
                    : nullptr;
     } catch (const Error&) { // it is being replaced

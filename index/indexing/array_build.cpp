@@ -9,6 +9,7 @@
 #include "index/indexing/unit_pass.h"
 #include "index/system/mapped_file.h"
 #include "index/system/parallel.h"
+#include "index/thi/thi_tree.h"
 #include "index/volume/chunking.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ class ArrayBuild::Work {
                                  .chosen_array = options.array,
                                  .chosen_component = options.component,
                                  .reading = options.reading},
-          steps_(static_cast<std::uint32_t>(series.info().steps())),
+          steps_{.all = static_cast<std::uint32_t>(series.info().steps())},
           levels_(detail_grids(series.info().grid).size()) {
         if (held)
             take(*held);
@@ -59,23 +60,23 @@ class ArrayBuild::Work {
             team_.together([&] {
                 ChunkContents values_alone = contents();
                 values_alone.bricks = false;
-                colors_.emplace(*options_.color, fresh_, held_ ? held_->color() : nullptr,
+                colors_.emplace(*options_.color, steps_.fresh, held_ ? held_->color() : nullptr,
                                 values_alone, means(".colors"), team_);
             });
-        return {series_,    window_,          kept_,
+        return {series_,    steps_.window,    kept_,
                 contents(), means(".chunks"), colors_ ? &*colors_ : nullptr};
     }
 
     bool take(VolumeFindings found) {
         counts_.merge(metadata_.info.type, found.counts);
         set_counts(metadata_, counts_);
-        append_to(checksums_, found.checksums);
-        append_to(states_, found.states);
-        append_steps(volume_steps_, found.steps);
+        append_to(tables_.checksums, found.checksums);
+        append_to(tables_.states, found.states);
+        append_steps(tables_.volume_steps, found.steps);
         if (found.colors)
             take_colors(std::move(*found.colors));
         found_levels_ = std::move(found.levels);
-        content_hash_ = content_hash_of(metadata_.info, checksums_);
+        content_hash_ = content_hash_of(metadata_.info, tables_.checksums);
         if (held_ && !fits_held_levels())
             return false;
         take_kept_values();
@@ -102,19 +103,35 @@ class ArrayBuild::Work {
         ArraySections sections{.content_hash = content_hash_,
                                .tree = tree_,
                                .steps = {},
-                               .directory = std::move(directory_),
-                               .checksums = std::move(checksums_),
+                               .directory = std::move(tables_.directory),
+                               .checksums = std::move(tables_.checksums),
                                .metadata = std::move(metadata_)};
-        for (const auto* array : {&volume_steps_, &color_steps_})
+        for (const auto* array : {&tables_.volume_steps, &tables_.color_steps})
             for (const std::vector<StepEntry>& level : *array)
                 append_to(sections.steps, level);
-        append_to(sections.checksums, unit_checksums_);
-        append_to(sections.checksums, color_checksums_);
-        append_to(sections.checksums, states_);
+        append_to(sections.checksums, tables_.unit_checksums);
+        append_to(sections.checksums, tables_.color_checksums);
+        append_to(sections.checksums, tables_.states);
         return sections;
     }
 
   private:
+    /// The rows that the sections of the file get, as far as they are known.
+    struct ArrayTables {
+        std::vector<UnitEntry> directory;
+        std::vector<std::uint64_t> checksums, unit_checksums, color_checksums, states;
+        std::vector<std::vector<StepEntry>> volume_steps, color_steps; ///< by level of detail
+    };
+
+    /// Which steps are read, and which get cells.
+    struct StepsToBuild {
+        std::uint32_t all = 0;         ///< of the series
+        std::size_t fresh = 0;         ///< the first step that is not held
+        std::size_t window = 0;        ///< the first step whose values are needed
+        std::uint32_t covered = 0;     ///< number of first steps that cells hold
+        std::uint32_t first_epoch = 0; ///< the first epoch whose cells are built
+    };
+
     bool has(Tier tier) const { return metadata_.plan.tiers.has(tier); }
 
     template <class T, class From>
@@ -133,40 +150,40 @@ class ArrayBuild::Work {
     /// Takes over the parts that an index has already; they stay where they are.
     void take(const IndexFile& held) {
         const Metadata& known = held.metadata();
-        fresh_ = known.info.steps();
+        steps_.fresh = known.info.steps();
         metadata_.earlier = known.earlier;
         metadata_.earlier.push_back(held.content_hash());
         metadata_.plan = known.plan;
         metadata_.levels = known.levels;
         counts_ = known.stats.counts;
-        append_steps(volume_steps_, held.step_entries().first(fresh_ * levels_));
-        append_to(checksums_, held.checksums().first(fresh_));
-        append_to(states_, held.source_states());
+        append_steps(tables_.volume_steps, held.step_entries().first(steps_.fresh * levels_));
+        append_to(tables_.checksums, held.checksums().first(steps_.fresh));
+        append_to(tables_.states, held.source_states());
         if (held.color()) {
-            append_steps(color_steps_, held.step_entries().last(fresh_ * levels_));
-            append_to(color_checksums_, held.color_checksums());
+            append_steps(tables_.color_steps, held.step_entries().last(steps_.fresh * levels_));
+            append_to(tables_.color_checksums, held.color_checksums());
         }
     }
 
     /// Decides which steps get cells, and which values must be read for them.
     void plan_cells() {
-        window_ = fresh_;
-        covered_ = steps_;
+        steps_.window = steps_.fresh;
+        steps_.covered = steps_.all;
         if (!held_ || !has(Tier::cells))
             return;
         const std::uint32_t known = held_->metadata().cell_steps;
-        covered_ = covered_steps(static_cast<std::uint32_t>(fresh_), steps_, known);
-        first_epoch_ = known / TimePath::kMaxSteps;
-        const std::size_t kept = covered_ == known
+        steps_.covered = covered_steps(static_cast<std::uint32_t>(steps_.fresh), steps_.all, known);
+        steps_.first_epoch = known / TimePath::kMaxSteps;
+        const std::size_t kept = steps_.covered == known
                                      ? held_->directory().size()
-                                     : first_epoch_ * Chunking(metadata_.info.grid).count();
-        append_to(directory_, held_->directory().first(kept));
-        append_to(unit_checksums_, held_->checksums().subspan(fresh_, 2 * kept));
-        if (covered_ == known)
+                                     : steps_.first_epoch * Chunking(metadata_.info.grid).count();
+        append_to(tables_.directory, held_->directory().first(kept));
+        append_to(tables_.unit_checksums, held_->checksums().subspan(steps_.fresh, 2 * kept));
+        if (steps_.covered == known)
             return;
-        const std::size_t begin = std::size_t{first_epoch_} * TimePath::kMaxSteps;
+        const std::size_t begin = std::size_t{steps_.first_epoch} * TimePath::kMaxSteps;
         const std::size_t before = has(Tier::deltas) && begin > 0 ? 1 : 0;
-        window_ = std::min(window_, begin - before);
+        steps_.window = std::min(steps_.window, begin - before);
     }
 
     /// Decides what must be known before the first step is read: whether chunks have bricks, and
@@ -177,7 +194,7 @@ class ArrayBuild::Work {
         bricks_ = known ? known->tiers.has(Tier::bricks)
                         : !options_.tiers || options_.tiers->has(Tier::bricks);
         if (held_) {
-            kept_.always = covered_ != held_->metadata().cell_steps && has(Tier::cells);
+            kept_.always = steps_.covered != held_->metadata().cell_steps && has(Tier::cells);
         } else if (known) {
             kept_.always =
                 options_.with_tree || known->tiers.has(Tier::cells) || known->tiers.has(Tier::tree);
@@ -191,15 +208,16 @@ class ArrayBuild::Work {
         team_.together([&] {
             kept_.file = &scratch_->sink();
             if (team_.rank() == 0 && kept_.always)
-                scratch_->sink().reserve((info.steps() - window_) * step_stride(info.step_bytes()));
+                scratch_->sink().reserve((info.steps() - steps_.window) *
+                                         step_stride(info.step_bytes()));
         });
     }
 
     /// Building cells takes about four times as long as reading and packing.
     ArrayWork estimated_work(bool cells) const {
         const auto step = static_cast<double>(metadata_.info.step_bytes());
-        const auto fresh = static_cast<double>(steps_ - fresh_);
-        const auto window = static_cast<double>(steps_ - window_);
+        const auto fresh = static_cast<double>(steps_.all - steps_.fresh);
+        const auto window = static_cast<double>(steps_.all - steps_.window);
         const double colors =
             options_.color ? fresh * static_cast<double>(options_.color->info().step_bytes()) : 0;
         return {step * window + colors, cells ? 4 * step * window : 0};
@@ -217,7 +235,7 @@ class ArrayBuild::Work {
                    .steps = info.steps(),
                    .first = nullptr,
                    .stride = step_stride(info.step_bytes()),
-                   .first_step = window_};
+                   .first_step = steps_.window};
         if (!kept_.file)
             return;
         team_.together([&] { written_.emplace(scratch_->sink().temporary()); });
@@ -244,7 +262,7 @@ class ArrayBuild::Work {
             if (options_.with_tree)
                 metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
             if (!keeps) {
-                metadata_.plan.steps = steps_;
+                metadata_.plan.steps = steps_.all;
                 metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::bricks, bricks_);
             }
         });
@@ -263,8 +281,8 @@ class ArrayBuild::Work {
     void align() { end_ = align_up(end_, kPartAlignment); }
 
     void take_colors(ColorFindings&& found) {
-        append_steps(color_steps_, found.steps);
-        append_to(color_checksums_, found.checksums);
+        append_steps(tables_.color_steps, found.steps);
+        append_to(tables_.color_checksums, found.checksums);
         metadata_.color = std::move(found.array);
         metadata_.color->chosen_array = options_.color_array;
         metadata_.color->chosen_component = options_.color_component;
@@ -273,17 +291,17 @@ class ArrayBuild::Work {
     void write_cells(const Progress& progress) {
         if (!has(Tier::cells))
             return;
-        metadata_.cell_steps = covered_;
-        if (held_ && held_->metadata().cell_steps == covered_)
+        metadata_.cell_steps = steps_.covered;
+        if (held_ && held_->metadata().cell_steps == steps_.covered)
             return;
         align();
         StepValues covered = values_;
-        covered.steps = covered_;
-        const UnitFindings units =
-            write_units(covered, first_epoch_, *written_, *metadata_.levels, has(Tier::deltas),
-                        target_.sink(), end_, spill(".units"), threads_, team_, progress);
-        append_to(directory_, units.directory);
-        append_to(unit_checksums_, units.checksums);
+        covered.steps = steps_.covered;
+        const UnitFindings units = write_units(covered, steps_.first_epoch, *written_,
+                                               *metadata_.levels, has(Tier::deltas), target_.sink(),
+                                               end_, spill(".units"), threads_, team_, progress);
+        append_to(tables_.directory, units.directory);
+        append_to(tables_.unit_checksums, units.checksums);
     }
 
     void write_tree(const Progress& progress) {
@@ -313,20 +331,14 @@ class ArrayBuild::Work {
     Metadata metadata_;
     std::uint64_t content_hash_ = 0;
     Section tree_;
-    std::uint32_t steps_;           ///< of the series
-    std::size_t levels_;            ///< number of levels of detail
-    std::size_t fresh_ = 0;         ///< the first step that is not held
-    std::size_t window_ = 0;        ///< the first step whose values are needed
-    std::uint32_t covered_ = 0;     ///< number of first steps that cells hold
-    std::uint32_t first_epoch_ = 0; ///< the first epoch whose cells are built
+    StepsToBuild steps_;
+    std::size_t levels_; ///< number of levels of detail
     ValueCounts counts_;
     std::optional<LevelMap> found_levels_; ///< of the new steps together
     std::optional<MappedFile> written_;    ///< the values, once they are complete
     StepValues values_;
-    std::vector<UnitEntry> directory_;
-    std::vector<std::uint64_t> checksums_, unit_checksums_, color_checksums_, states_;
-    std::vector<std::vector<StepEntry>> volume_steps_, color_steps_; ///< by level of detail
-    std::uint64_t end_ = 0;                                          ///< of what has been written
+    ArrayTables tables_;
+    std::uint64_t end_ = 0; ///< of what has been written
 };
 
 ArrayBuild::ArrayBuild(VolumeSeries& series, const std::filesystem::path& out,

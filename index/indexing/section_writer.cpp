@@ -1,6 +1,8 @@
 // Writes the sections of an index, the last parts of each of its states.
 #include "index/indexing/section_writer.h"
 
+#include "index/file/index_states.h"
+
 #include <cstddef>
 #include <string>
 
@@ -56,7 +58,7 @@ SectionBlock block_at(std::uint64_t begin, std::vector<ArraySections>& arrays) {
 
 std::uint64_t write_sections(std::vector<ArraySections>& arrays, const IndexFile* held,
                              std::uint64_t end, FileHeader& header, ByteSink& file) {
-    const IndexFile::Room room = held ? held->free_room() : IndexFile::Room{};
+    const FreeRoom room = held ? free_room(*held) : FreeRoom{};
     const auto padded = [](const SectionBlock& block) {
         return align_up(block.bytes.size(), kPartAlignment);
     };

@@ -49,31 +49,34 @@ void copy_rows_of_width(const Rows& rows, std::size_t width) {
 
 } // namespace
 
-ChunkCube::ChunkCube(const SeriesInfo& info)
-    : grid_(info.grid),
-      memory_((kMostVertices * kMostVertices * kMostVertices * size_of(info.type) + kPadding) /
-              sizeof(std::uint64_t)) {
-    values_ = {.grid = info.grid,
-               .type = info.type,
-               .scaling = info.scaling,
-               .steps = info.steps(),
-               .first = reinterpret_cast<const std::byte*>(memory_.data()),
-               .stride = memory_.size() * sizeof(std::uint64_t)};
-}
-
-void ChunkCube::begin(std::uint32_t step, const std::array<std::uint32_t, 3>& at) {
-    values_.first_step = step;
+void ChunkCube::begin(const StepView& step, const std::array<std::uint32_t, 3>& at) {
+    const Grid& grid = step.grid();
+    const std::size_t bytes =
+        kMostVertices * kMostVertices * kMostVertices * size_of(step.type()) + kPadding;
+    memory_.resize(std::max(memory_.size(), bytes / sizeof(std::uint64_t)));
+    values_.type = step.type();
+    values_.scaling = step.scaling();
+    values_.steps = step.steps();
+    values_.first = reinterpret_cast<const std::byte*>(memory_.data());
+    values_.stride = memory_.size() * sizeof(std::uint64_t);
+    values_.first_step = step.at();
     std::array<std::uint32_t, 3> begin{}, end{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::uint32_t first = at[axis] * kChunkEdge, all = grid_.vertices[axis];
+        const std::uint32_t first = at[axis] * kChunkEdge, all = grid.vertices[axis];
         first_[axis] = first > 0 ? kBelow : 0;
         begin[axis] = first - first_[axis];
         end[axis] = std::min(first + kChunkEdge + kAbove, all);
         cells_[axis] = std::min(kChunkEdge, all - 1 - first);
         values_.grid.vertices[axis] = end[axis] - begin[axis];
     }
-    if (grid_.rectilinear()) // else nothing but the numbers of vertices differs
-        values_.grid = grid_.part(begin, end);
+    if (grid.rectilinear()) {
+        values_.grid = grid.part(begin, end);
+        return;
+    }
+    // Else nothing but the numbers of vertices differs from the whole grid.
+    values_.grid.origin = grid.origin;
+    values_.grid.spacing = grid.spacing;
+    values_.grid.direction = grid.direction;
 }
 
 void ChunkCube::copy(unsigned bit, const Chunk& chunk) {

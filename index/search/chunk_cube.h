@@ -1,7 +1,7 @@
 // The vertices of one chunk and the nearest ones around it, side by side in the nearest cache.
 #pragma once
 
-#include "index/file/chunks/chunk_store.h"
+#include "index/file/step_view.h"
 #include "index/search/chunk_reach.h"
 #include "index/volume/step_values.h"
 
@@ -16,11 +16,9 @@ namespace isochron::index {
 /// what its cells and their normals need. Keeps its memory.
 class ChunkCube {
   public:
-    explicit ChunkCube(const SeriesInfo& info);
-
     /// Moves to a chunk. What is copied of the earlier one is gone.
     /// @param at coordinates of the chunk
-    void begin(std::uint32_t step, const std::array<std::uint32_t, 3>& at);
+    void begin(const StepView& step, const std::array<std::uint32_t, 3>& at);
     /// Copies what the cube holds of the chunk at an offset (bit of ChunksAround).
     void copy(unsigned bit, const Chunk& chunk);
 
@@ -33,7 +31,6 @@ class ChunkCube {
     const std::array<std::uint32_t, 3>& cells() const { return cells_; }
 
   private:
-    const Grid grid_; ///< the whole one
     std::vector<std::uint64_t> memory_;
     StepValues values_;
     std::array<std::uint32_t, 3> first_{}, cells_{};

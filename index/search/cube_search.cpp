@@ -15,15 +15,11 @@ using Clock = std::chrono::steady_clock;
 
 } // namespace
 
-CubeSearch::CubeSearch(const ChunkStore& store)
-    : store_(store), chunks_(store.grid()), cube_(store.info()) {
-    for (auto& layer : there_)
-        layer.resize(chunks_.chunks_of_layer());
-}
-
-void CubeSearch::search(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
-                        bool shaded, const std::stop_token& stop, CellSet& out,
+void CubeSearch::search(const StepView& step, const LayerCandidates& candidates, const Query& query,
+                        std::uint64_t cut, bool shaded, const std::stop_token& stop, CellSet& out,
                         std::chrono::nanoseconds& shading) {
+    step_ = &step;
+    chunks_ = &step.chunk_grid();
     shading_ = std::chrono::nanoseconds(0);
     find(candidates, query, cut, shaded, stop, out);
     const auto found = Clock::now();
@@ -41,7 +37,7 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
                       bool shaded, const std::stop_token& stop, CellSet& out) {
     layer_ = candidates.layer();
     for (auto& layer : there_)
-        std::ranges::fill(layer, nullptr);
+        layer.assign(chunks_->chunks_of_layer(), nullptr);
     for (auto& layer : missing_) // of a search that failed
         layer.clear();
     held_.clear();
@@ -51,17 +47,17 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
     for (std::size_t i = 0; i < places.size(); ++i)
         there_[1][places[i]] = candidates.chunk(i).get();
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto [x, y] = chunks_.at(places[i]);
+        const auto [x, y] = chunks_->at(places[i]);
         need(x, y, candidates.reach(i));
     }
-    fetch(candidates, query.step, stop);
+    fetch(candidates, stop);
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (candidates.bricks(i) == 0)
             continue;
         stop_if_asked(stop);
-        const auto [x, y] = chunks_.at(places[i]);
+        const auto [x, y] = chunks_->at(places[i]);
         const ChunksAround reach = candidates.reach(i);
-        cube_.begin(query.step, {x, y, layer_});
+        cube_.begin(*step_, {x, y, layer_});
         fill_cube(x, y, reach);
         out.candidates += cells_of_bricks(candidates.bricks(i), cube_.cells());
         const CubeRows rows = active_rows(cube_, cut, candidates.bricks(i));
@@ -85,12 +81,12 @@ void CubeSearch::shade_others(const LayerCandidates& candidates, const Query& qu
                               const std::stop_token& stop) {
     for (const Found& found : found_)
         need(found.x, found.y, found.around);
-    fetch(candidates, query.step, stop);
+    fetch(candidates, stop);
     for (Found& found : found_) {
         if (found.count > 0)
             continue;
         stop_if_asked(stop);
-        cube_.begin(query.step, {found.x, found.y, layer_});
+        cube_.begin(*step_, {found.x, found.y, layer_});
         fill_cube(found.x, found.y, found.around);
         shade(found, query);
     }
@@ -117,7 +113,7 @@ void CubeSearch::write(bool shaded, CellSet& out) {
             next_.emplace_back();
         add_counts(found_[i].rows, next_.back());
     }
-    const auto [width, height, depth] = store_.info().grid.cells();
+    const auto [width, height, depth] = step_->grid().cells();
     std::uint32_t sum = 0;
     for (std::uint32_t z = 0; z < kChunkEdge; ++z)
         for (std::size_t i = 0, group = 0; i < found_.size(); ++group) {
@@ -158,10 +154,10 @@ void CubeSearch::write(bool shaded, CellSet& out) {
 /// Notes which chunks around a chunk are to be fetched.
 void CubeSearch::need(std::uint32_t x, std::uint32_t y, ChunksAround around) {
     static const Chunk expected; // stands for a chunk until it has been read
-    for_each_around(around, {x, y, layer_}, chunks_,
+    for_each_around(around, {x, y, layer_}, *chunks_,
                     [&](unsigned, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
                         const std::size_t i = layer + 1 - layer_;
-                        const std::uint32_t place = chunks_.place(cx, cy);
+                        const std::uint32_t place = chunks_->place(cx, cy);
                         if (there_[i][place])
                             return;
                         there_[i][place] = &expected;
@@ -170,20 +166,19 @@ void CubeSearch::need(std::uint32_t x, std::uint32_t y, ChunksAround around) {
 }
 
 /// Reads the chunks that are needed and not there.
-void CubeSearch::fetch(const LayerCandidates& candidates, std::uint32_t step,
-                       const std::stop_token& stop) {
+void CubeSearch::fetch(const LayerCandidates& candidates, const std::stop_token& stop) {
     for (std::uint32_t i = 0; i < missing_.size(); ++i) {
         std::ranges::sort(missing_[i]);
         std::vector<std::uint32_t> others = missing_[i];
         candidates.keep_unannounced(layer_ + i - 1, others);
         if (!others.empty()) // announces all of them before waiting for any
-            store_.expect(step, layer_ + i - 1, others);
+            step_->expect(layer_ + i - 1, others);
     }
     for (std::uint32_t i = 0; i < missing_.size(); ++i) {
         const std::vector<std::uint32_t> places = std::exchange(missing_[i], {});
         if (places.empty())
             continue;
-        std::vector<ChunkPtr> chunks = store_.chunks(step, layer_ + i - 1, places, stop);
+        std::vector<ChunkPtr> chunks = step_->chunks(layer_ + i - 1, places, stop);
         for (std::size_t at = 0; at < places.size(); ++at) {
             there_[i][places[at]] = chunks[at].get();
             held_.push_back(std::move(chunks[at]));
@@ -193,18 +188,18 @@ void CubeSearch::fetch(const LayerCandidates& candidates, std::uint32_t step,
 
 bool CubeSearch::are_there(std::uint32_t x, std::uint32_t y, ChunksAround around) const {
     bool all = true;
-    for_each_around(around, {x, y, layer_}, chunks_,
+    for_each_around(around, {x, y, layer_}, *chunks_,
                     [&](unsigned, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
-                        all &= there_[layer + 1 - layer_][chunks_.place(cx, cy)] != nullptr;
+                        all &= there_[layer + 1 - layer_][chunks_->place(cx, cy)] != nullptr;
                     });
     return all;
 }
 
 /// Copies to the cube what it holds of chunks around its own.
 void CubeSearch::fill_cube(std::uint32_t x, std::uint32_t y, ChunksAround around) {
-    for_each_around(around, {x, y, layer_}, chunks_,
+    for_each_around(around, {x, y, layer_}, *chunks_,
                     [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {
-                        cube_.copy(bit, *there_[layer + 1 - layer_][chunks_.place(cx, cy)]);
+                        cube_.copy(bit, *there_[layer + 1 - layer_][chunks_->place(cx, cy)]);
                     });
 }
 

@@ -1,7 +1,7 @@
 // Search and shading of a layer of chunks, one chunk after the other in the nearest cache.
 #pragma once
 
-#include "index/file/chunks/chunk_store.h"
+#include "index/file/step_view.h"
 #include "index/search/cube_cells.h"
 #include "index/search/layer_candidates.h"
 #include "index/surface/cell_set.h"
@@ -19,16 +19,13 @@ namespace isochron::index {
 /// Keeps its work space: one for each thread. Throws as ChunkStore does.
 class CubeSearch {
   public:
-    /// @param store outlives this
-    explicit CubeSearch(const ChunkStore& store);
-
     /// Finds the active cells of a layer among its candidates.
     /// @param cut of the query's isovalue, see stored_cut
     /// @param shaded also makes points and rows, from all that lies around the cells
     /// @param out empty; gets ids of the whole grid, ascending, and how many cells were tested
     /// @param shading set to the time that points and rows take
-    void search(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
-                bool shaded, const std::stop_token& stop, CellSet& out,
+    void search(const StepView& step, const LayerCandidates& candidates, const Query& query,
+                std::uint64_t cut, bool shaded, const std::stop_token& stop, CellSet& out,
                 std::chrono::nanoseconds& shading);
 
   private:
@@ -48,12 +45,12 @@ class CubeSearch {
     void write(bool shaded, CellSet& out);
 
     void need(std::uint32_t x, std::uint32_t y, ChunksAround around);
-    void fetch(const LayerCandidates& candidates, std::uint32_t step, const std::stop_token& stop);
+    void fetch(const LayerCandidates& candidates, const std::stop_token& stop);
     bool are_there(std::uint32_t x, std::uint32_t y, ChunksAround around) const;
     void fill_cube(std::uint32_t x, std::uint32_t y, ChunksAround around);
 
-    const ChunkStore& store_;
-    const ChunkGrid& chunks_;
+    const StepView* step_ = nullptr;    ///< of the search that runs
+    const ChunkGrid* chunks_ = nullptr; ///< of that step
     std::uint32_t layer_ = 0;
     std::chrono::nanoseconds shading_{0}; ///< of this layer
     ChunkCube cube_;

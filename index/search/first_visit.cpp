@@ -6,7 +6,7 @@
 namespace isochron::index {
 
 MissingBytes missing_bytes(const IndexFile& file, const Query& query, bool shaded) {
-    const ChunkStore& store = file.chunks();
+    const StepView step = step_of(file, query.step);
     MissingBytes bytes;
     {
         const auto held = file.cells()->hold();
@@ -14,16 +14,14 @@ MissingBytes missing_bytes(const IndexFile& file, const Query& query, bool shade
     }
     if (bytes.cells == 0)
         return bytes; // needs no comparison
-    if (file.better_whole(query.step)) {
-        bytes.bricks = store.missing_bytes(query.step);
+    if (!step.by_chunks()) {
+        bytes.bricks = step.store().missing_bytes(query.step);
         if (file.referral()) // the values are in the source
             bytes.bricks += file.info().step_bytes();
-    } else if (const auto cut =
-                   store.levels(query.step)->cut(file.info().scaling, query.isovalue)) {
-        for (std::uint32_t layer = 0; layer < store.grid().layers(); ++layer)
-            bytes.bricks += store.missing_bytes(
-                query.step, layer,
-                LayerCandidates::places_of(*store.layer(query.step, layer), *cut));
+    } else if (const auto cut = step.cut(query.isovalue)) {
+        for (std::uint32_t layer = 0; layer < step.chunk_grid().layers(); ++layer)
+            bytes.bricks += step.store().missing_bytes(
+                query.step, layer, LayerCandidates::places_of(*step.layer(layer), *cut));
     }
     if (shaded)
         bytes.cells += bytes.bricks;

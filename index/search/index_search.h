@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
+#include "index/file/step_view.h"
 #include "index/surface/cell_set.h"
 
 #include <functional>
@@ -16,7 +17,10 @@ namespace isochron::index {
 using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 
 /// The same, but fills an empty set of the caller, which may change it later. False when stopped.
-using SearchInto = std::function<bool(const Query&, std::stop_token, CellSet&)>;
+using SearchInto =
+    std::function<bool(const StepView& step, double isovalue, std::stop_token, CellSet&)>;
+/// The step of a query. @throws Error if the series does not have it
+StepView step_of_query(const IndexFile& file, Instant at);
 
 /// The fastest method that the file's tiers allow: cells, else bricks, else the paper's tree, else
 /// the scan.
@@ -24,15 +28,14 @@ SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has the tier that a method needs.
 bool can_search(const IndexFile& file, SearchMethod method);
 
-/// `cells`: a set gets points and rows, and a mesh if the query has room for one. `none`: it stays
-/// a list of ids.
+/// `cells`: a set gets points and rows. `none`: it stays a list of ids.
 enum class Shading : std::uint8_t { none, cells };
 
 /// The search over an open index. Copies share their state. If the file has cells and bricks, the
 /// first search of a step uses the tier with fewer bytes left to read, and later ones use cells,
 /// which are fastest.
 /// @param method used instead of `cheapest_method`; the file must have that tier
-/// @param shading `cells` completes the sets by `shade_cells`, and by `make_mesh` if there is room
+/// @param shading `cells` completes the sets by `shade_cells`
 Search search_in(std::shared_ptr<const IndexFile> file,
                  std::optional<SearchMethod> method = std::nullopt,
                  Shading shading = Shading::cells);

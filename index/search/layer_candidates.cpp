@@ -36,18 +36,18 @@ constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
 
 } // namespace
 
-LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
+LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
                                  const LevelMap::Cut& cut, bool normals,
                                  const std::stop_token& stop, const ChunkFilter& only)
-    : layer_(layer), places_(places_of(*store.layer(step, layer), cut, layer, only)), cut_(cut) {
+    : layer_(layer), places_(places_of(*step.layer(layer), cut, layer, only)), cut_(cut) {
     if (places_.empty())
         return;
     const auto started = std::chrono::steady_clock::now();
-    const ChunkGrid& grid = store.grid();
+    const ChunkGrid& grid = step.chunk_grid();
     for (std::uint32_t i = 0; i < tables_.size(); ++i)
         if (layer + i > 0 && layer + i - 1 < grid.layers())
-            tables_[i] = store.layer(step, layer + i - 1);
-    chunks_ = store.chunks(step, layer, places_, stop);
+            tables_[i] = step.layer(layer + i - 1);
+    chunks_ = step.chunks(layer, places_, stop);
     for (std::size_t i = 0; i < places_.size(); ++i) {
         bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         const auto [x, y] = grid.at(places_[i]);
@@ -65,8 +65,9 @@ LayerCandidates::LayerCandidates(const ChunkStore& store, std::uint32_t step, st
         std::erase_if(places, [&](std::uint32_t place) { // candidates have been announced
             return may_hold(tables_[i]->low[place], tables_[i]->high[place], cut);
         });
-        if (tables_[i] && !store.fetches_all(count_of(*tables_[i], cut, layer + i - 1, only)))
-            store.expect(step, layer + i - 1, places);
+        if (tables_[i] &&
+            !step.store().fetches_all(count_of(*tables_[i], cut, layer + i - 1, only)))
+            step.expect(layer + i - 1, places);
     }
     time_ = std::chrono::steady_clock::now() - started;
 }

@@ -2,7 +2,7 @@
 // lies around them announced.
 #pragma once
 
-#include "index/file/chunks/chunk_store.h"
+#include "index/file/step_view.h"
 #include "index/search/chunk_reach.h"
 #include "index/volume/level_map.h"
 
@@ -33,9 +33,8 @@ class LayerCandidates {
     /// to the disk.
     /// @param normals whether normals will be made, too
     /// @param only reads the candidates among these alone
-    LayerCandidates(const ChunkStore& store, std::uint32_t step, std::uint32_t layer,
-                    const LevelMap::Cut& cut, bool normals, const std::stop_token& stop,
-                    const ChunkFilter& only = {});
+    LayerCandidates(const StepView& step, std::uint32_t layer, const LevelMap::Cut& cut,
+                    bool normals, const std::stop_token& stop, const ChunkFilter& only = {});
 
     /// The chunks that may hold active cells according to their ranks, ascending.
     static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut,

@@ -79,10 +79,17 @@ void LayerResults::append(LayerResult& result) {
     free_.push_back(std::move(result));
 }
 
-void LayerResults::keep(const LayerResult& result) {
-    const CellSet& from = result.cells;
+void LayerResults::keep(LayerResult& result) {
+    CellSet& from = result.cells;
+    if (came_.size() == 1 && result.first == 0 && result.first_plane == 0) { // nothing to join
+        set_->ids.swap(from.ids);
+        set_->points.swap(from.points);
+        set_->rows.swap(from.rows);
+        set_->candidates = from.candidates;
+        return;
+    }
     const double done = (next_ + 1.0) / static_cast<double>(came_.size());
-    const auto before = static_cast<std::uint32_t>(set_->ids.size());
+    const auto before = static_cast<std::uint32_t>(set_->points.size());
     const auto plane = result.first_plane;
     make_room(set_->ids, from.ids.size(), done);
     make_room(set_->points, from.points.size(), done);

@@ -40,7 +40,7 @@ class LayerResults {
 
   private:
     void append(LayerResult& result);
-    void keep(const LayerResult& result);
+    void keep(LayerResult& result);
 
     CellSet* set_; ///< null to count only
     const std::stop_token stop_;

@@ -1,11 +1,13 @@
-// Search, test and shading of a step by its chunks: layer by layer, with all cores, reading only
-// the chunks that are needed.
+// Search, test, planes, meshes and colors of a step, part by part: whole, or by its chunks, layer by
+// layer, with all cores, reading only the chunks that are needed.
 #pragma once
 
 #include "index/file/color_source.h"
 #include "index/file/index_file.h"
-#include "index/search/cube_search.h"
+#include "index/file/step_view.h"
+#include "index/search/layer_candidates.h"
 #include "index/search/layer_results.h"
+#include "index/search/layer_work.h"
 #include "index/search/step_slab.h"
 #include "index/surface/cell_set.h"
 #include "index/surface/mesh_maker.h"
@@ -20,63 +22,65 @@
 
 namespace isochron::index {
 
-/// Does with chunks what the functions of the same names do with a whole step. The index must carry
-/// its values. Functions throw Error as ChunkStore does, and return false when they were stopped
-/// and the results are incomplete. Not thread-safe: keeps its work space.
+/// A part of a step is a layer of chunks, or some or all planes of a step that is worked on as a
+/// whole. What is done with it is the same. By chunks, the index must carry its values. Functions
+/// throw Error as ChunkStore does. When they were stopped they return false, or throw Stopped, and the
+/// results are incomplete. Not thread-safe: keeps its work space.
 class LayerSearch {
   public:
-    /// @param level of detail
-    explicit LayerSearch(std::shared_ptr<const IndexFile> file, std::size_t level = 0);
+    explicit LayerSearch(std::shared_ptr<const IndexFile> file) : work_(std::move(file)) {}
 
     /// Finds the active cells of `set.query`, ascending.
     /// @param by_bricks search with bricks, which the index must have; else by a scan
-    /// @param shaded also make points and rows, while each layer is in memory
-    /// @param only with bricks: search these chunks alone
-    bool search(CellSet& set, bool by_bricks, bool shaded, const std::stop_token& stop,
-                const ChunkFilter& only = {});
+    /// @param shaded also make points and rows, while each part is in memory
+    /// @param only with bricks and by chunks: search these chunks alone
+    bool search(const StepView& step, CellSet& set, bool by_bricks, bool shaded,
+                const std::stop_token& stop, const ChunkFilter& only = {});
     /// The number of active cells, none of which is kept; empty when stopped.
-    std::optional<std::uint64_t> count(const Query& query, bool by_bricks,
+    std::optional<std::uint64_t> count(const StepView& step, const Query& query, bool by_bricks,
                                        const std::stop_token& stop);
     /// @param ids ascending
-    bool keep_active(const Query& query, std::vector<CellId>& ids, const std::stop_token& stop);
-    bool shade_cells(CellSet& set, const std::stop_token& stop);
-    /// @param set in the order of `search`; with points, if the grid has wide ids
-    bool make_mesh(const CellSet& set, CellMesh& mesh, const std::stop_token& stop);
-    /// @param set as above @param source has chunks at this level
-    bool color_cells(const CellSet& set, const ColorSource& source, std::span<std::uint16_t> out,
+    bool keep_active(const StepView& step, const Query& query, std::vector<CellId>& ids,
                      const std::stop_token& stop);
+    /// Adds points and rows.
+    bool shade_cells(const StepView& step, CellSet& set, const std::stop_token& stop);
+    /// @param set in the order of `search`; with points, if the grid has wide ids
+    /// @param values array whose values the mesh gets; null: none; else as `source` below
+    bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
+                   const std::stop_token& stop, const ColorSource* values = nullptr);
+    /// @param set as above @param source by chunks, has chunks at the step's level of detail
+    bool color_cells(const StepView& step, const CellSet& set, const ColorSource& source,
+                     std::span<std::uint16_t> out, const std::stop_token& stop);
 
   private:
-    bool run(const Query& query, bool by_bricks, bool shaded, const std::stop_token& stop,
-             const ChunkFilter& only, LayerResults& results);
-    unsigned threads() const { return static_cast<unsigned>(slabs_.size()); }
-    using Work = std::function<void(StepSlab& slab, std::uint32_t layer)>;
-    using WorkOfThread = std::function<void(unsigned thread, std::uint32_t layer)>;
-    StepSlab& slab(unsigned thread);
-    /// Called for a layer some layers before the work on it; may be empty.
-    using Prepare = std::function<void(std::uint32_t layer)>;
-    static void shade(StepSlab& slab, const Query& query, LayerResult& result,
-                      const std::stop_token& stop);
-    /// Gives the places of the chunks of a layer, ascending.
-    using PlacesOf = std::function<std::vector<std::uint32_t>(std::uint32_t layer)>;
-    bool for_each_layer(std::uint32_t step, const PlacesOf& places, const Prepare& prepare,
-                        const WorkOfThread& work, const std::stop_token& stop);
     /// Cells in the order of `search`, with points where ids are wide.
     struct Cells {
         std::span<const CellId> ids;
         std::span<const CellPoint> points = {};
     };
-    bool for_each_layer_of(std::uint32_t step, const Cells& cells, const Work& work,
-                           const std::stop_token& stop);
-    CellId first_of(std::uint32_t layer) const;
-    std::span<const CellId> of_layer(const Cells& cells, std::uint32_t layer) const;
+    /// Some of these cells, with the values around them.
+    struct CellsOfPart {
+        StepValues values;
+        CellId first = 0;              ///< id in the step of the cell with id 0 in `values`
+        std::uint32_t first_plane = 0; ///< z in the step of plane 0 of `values`
+        std::span<const CellId> ids;   ///< counted from `first`, ascending
+        std::size_t before = 0;        ///< cells of the parts before this one
+        std::size_t number = 0;        ///< of the part
+        unsigned worker = 0;
+        std::uint32_t layer = 0; ///< by chunks
+    };
+    using Work = std::function<void(const CellsOfPart& part)>;
 
-    std::shared_ptr<const IndexFile> file_;
-    const std::size_t level_;
-    const ChunkStore& store_;
-    std::vector<std::unique_ptr<StepSlab>> slabs_;   ///< by thread
-    std::vector<std::unique_ptr<CubeSearch>> cubes_; ///< by thread
-    std::vector<MeshMaker> makers_;                  ///< by thread
+    static std::size_t parts(const StepView& step, const Cells& cells, unsigned most);
+    bool for_each_part(const StepView& step, const Cells& cells, bool normals, unsigned most,
+                       const Work& work, const std::stop_token& stop);
+    static StepValues around(const StepView& other, const CellsOfPart& part, StepSlab& slab,
+                             const std::stop_token& stop);
+    std::span<const CellId> of_layer(const StepView& step, const Cells& cells,
+                                     std::uint32_t layer) const;
+
+    LayerWork work_;
+    std::vector<MeshMaker> makers_; ///< by worker
 };
 
 /// The active cells at a level of detail, ascending, with ids in the level's own grid. If these do

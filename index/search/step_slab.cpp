@@ -51,39 +51,42 @@ void copy_rows(const Neighbors& chunks, std::size_t offset, std::size_t width, s
 
 } // namespace
 
-StepSlab::StepSlab(const ChunkStore& store)
-    : store_(store), chunks_(store.grid()), grid_(store.info().grid),
-      plane_cells_(grid_.cells()[0] * grid_.cells()[1]),
-      values_(large_memory(bytes(store.info()))) {
-    for (auto& layer : state_)
-        layer.resize(chunks_.chunks_of_layer());
+std::uint64_t StepSlab::bytes(const Grid& grid, ValueType type) {
+    const auto& n = grid.vertices;
+    return std::uint64_t{n[0]} * n[1] * std::min(n[2], kMostPlanes) * size_of(type);
 }
 
-std::uint64_t StepSlab::bytes(const SeriesInfo& info) {
-    const auto& n = info.grid.vertices;
-    return std::uint64_t{n[0]} * n[1] * std::min(n[2], kMostPlanes) * size_of(info.type);
+/// Gets memory for a step, unless there is enough from an earlier one.
+void StepSlab::fit(const StepView& step) {
+    step_ = &step;
+    chunks_ = &step.chunk_grid();
+    plane_cells_ = step.grid().cells()[0] * step.grid().cells()[1];
+    if (const std::uint64_t needed = bytes(step.grid(), step.type()); needed > room_) {
+        values_ = large_memory(needed);
+        room_ = needed;
+    }
 }
 
-void StepSlab::begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop) {
+void StepSlab::begin(const StepView& step, std::uint32_t layer, std::stop_token stop) {
+    fit(step);
     for (auto& of_layer : state_)
-        std::ranges::fill(of_layer, std::uint8_t{vacant});
+        of_layer.assign(chunks_->chunks_of_layer(), std::uint8_t{vacant});
     whole_ = false;
     stop_ = std::move(stop);
-    step_ = step;
     layer_ = layer;
     const std::uint32_t first = layer * kChunkEdge;
     first_plane_ = first - (layer > 0 ? 1 : 0);
-    end_plane_ = std::min(first + kChunkEdge + 2, grid_.vertices[2]);
+    end_plane_ = std::min(first + kChunkEdge + 2, step.grid().vertices[2]);
 }
 
 StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
-    StepValues values{.grid = grid_.planes(first, end),
-                      .type = store_.info().type,
-                      .scaling = store_.info().scaling,
-                      .steps = store_.info().steps(),
-                      .first_step = step_};
+    StepValues values{.grid = step_->grid().planes(first, end),
+                      .type = step_->type(),
+                      .scaling = step_->scaling(),
+                      .steps = step_->steps(),
+                      .first_step = step_->at()};
     const std::uint64_t plane =
-        std::uint64_t{grid_.vertices[0]} * grid_.vertices[1] * size_of(values.type);
+        std::uint64_t{step_->grid().vertices[0]} * step_->grid().vertices[1] * size_of(values.type);
     values.first = values_.get() + (first - first_plane_) * plane;
     values.stride = (end - first) * plane;
     return values;
@@ -91,10 +94,30 @@ StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
 
 StepValues StepSlab::cells() const {
     const std::uint32_t first = layer_ * kChunkEdge;
-    return planes(first, std::min(first + kChunkEdge + 1, grid_.vertices[2]));
+    return planes(first, std::min(first + kChunkEdge + 1, step_->grid().vertices[2]));
 }
 StepValues StepSlab::around() const {
     return planes(first_plane_, end_plane_);
+}
+
+StepPart StepSlab::part() {
+    return {.cells = cells(),
+            .first_cell = first_cell(),
+            .around = around(),
+            .first_around = first_around(),
+            .first_plane = first_plane_,
+            .bricks = whole_ ? bricks() : std::span<const std::uint8_t>(),
+            .slab = this};
+}
+
+StepPart StepPart::planes(std::uint32_t first, std::uint32_t end) const {
+    StepPart some = *this;
+    const auto& n = cells.grid.vertices;
+    some.cells.grid = cells.grid.planes(first, end + 1);
+    some.cells.first += std::uint64_t{n[0]} * n[1] * first * size_of(cells.type);
+    some.first_cell += cells.grid.cells()[0] * cells.grid.cells()[1] * first;
+    some.bricks = {};
+    return some;
 }
 
 void StepSlab::forget_bricks() {
@@ -124,7 +147,7 @@ void StepSlab::set_bricks(const Chunk& chunk, std::uint32_t x, std::uint32_t y,
 void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
     if (whole_)
         return;
-    const auto& n = chunks_.counts();
+    const auto& n = chunks_->counts();
     sides_.assign(std::size_t{n[0]} * n[1], 0);
     CellWalk walk(around().grid);
     std::uint64_t* of_row = nullptr;
@@ -140,25 +163,26 @@ void StepSlab::fill_around(std::span<const CellId> cells, bool normals) {
         of_row[x / kChunkEdge] |= std::uint64_t{1} << (row_side + kSide[x % kChunkEdge]);
     }
     for (std::uint32_t i = 0; i < sides_.size(); ++i)
-        for_each_around(chunks_around(sides_[i], normals), {i % n[0], i / n[0], layer_}, chunks_,
+        for_each_around(chunks_around(sides_[i], normals), {i % n[0], i / n[0], layer_}, *chunks_,
                         [&](std::uint32_t, std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
                             need(x, y, layer);
                         });
     fill();
 }
 
-void StepSlab::begin_whole(std::uint32_t step, std::uint32_t layer, std::stop_token stop) {
+void StepSlab::begin_whole(const StepView& step, std::uint32_t layer, std::stop_token stop) {
     begin(step, layer, std::move(stop));
     whole_ = true;
-    if (layer < layers(grid_))
+    if (layer < layers(step.grid()))
         forget_bricks();
 }
 
 void StepSlab::put(const Chunk& chunk, std::uint32_t place, BricksOfChunk candidates) {
-    const auto [x, y] = chunks_.at(place);
+    const auto [x, y] = chunks_->at(place);
     set_bricks(chunk, x, y, candidates);
-    const std::size_t size = size_of(store_.info().type), width = chunk.size[0] * size;
-    const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
+    const std::size_t size = size_of(step_->type()), width = chunk.size[0] * size;
+    const std::size_t row = step_->grid().vertices[0] * size,
+                      plane = step_->grid().vertices[1] * row;
     const Neighbors alone{{chunk.values.data()}, 1};
     std::byte* to = values_.get() + (layer_ * kChunkEdge - first_plane_) * plane +
                     y * kChunkEdge * row + x * kChunkEdge * size;
@@ -171,13 +195,13 @@ void StepSlab::fill_from(const StepSlab& next) {
     const std::uint32_t first = std::max(bottom, first_plane_);
     const std::uint32_t end = std::min(bottom + kChunkEdge, end_plane_);
     const std::size_t plane =
-        std::size_t{grid_.vertices[0]} * grid_.vertices[1] * size_of(store_.info().type);
+        std::size_t{step_->grid().vertices[0]} * step_->grid().vertices[1] * size_of(step_->type());
     std::memcpy(values_.get() + (first - first_plane_) * plane,
                 next.values_.get() + (first - next.first_plane_) * plane, (end - first) * plane);
 }
 
 void StepSlab::fill_all() {
-    const std::uint32_t end = std::min(layer_ + 2, chunks_.layers());
+    const std::uint32_t end = std::min(layer_ + 2, chunks_->layers());
     for (std::uint32_t layer = layer_; layer < end; ++layer)
         for (std::uint8_t& state : state_[layer + 1 - layer_])
             if (state == vacant)
@@ -193,13 +217,13 @@ void StepSlab::fill() {
             if (state_[i][place] == needed)
                 places[i].push_back(place);
         if (!places[i].empty()) // announces all of them before waiting for any
-            store_.expect(step_, layer_ + i - 1, places[i]);
+            step_->expect(layer_ + i - 1, places[i]);
     }
     for (std::uint32_t i = 0; i < state_.size(); ++i) {
         if (places[i].empty())
             continue;
         const std::uint32_t layer = layer_ + i - 1;
-        copy(layer, places[i], store_.chunks(step_, layer, places[i], stop_));
+        copy(layer, places[i], step_->chunks(layer, places[i], stop_));
     }
 }
 
@@ -208,15 +232,16 @@ void StepSlab::copy(std::uint32_t layer, std::span<const std::uint32_t> places,
                     std::span<const ChunkPtr> chunks) {
     std::vector<std::uint8_t>& state = state_[layer + 1 - layer_];
     by_column_.assign(state.size(), nullptr);
-    const std::uint32_t across = chunks_.counts()[0];
+    const std::uint32_t across = chunks_->counts()[0];
     for (std::size_t i = 0; i < places.size(); ++i)
         if (std::uint8_t& of_chunk = state[places[i]]; of_chunk != filled) {
-            const auto [x, y] = chunks_.at(places[i]);
+            const auto [x, y] = chunks_->at(places[i]);
             by_column_[std::size_t{y} * across + x] = chunks[i].get();
             of_chunk = filled;
         }
-    const std::size_t size = size_of(store_.info().type);
-    const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
+    const std::size_t size = size_of(step_->type());
+    const std::size_t row = step_->grid().vertices[0] * size,
+                      plane = step_->grid().vertices[1] * row;
     const std::uint32_t bottom = layer * kChunkEdge;
     const std::uint32_t first = std::max(bottom, first_plane_);
     for (std::uint32_t i = 0; i < by_column_.size();) {

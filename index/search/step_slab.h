@@ -2,7 +2,7 @@
 // only where they are needed.
 #pragma once
 
-#include "index/file/chunks/chunk_store.h"
+#include "index/file/step_view.h"
 #include "index/search/layer_candidates.h"
 #include "index/system/huge_pages.h"
 #include "index/volume/level_map.h"
@@ -18,23 +18,38 @@
 
 namespace isochron::index {
 
+class StepSlab;
+
+/// Some planes of cells of a step in memory: a layer of chunks, or some or all of a step that is
+/// worked on as a whole.
+struct StepPart {
+    StepValues cells;              ///< its cells and their vertices
+    CellId first_cell = 0;         ///< id in the step of the cell with id 0 in `cells`
+    StepValues around;             ///< with a plane more below and above, if the grid has them
+    CellId first_around = 0;       ///< the same for `around`
+    std::uint32_t first_plane = 0; ///< z in the step of plane 0 of `around`
+    std::span<const std::uint8_t> bricks = {}; ///< of `cells`; empty: unknown
+    StepSlab* slab = nullptr; ///< that holds it, and has to fill what lies around cells
+
+    /// The cells between two planes of a part without a slab.
+    StepPart planes(std::uint32_t first, std::uint32_t end) const;
+};
+
 /// Holds the cells whose lowest vertex lies in one layer of chunks, and the vertices that they and
 /// their normals need. Values that were not filled have no meaning; filled ones stay until the next
 /// `begin`. Keeps its memory: one for each thread. Functions that fill throw as ChunkStore does.
 class StepSlab {
   public:
-    /// @param store outlives this
-    explicit StepSlab(const ChunkStore& store);
-
     /// Number of layers that hold cells.
     static std::uint32_t layers(const Grid& grid) {
         return (grid.cells()[2] + kChunkEdge - 1) / kChunkEdge;
     }
-    /// Memory [bytes] of a slab of this grid.
-    static std::uint64_t bytes(const SeriesInfo& info);
+    /// Memory [bytes] of a slab of a step with this grid and type.
+    static std::uint64_t bytes(const Grid& grid, ValueType type);
 
-    /// Moves to a layer of a step. @param stop when it is set, functions that fill throw Stopped
-    void begin(std::uint32_t step, std::uint32_t layer, std::stop_token stop = {});
+    /// Moves to a layer of a step. @param step outlives the use of this layer
+    /// @param stop when it is set, functions that fill throw Stopped
+    void begin(const StepView& step, std::uint32_t layer, std::stop_token stop = {});
 
     /// Fills the vertices of cells, and, for normals, their neighbors along each axis.
     /// @param cells of this layer, as ids of `around()`, ascending
@@ -42,7 +57,7 @@ class StepSlab {
     void fill_all();
 
     /// Moves to a layer of which all chunks will be `put`; nothing more is read.
-    void begin_whole(std::uint32_t step, std::uint32_t layer, std::stop_token stop);
+    void begin_whole(const StepView& step, std::uint32_t layer, std::stop_token stop);
     /// Copies a chunk of this layer to its place. Several threads may do so at once.
     /// @param candidates its bricks that may hold active cells
     void put(const Chunk& chunk, std::uint32_t place, BricksOfChunk candidates);
@@ -60,13 +75,14 @@ class StepSlab {
     StepValues around() const;
     CellId first_around() const { return plane_cells_ * first_plane_; }
     std::uint32_t first_plane() const { return first_plane_; }
+    StepPart part();
 
   private:
     StepValues planes(std::uint32_t first, std::uint32_t end) const;
     enum State : std::uint8_t { vacant, needed, filled };
 
     void need(std::uint32_t x, std::uint32_t y, std::uint32_t layer) {
-        std::uint8_t& state = state_[layer + 1 - layer_][chunks_.place(x, y)];
+        std::uint8_t& state = state_[layer + 1 - layer_][chunks_->place(x, y)];
         if (state == vacant)
             state = needed;
     }
@@ -76,12 +92,14 @@ class StepSlab {
     void copy(std::uint32_t layer, std::span<const std::uint32_t> places,
               std::span<const ChunkPtr> chunks);
 
-    const ChunkStore& store_;
-    const ChunkGrid& chunks_;
-    Grid grid_;
-    CellId plane_cells_;
-    std::uint32_t step_ = 0, layer_ = 0, first_plane_ = 0, end_plane_ = 0;
-    LargeMemory values_; ///< undefined until they are filled
+    void fit(const StepView& step);
+
+    const StepView* step_ = nullptr;
+    const ChunkGrid* chunks_ = nullptr; ///< of the step
+    CellId plane_cells_ = 0;
+    std::uint32_t layer_ = 0, first_plane_ = 0, end_plane_ = 0;
+    LargeMemory values_;     ///< undefined until they are filled
+    std::uint64_t room_ = 0; ///< [bytes] of `values_`
     std::vector<std::uint8_t> bricks_;
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
     std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie

@@ -17,36 +17,34 @@ constexpr unsigned kMoreSlabs = 3;
 
 } // namespace
 
-std::optional<WholeLayers::Range> WholeLayers::worth(const ChunkStore& store, std::uint32_t step,
-                                                     const LevelMap::Cut& cut, unsigned threads,
-                                                     std::uint64_t room) {
-    if ((threads + kMoreSlabs) * StepSlab::bytes(store.info()) > room / 2)
+std::optional<WholeLayers::Range> WholeLayers::worth(const StepView& step, const LevelMap::Cut& cut,
+                                                     unsigned threads, std::uint64_t room) {
+    if ((threads + kMoreSlabs) * StepSlab::bytes(step.grid(), step.type()) > room / 2)
         return {};
-    const std::uint32_t layers = StepSlab::layers(store.info().grid);
+    const std::uint32_t layers = StepSlab::layers(step.grid());
     Range range{layers, 0};
     std::uint32_t whole = 0;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const std::size_t places = LayerCandidates::count_of(*store.layer(step, layer), cut);
+        const std::size_t places = LayerCandidates::count_of(*step.layer(layer), cut);
         if (places == 0)
             continue;
         range.first = std::min(range.first, layer);
         range.end = layer + 1;
-        whole += store.fetches_all(places) ? 1 : 0;
+        whole += step.store().fetches_all(places) ? 1 : 0;
     }
     if (range.first >= range.end || 4 * whole < 3 * (range.end - range.first))
         return {};
     return range;
 }
 
-WholeLayers::WholeLayers(const ChunkStore& store, std::uint32_t step, Range range,
-                         const LevelMap::Cut& cut, unsigned threads)
-    : store_(store), step_(step),
-      worked_on_(range), decoded_{range.first - std::min(range.first, 1u),
-                                  std::min(range.end + 1, store.grid().layers())},
+WholeLayers::WholeLayers(const StepView& step, Range range, const LevelMap::Cut& cut,
+                         unsigned threads)
+    : step_(step), worked_on_(range), decoded_{range.first - std::min(range.first, 1u),
+                                               std::min(range.end + 1, step.chunk_grid().layers())},
       cut_(cut), threads_(threads), layers_(decoded_.end - decoded_.first),
       slabs_(threads + kMoreSlabs) {
     for (std::uint32_t layer = decoded_.first; layer < decoded_.end; ++layer)
-        of(layer).pieces = RecordStream::pieces_of(*store.layer(step, layer));
+        of(layer).pieces = RecordStream::pieces_of(*step.layer(layer));
     for (std::uint32_t layer = worked_on_.first; layer < worked_on_.end; ++layer)
         for (std::uint32_t near = layer - std::min(layer, 1u);
              near < std::min(layer + 2, decoded_.end); ++near)
@@ -54,7 +52,7 @@ WholeLayers::WholeLayers(const ChunkStore& store, std::uint32_t step, Range rang
 }
 
 bool WholeLayers::for_each(const Work& work, const std::stop_token& stop) {
-    RecordStream stream(store_, step_, decoded_.first, decoded_.end, stop);
+    RecordStream stream(step_.store(), step_.at(), decoded_.first, decoded_.end, stop);
     try {
         parallel_for(threads_, threads_,
                      [&](std::size_t, unsigned) {
@@ -107,7 +105,7 @@ StepSlab* WholeLayers::begin(const RecordPiece& piece, const std::stop_token& st
     if (!std::exchange(of(piece.layer).begun, true)) {
         auto& memory = slabs_[piece.layer % count];
         if (!memory)
-            memory = std::make_unique<StepSlab>(store_);
+            memory = std::make_unique<StepSlab>();
         memory->begin_whole(step_, piece.layer, stop);
     }
     return &slab(piece.layer);
@@ -115,12 +113,14 @@ StepSlab* WholeLayers::begin(const RecordPiece& piece, const std::stop_token& st
 
 void WholeLayers::decode(const RecordPiece& piece, StepSlab& slab) {
     thread_local std::vector<std::byte> values;
-    values.resize(store_.most_values());
+    const ChunkStore& store = step_.store();
+    values.resize(store.most_values());
     Chunk chunk;
     for (std::uint32_t place = piece.first; place < piece.end; ++place) {
-        chunk.size = store_.grid().size(piece.layer, place);
-        const auto own = std::span(values).first(store_.bytes_of(chunk.size));
-        store_.decoder().chunk(step_, piece.layer, place, piece.record(place), chunk.bricks, own);
+        chunk.size = store.grid().size(piece.layer, place);
+        const auto own = std::span(values).first(store.bytes_of(chunk.size));
+        store.decoder().chunk(step_.at(), piece.layer, place, piece.record(place), chunk.bricks,
+                              own);
         chunk.values = own;
         const bool may_hold =
             LayerCandidates::may_hold(piece.table->low[place], piece.table->high[place], cut_);

@@ -2,7 +2,6 @@
 // place, and kept nowhere else.
 #pragma once
 
-#include "index/file/chunks/chunk_store.h"
 #include "index/file/chunks/record_stream.h"
 #include "index/search/step_slab.h"
 #include "index/volume/level_map.h"
@@ -30,13 +29,11 @@ class WholeLayers {
     /// Whether this is worth it for a step that nothing of is in memory: most layers are fetched
     /// whole anyhow, and the slabs take at most half of `room` bytes.
     /// @return the layers from the first to the last that may hold active cells
-    static std::optional<Range> worth(const ChunkStore& store, std::uint32_t step,
-                                      const LevelMap::Cut& cut, unsigned threads,
-                                      std::uint64_t room);
+    static std::optional<Range> worth(const StepView& step, const LevelMap::Cut& cut,
+                                      unsigned threads, std::uint64_t room);
 
-    /// @param store outlives this
-    WholeLayers(const ChunkStore& store, std::uint32_t step, Range range, const LevelMap::Cut& cut,
-                unsigned threads);
+    /// @param step outlives this
+    WholeLayers(const StepView& step, Range range, const LevelMap::Cut& cut, unsigned threads);
 
     /// Called from `threads` threads, for layers in about their order. All of the slab is filled,
     /// with the bricks that may hold active cells.
@@ -62,8 +59,7 @@ class WholeLayers {
     Layer& of(std::uint32_t layer) { return layers_[layer - decoded_.first]; }
     StepSlab& slab(std::uint32_t layer) { return *slabs_[layer % slabs_.size()]; }
 
-    const ChunkStore& store_;
-    const std::uint32_t step_;
+    const StepView& step_;
     const Range worked_on_, decoded_;
     const LevelMap::Cut cut_;
     const unsigned threads_;

@@ -96,4 +96,24 @@ bool color_cells(const StepValues& volume, const StepValues& colors, const Query
     return true;
 }
 
+std::vector<float> values_at(const StepValues& colors, Instant at,
+                             std::span<const MeshVertex> vertices, std::uint32_t first_plane) {
+    const auto& n = colors.grid.vertices;
+    const std::array<std::size_t, 3> next{1, n[0], std::size_t{n[0]} * n[1]};
+    std::vector<float> values;
+    values.reserve(vertices.size());
+    visit_value_type(colors.type, [&]<class T>(std::type_identity<T>) {
+        const std::span<const T> stored = colors.step<T>(at);
+        for (const MeshVertex& vertex : vertices) {
+            const std::size_t lower =
+                vertex.x + next[1] * vertex.y + next[2] * std::size_t{vertex.z - first_plane};
+            const double a = colors.scaling(static_cast<double>(stored[lower]));
+            const double b = colors.scaling(static_cast<double>(stored[lower + next[vertex.axis]]));
+            const double share = static_cast<double>(vertex.share) / MeshVertex::kWhole;
+            values.push_back(static_cast<float>((1 - share) * a + share * b));
+        }
+    });
+    return values;
+}
+
 } // namespace isochron::index

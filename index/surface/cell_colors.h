@@ -1,12 +1,14 @@
 // Color coordinates of cells: the places of values in a color map.
 #pragma once
 
+#include "index/surface/cell_mesh.h"
 #include "index/volume/query.h"
 #include "index/volume/step_values.h"
 
 #include <cstdint>
 #include <span>
 #include <stop_token>
+#include <vector>
 
 namespace isochron::index {
 
@@ -29,5 +31,12 @@ std::uint16_t color_coordinate(double value, double low, double high);
 bool color_cells(const StepValues& volume, const StepValues& colors, const Query& query,
                  std::span<const CellId> cells, double low, double high,
                  std::span<std::uint16_t> out, const std::stop_token& stop = {});
+
+/// Values of another array at the vertices of a mesh: interpolated linearly between the ends of each
+/// edge.
+/// @param colors which hold the ends of the edges @param first_plane z of their plane 0 among the
+///        planes of the vertices
+std::vector<float> values_at(const StepValues& colors, Instant at,
+                             std::span<const MeshVertex> vertices, std::uint32_t first_plane);
 
 } // namespace isochron::index

@@ -13,7 +13,8 @@ glm::dvec3 position_of(const MeshVertex& vertex) {
 
 std::uint64_t bytes_of(const CellMesh& mesh) {
     return mesh.vertices.size() * sizeof(MeshVertex) +
-           mesh.triangles.size() * sizeof(std::uint32_t) + mesh.cases.size();
+           mesh.triangles.size() * sizeof(std::uint32_t) + mesh.cases.size() +
+           mesh.values.size() * sizeof(float);
 }
 
 glm::dvec3 normal_of(const MeshVertex& vertex) {

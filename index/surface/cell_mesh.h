@@ -1,6 +1,8 @@
 // The triangle mesh of an isosurface, made from its active cells only.
 #pragma once
 
+#include "index/surface/gpu_formats.h"
+
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -9,22 +11,6 @@
 #include <vector>
 
 namespace isochron::index {
-
-/// The point where the surface cuts an edge of the grid, in the GPU's format: 16 bytes, no padding.
-struct MeshVertex {
-    std::uint16_t x, y, z; ///< the lower end of the edge, vertex index coordinates
-    std::uint16_t axis;    ///< of the edge, 0 to 2
-    std::uint32_t share;   ///< fraction of the way to the edge's upper end, 0 to kWhole
-    /// Normal towards lower values, in physical space, as coordinates on the octahedron (see
-    /// cell_plane.h): signed 16 bits each from -32767 to 32767, x in the lower half. kNoNormal if
-    /// the gradient is zero or not finite.
-    std::uint32_t normal;
-
-    static constexpr std::uint32_t kWhole = 1u << 31, kNoNormal = 0x80008000u;
-    static constexpr int kOne = 32767; ///< the number for 1 in the normal's coordinates
-    bool operator==(const MeshVertex&) const = default;
-};
-static_assert(sizeof(MeshVertex) == 16);
 
 /// The vertex's position in vertex index coordinates; `Grid::physical` has its place in space.
 glm::dvec3 position_of(const MeshVertex& vertex);
@@ -43,6 +29,7 @@ struct CellMesh {
     /// Three vertices each, counter-clockwise as seen from the side of lower values.
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint8_t> cases; ///< of each cell, see mesh_cases.h: gives its triangle count
+    std::vector<float> values;       ///< of another array at the vertices, if they were asked for
 
     bool operator==(const CellMesh&) const = default;
 };

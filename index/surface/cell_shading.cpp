@@ -49,29 +49,30 @@ class RowBuffer {
 };
 
 template <class T>
-bool shade_values(const StepValues& values, CellSet& set, const std::stop_token& stop) {
-    Shaders<T> shaders(values, set.query.isovalue);
+bool shade_values(const StepValues& values, const Query& query, std::span<const CellId> ids,
+                  std::vector<CellPoint>& shaded, std::vector<CellRow>& shaded_rows,
+                  const std::stop_token& stop) {
+    Shaders<T> shaders(values, query.isovalue);
     const auto [width, height, depth] = values.grid.cells();
     const std::size_t row_size = values.grid.vertices[0];
     const std::size_t slice_size = row_size * values.grid.vertices[1];
-    const T* const volume = values.step<T>(set.query.step).data();
+    const T* const volume = values.step<T>(query.step).data();
     CellWalk walk(values.grid);
-    RowBuffer rows(set.rows);
+    RowBuffer rows(shaded_rows);
     // The current row:
     std::uint32_t y = 0, z = 0, inner_width = 0; // number of cells, from the second on, for `fast`
     const T* of_row = volume;
     std::optional<CellDifferences<T>> differences;
 
-    const std::size_t count = set.ids.size();
-    const CellId* const ids = set.ids.data();
-    set.points.reserve(count);
-    CellPoint* const points = set.points.data();
+    const std::size_t count = ids.size();
+    shaded.reserve(count);
+    CellPoint* const points = shaded.data();
     for (std::size_t i = 0; i < count; ++i) {
         if (i % kBetweenStops == 0) {
             if (stop.stop_requested())
                 return false;
             // Not all at once: fresh memory takes longer than what is written there.
-            set.points.resize(std::min(i + kBetweenStops, count));
+            shaded.resize(std::min(i + kBetweenStops, count));
         }
         if (walk.to(ids[i])) {
             y = walk.y();
@@ -92,7 +93,7 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
                 continue;
             }
         if (!differences)
-            differences.emplace(values, set.query.step, y, z);
+            differences.emplace(values, query.step, y, z);
         shaders.add_exact(points[i].plane, *differences, values.grid, {x, y, z});
     }
     rows.flush();
@@ -100,9 +101,11 @@ bool shade_values(const StepValues& values, CellSet& set, const std::stop_token&
     return true;
 }
 
-bool shade_step(const StepValues& values, CellSet& set, const std::stop_token& stop) {
+bool shade_step(const StepValues& values, const Query& query, std::span<const CellId> ids,
+                std::vector<CellPoint>& points, std::vector<CellRow>& rows,
+                const std::stop_token& stop) {
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-        return shade_values<T>(values, set, stop);
+        return shade_values<T>(values, query, ids, points, rows, stop);
     });
 }
 
@@ -115,11 +118,13 @@ namespace isochron::index {
 
 HWY_EXPORT(shade_step);
 
-bool shade_cells(const StepValues& values, CellSet& set, const std::stop_token& stop) {
-    set.points.clear();
-    set.rows.clear();
-    set.rows.reserve(set.ids.size() / 2);
-    return HWY_DYNAMIC_DISPATCH(shade_step)(values, set, stop);
+bool shade_cells(const StepValues& values, const Query& query, std::span<const CellId> ids,
+                 std::vector<CellPoint>& points, std::vector<CellRow>& rows,
+                 const std::stop_token& stop) {
+    points.clear();
+    rows.clear();
+    rows.reserve(ids.size() / 2);
+    return HWY_DYNAMIC_DISPATCH(shade_step)(values, query, ids, points, rows, stop);
 }
 
 } // namespace isochron::index

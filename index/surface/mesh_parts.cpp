@@ -18,15 +18,17 @@ struct SharedVertex {
 class PartsJoiner {
   public:
     explicit PartsJoiner(const std::vector<MeshPart>& parts) {
-        std::size_t vertices = 0, triangles = 0, cells = 0;
+        std::size_t vertices = 0, triangles = 0, cells = 0, values = 0;
         for (const MeshPart& part : parts) {
             vertices += part.vertices.size();
             triangles += part.triangles.size();
             cells += part.cases.size();
+            values += part.values.size();
         }
         all_.vertices.reserve(vertices);
         all_.triangles.reserve(triangles);
         all_.cases.reserve(cells);
+        all_.values.reserve(values);
     }
 
     void add(const MeshPart& part) {
@@ -37,6 +39,8 @@ class PartsJoiner {
         const std::uint32_t offset = static_cast<std::uint32_t>(all_.vertices.size()) - first;
         all_.vertices.insert(all_.vertices.end(), part.vertices.begin() + first,
                              part.vertices.end());
+        if (!part.values.empty())
+            all_.values.insert(all_.values.end(), part.values.begin() + first, part.values.end());
         const auto number = [&](std::uint32_t of_part) {
             return of_part < first ? numbers_[of_part] : of_part + offset;
         };
@@ -65,6 +69,8 @@ class PartsJoiner {
             } else {
                 numbers_.push_back(static_cast<std::uint32_t>(all_.vertices.size()));
                 all_.vertices.push_back(vertex);
+                if (!part.values.empty())
+                    all_.values.push_back(part.values[numbers_.size() - 1]);
             }
         }
     }
@@ -105,19 +111,28 @@ CellMesh join_parts(std::vector<MeshPart> parts) {
     return joiner.take();
 }
 
+std::vector<std::span<const CellId>> cut_at_planes(const Grid& grid, std::span<const CellId> ids,
+                                                   std::size_t parts) {
+    std::vector<std::span<const CellId>> cut(ids.empty() ? 1 : parts, ids);
+    for (std::size_t i = 0, first = 0; i < cut.size() && !ids.empty(); ++i) {
+        const std::size_t end = cut_at(grid, ids, i + 1, cut.size());
+        cut[i] = ids.subspan(first, end - first);
+        first = end;
+    }
+    return cut;
+}
+
 bool make_mesh(std::span<MeshMaker> makers, const StepValues& values, const Query& query,
                std::span<const CellId> ids, CellMesh& mesh, const std::stop_token& stop) {
     constexpr std::size_t kCellsPerPart = 1 << 13; ///< fewer cells are one part
     const std::size_t count = std::clamp<std::size_t>(ids.size() / kCellsPerPart, 1, makers.size());
-    std::vector<MeshPart> parts(count);
-    parallel_for(
-        count, static_cast<unsigned>(count),
-        [&](std::size_t i, unsigned worker) {
-            const std::size_t first = ids.empty() ? 0 : cut_at(values.grid, ids, i, count);
-            const std::size_t end = ids.empty() ? 0 : cut_at(values.grid, ids, i + 1, count);
-            makers[worker].make(values, query, ids.subspan(first, end - first), parts[i], 0, stop);
-        },
-        {});
+    const auto cut = cut_at_planes(values.grid, ids, count);
+    std::vector<MeshPart> parts(cut.size());
+    parallel_for(cut.size(), static_cast<unsigned>(cut.size()),
+                 [&](std::size_t i, unsigned worker) {
+                     makers[worker].make(values, query, cut[i], parts[i], 0, stop);
+                 },
+                 {});
     if (stop.stop_requested())
         return false;
     mesh = join_parts(std::move(parts));

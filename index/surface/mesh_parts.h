@@ -13,6 +13,11 @@ namespace isochron::index {
 /// border between two parts are shared.
 CellMesh join_parts(std::vector<MeshPart> parts);
 
+/// Cuts the cells of a step between planes, into parts of about the same number.
+/// @param ids ascending
+std::vector<std::span<const CellId>> cut_at_planes(const Grid& grid, std::span<const CellId> ids,
+                                                   std::size_t parts);
+
 /// The mesh of a step's active cells, with as many threads as there are makers.
 /// @return false when it was stopped and the mesh is incomplete
 bool make_mesh(std::span<MeshMaker> makers, const StepValues& values, const Query& query,

@@ -1,5 +1,7 @@
-// Queries to an index: isovalues at one step.
+// Queries to an index: isovalues at one instant of its series.
 #pragma once
+
+#include "index/volume/instant.h"
 
 #include <array>
 #include <cstddef>
@@ -16,10 +18,8 @@ constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", 
 /// Asks for the active cells: those with min < isovalue <= max over their 8 scaled vertex values,
 /// of which none is NaN. An isovalue that is NaN or infinite has no active cells.
 struct Query {
-    std::uint32_t step = 0;
+    Instant step = {};
     double isovalue = 0.0;
-    /// Most bytes for a mesh of the surface: none is made if it would take more.
-    std::uint64_t mesh_room = 0;
     bool operator==(const Query&) const = default;
 };
 
@@ -51,7 +51,7 @@ struct DetailQuery {
 
 /// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
 struct SurfacesQuery {
-    std::uint32_t step = 0;
+    Instant step = {};
     std::vector<double> isovalues; ///< a surface is identified by its place in this list
     CellColoring coloring = CellColoring::none;
     /// Most bytes for the meshes of all surfaces together. Either all surfaces have a mesh or none

@@ -122,8 +122,8 @@ bool CellBuffers::wants_volume() const {
 /// Drops what is being sent: the set, or without one the volume of the shown set.
 void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& why) {
     if (set && set != shown_) {
-        refused_ = {
-            set, fmt::format("step {}: {}, so the last cells stay", set->query.step, why.what())};
+        refused_ = {set, fmt::format("step {}: {}, so the last cells stay",
+                                     std::uint32_t{set->query.step}, why.what())};
     } else {
         no_volume_version_ = version_;
     }
@@ -168,11 +168,12 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     std::string why;
     if (set->cells() > points_.limit())
         why = fmt::format("{} cells at step {}: this GL can draw at most {}, so the last ones stay",
-                          set->cells(), set->query.step, points_.limit());
+                          set->cells(), std::uint32_t{set->query.step}, points_.limit());
     else if (!with_points && !set->coarse() && !make_room_for(set->bricks))
         why = fmt::format("{} bricks of the volume at step {}: this GL holds at most {}, so the "
                           "last cells stay",
-                          set->bricks.ids.size(), set->query.step, bricks_->values().limit());
+                          set->bricks.ids.size(), std::uint32_t{set->query.step},
+                          bricks_->values().limit());
     if (!why.empty()) {
         refused_ = {std::move(set), std::move(why)};
         return false;

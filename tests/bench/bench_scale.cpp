@@ -4,11 +4,9 @@
 #include "app/generate/fourier_modes.h"
 #include "index/error.h"
 #include "index/indexing/index_build.h"
-#include "index/scan/brick_tiles.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/search/index_search.h"
-#include "index/system/huge_pages.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "tests/bench/benchmarks.h"
@@ -257,11 +255,6 @@ void measure_warm(const ScaleArguments& arguments, const std::string& name,
     const auto cells = static_cast<double>(grid.cell_count());
     constexpr double kMib = 1 << 20;
     const double all = static_cast<double>(field.count()) / kMib;
-    const index::LargeMemory memory = index::large_memory(index::tile_bytes(grid));
-    const std::span tiles(reinterpret_cast<std::uint8_t*>(memory.get()), index::tile_bytes(grid));
-    const double making = seconds_of([&] { index::build_tiles(step.values, 0, tiles, 0); });
-    fmt::print("{} {}^3 f32: tiles of {:.1f} MiB made in {:.1f} ms\n", name, arguments.size,
-               static_cast<double>(tiles.size()) / kMib, 1e3 * making);
     for (const double percent : arguments.active) {
         const Query query{0, isovalue_with(field.values(), cells * percent / 100)};
         std::vector<index::CellId> ids, found;
@@ -273,25 +266,18 @@ void measure_warm(const ScaleArguments& arguments, const std::string& name,
             ids.clear();
             index::scan(field.values(), query, ids);
         };
-        std::vector<index::CellId> of_tiles;
-        const auto by_tiles = [&](std::uint32_t) {
-            of_tiles.clear();
-            index::test_tiles(step.values, *file->chunks().levels(0), step.bricks, tiles, query,
-                              of_tiles);
-        };
-        const auto seconds = time_in_turn({by_bricks, by_scan, by_tiles}, 1, 15);
+        const auto seconds = time_in_turn({by_bricks, by_scan}, 1, 15);
         std::ranges::sort(found);
-        std::ranges::sort(of_tiles);
-        if (found != ids || of_tiles != ids)
+        if (found != ids)
             throw index::Error("the index and the scan find different cells");
         found.clear();
         const auto tested = static_cast<double>(
             index::test_bricks(step.values, *file->chunks().levels(0), step.bricks, query, found));
         fmt::print("{} {}^3 f32, {} cells ({:.3f} %), warm: ids by bricks {:.2f} ms, scan {:.2f} "
-                   "ms, {:.1f}x; by tiles {:.2f} ms, {:.1f}x; cells of candidates {:.1f} %\n",
+                   "ms, {:.1f}x; cells of candidates {:.1f} %\n",
                    name, arguments.size, ids.size(), 100 * static_cast<double>(ids.size()) / cells,
-                   1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0], 1e3 * seconds[2],
-                   seconds[1] / seconds[2], 100 * tested / cells);
+                   1e3 * seconds[0], 1e3 * seconds[1], seconds[1] / seconds[0],
+                   100 * tested / cells);
         if (arguments.vtk) {
             const MeshMaking mesh = measure_mesh_making(field.values(), query, ids);
             fmt::print("  mesh of {} triangles with normals from these cells, one thread: {:.1f} "

@@ -21,12 +21,15 @@
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
+#include "index/file/step_view.h"
 #include "index/formats/foreign_file.h"
 #include "index/formats/format.h"
 #include "index/formats/series/series_writer.h"
 #include "index/indexing/level_choice.h"
 #include "index/reader/reader_messages.h"
 #include "index/scan/bricks.h"
+#include "index/search/layer_search.h"
+#include "index/search/surface_mesh.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 #include "index/volume/order_key.h"
@@ -120,6 +123,16 @@ void reader_messages_example() {
 void bricks_example(const StepValues& values, const LevelMap& levels, std::uint32_t step,
                     double isovalue, std::vector<CellId>& ids) {
 #include "index/scan/bricks.example"
+}
+
+void step_view_example(const std::shared_ptr<const IndexFile>& file, const Query& query,
+                       CellSet& set) {
+#include "index/file/step_view.example"
+}
+
+void surface_mesh_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
+                          double isovalue) {
+#include "index/search/surface_mesh.example"
 }
 
 void thi_tree_example(const StepValues& values, const KeyMap& keys, std::uint32_t step,

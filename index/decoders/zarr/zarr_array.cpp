@@ -1,230 +1,34 @@
-// Chunks of Zarr arrays.
+// Chunks of Zarr arrays, which may lie in shards.
 #include "index/decoders/zarr/zarr_array.h"
 
 #include "index/error.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
+#include <utility>
 
 namespace isochron::index {
-namespace {
-
-using nlohmann::json;
-
-constexpr std::size_t kMostChunk = std::size_t{4} << 30; ///< [bytes]
-
-std::size_t product(const std::vector<std::uint64_t>& sizes, std::size_t element,
-                    const std::string& where) {
-    double bytes = static_cast<double>(element);
-    for (const std::uint64_t size : sizes)
-        bytes *= static_cast<double>(size);
-    if (bytes > static_cast<double>(kMostChunk))
-        throw Error(fmt::format("{}: chunks of {} values, expected at most {} bytes", where,
-                                fmt::join(sizes, " x "), kMostChunk));
-    return static_cast<std::size_t>(bytes);
-}
-
-std::optional<json> json_at(const ZarrStore& store, const std::string& key) {
-    const auto bytes = store.read(key);
-    if (!bytes)
-        return std::nullopt;
-    constexpr std::size_t kLargest = 64 << 20;
-    auto parsed = bytes->size() > kLargest
-                      ? json(json::value_t::discarded)
-                      : json::parse(reinterpret_cast<const char*>(bytes->data()),
-                                    reinterpret_cast<const char*>(bytes->data()) + bytes->size(),
-                                    nullptr, false);
-    if (!parsed.is_object())
-        throw Error(fmt::format("{}: {} is no JSON object", store.name(), key));
-    return parsed;
-}
-
-/// `<f4`, `|u1`, `>i2` of version 2; `float32` of version 3.
-std::optional<StoredType> type_of_zarr(std::string name) {
-    if (name.size() == 3 && std::string("<>|").find(name[0]) != std::string::npos)
-        name.erase(0, 1);
-    for (const auto& [known, type] : std::initializer_list<std::pair<const char*, StoredType>>{
-             {"b1", StoredType::u8},      {"bool", StoredType::u8},     {"i1", StoredType::i8},
-             {"int8", StoredType::i8},    {"u1", StoredType::u8},       {"uint8", StoredType::u8},
-             {"i2", StoredType::i16},     {"int16", StoredType::i16},   {"u2", StoredType::u16},
-             {"uint16", StoredType::u16}, {"i4", StoredType::i32},      {"int32", StoredType::i32},
-             {"u4", StoredType::u32},     {"uint32", StoredType::u32},  {"i8", StoredType::i64},
-             {"int64", StoredType::i64},  {"u8", StoredType::u64},      {"uint64", StoredType::u64},
-             {"f4", StoredType::f32},     {"float32", StoredType::f32}, {"f8", StoredType::f64},
-             {"float64", StoredType::f64}})
-        if (name == known)
-            return type;
-    return std::nullopt;
-}
-
-std::string joined(const std::string& group, const std::string& name) {
-    return group.empty() ? name : group + "/" + name;
-}
-
-} // namespace
-
-std::string ZarrArray::where(const std::string& what) const {
-    return fmt::format("{}: {}", store_->name(), joined(path_, what));
-}
 
 std::optional<ZarrArray> ZarrArray::open(const ZarrStore& store, const std::string& path) {
-    ZarrArray array(store, path);
-    try {
-        if (const auto v3 = json_at(store, joined(path, "zarr.json"))) {
-            if (v3->value("node_type", "") != "array")
-                return std::nullopt;
-            array.describe_v3(*v3);
-        } else if (const auto v2 = json_at(store, joined(path, ".zarray"))) {
-            array.describe_v2(*v2);
-        } else {
-            return std::nullopt;
-        }
-    } catch (const json::exception& error) {
-        throw Error(fmt::format("{}: damaged description: {}", array.where(""), error.what()));
-    }
-    array.check();
-    return array;
-}
-
-void ZarrArray::check() const {
-    const std::size_t rank = shape_.size();
-    if (chunk_.size() != rank || (!inner_.empty() && inner_.size() != rank) || rank > 16)
-        throw Error(fmt::format("{}: {} dimensions, chunks of {}", where(""), rank, chunk_.size()));
-    for (std::size_t i = 0; i < rank; ++i)
-        if (chunk_[i] == 0 || (!inner_.empty() && (inner_[i] == 0 || chunk_[i] % inner_[i] != 0)))
-            throw Error(fmt::format("{}: chunks of {}, in it {}", where(""),
-                                    fmt::join(chunk_, " x "), fmt::join(inner_, " x ")));
-    if (type_)
-        product(chunk(), size_of(*type_), where(""));
+    auto said = description_of_zarr(store, path);
+    return said ? std::optional(ZarrArray(store, std::move(*said))) : std::nullopt;
 }
 
 bool ZarrArray::keeps_whole(std::span<const std::size_t> dimensions) const {
-    const std::size_t bytes = type_ ? values_in_chunk() * size_of(*type_) : 0;
-    return bytes > kLarge && bytes <= kKept &&
-           std::ranges::all_of(dimensions, [&](std::size_t i) { return chunk()[i] >= shape_[i]; });
-}
-
-void ZarrArray::fill_with(const json& value) {
-    double number = 0;
-    if (value.is_number())
-        number = value.get<double>();
-    else if (value == "NaN")
-        number = std::numeric_limits<double>::quiet_NaN();
-    else if (value == "Infinity" || value == "-Infinity")
-        number = value == "Infinity" ? HUGE_VAL : -HUGE_VAL;
-    if (!value.is_null())
-        fill_number_ = number;
-    if (type_)
-        visit_stored_type(*type_, [&]<class T>(std::type_identity<T>) {
-            T fill{};
-            if constexpr (std::is_floating_point_v<T>)
-                fill = static_cast<T>(number);
-            else if (value.is_number_integer())
-                fill = static_cast<T>(value.get<std::int64_t>());
-            fill_.resize(sizeof(T));
-            std::memcpy(fill_.data(), &fill, sizeof(T));
-        });
-}
-
-std::vector<std::size_t> ZarrArray::lengths_in(const json& list) const {
-    for (const json& length : list)
-        if (!length.is_number_unsigned())
-            throw Error(fmt::format("{}: {}, expected a whole number", where(""), length.dump()));
-    return list.get<std::vector<std::size_t>>();
-}
-
-void ZarrArray::describe_v2(const json& j) {
-    shape_ = lengths_in(j.at("shape"));
-    chunk_ = lengths_in(j.at("chunks"));
-    const json& dtype = j.at("dtype");
-    const std::string name = dtype.is_string() ? dtype.get<std::string>() : "";
-    type_ = type_of_zarr(name);
-    pipeline_.big_endian = name.starts_with('>');
-    separator_ = j.value("dimension_separator", ".");
-    if (j.value("order", "C") == "F")
-        for (std::size_t i = shape_.size(); i-- > 0;)
-            pipeline_.order.push_back(i);
-    const std::size_t element = type_ ? size_of(*type_) : 1;
-    if (const auto compressor = j.find("compressor");
-        compressor != j.end() && !compressor->is_null())
-        pipeline_.codecs.push_back(codec_of(compressor->at("id"), element, where("")));
-    if (const auto filters = j.find("filters"); filters != j.end() && filters->is_array())
-        for (auto filter = filters->rbegin(); filter != filters->rend(); ++filter)
-            pipeline_.codecs.push_back(
-                codec_of(filter->at("id"), filter->value("elementsize", element), where("")));
-    fill_with(j.value("fill_value", json()));
-    attributes_ = json_at(*store_, joined(path_, ".zattrs")).value_or(json::object());
-    if (const auto names = attributes_.find("_ARRAY_DIMENSIONS");
-        names != attributes_.end() && names->is_array() && names->size() == shape_.size())
-        names->get_to(names_);
-}
-
-void ZarrArray::describe_v3(const json& j) {
-    shape_ = lengths_in(j.at("shape"));
-    const json& type = j.at("data_type");
-    type_ = type_of_zarr(type.is_string() ? type.get<std::string>() : "");
-    const json& grid = j.at("chunk_grid");
-    if (grid.at("name") != "regular")
-        throw Error(fmt::format("{}: a chunk grid {}, expected regular", where(""),
-                                grid.at("name").dump()));
-    chunk_ = lengths_in(grid.at("configuration").at("chunk_shape"));
-    const json encoding = j.value("chunk_key_encoding", json::object());
-    const bool slashes = encoding.value("name", "default") == "default";
-    prefix_ = slashes ? "c" : "";
-    separator_ =
-        encoding.value("configuration", json::object()).value("separator", slashes ? "/" : ".");
-    pipeline_ = pipeline_v3(j.at("codecs"), true);
-    fill_with(j.value("fill_value", json()));
-    attributes_ = j.value("attributes", json::object());
-    if (const auto names = j.find("dimension_names"); names != j.end() && names->is_array())
-        for (const json& name : *names)
-            names_.push_back(name.is_string() ? name.get<std::string>() : "");
-}
-
-ZarrArray::Pipeline ZarrArray::pipeline_v3(const json& codecs, bool outer) {
-    Pipeline pipeline;
-    const std::size_t element = type_ ? size_of(*type_) : 1;
-    for (const json& codec : codecs) {
-        const std::string name =
-            codec.is_string() ? codec.get<std::string>() : codec.at("name").get<std::string>();
-        const json configuration =
-            codec.is_object() ? codec.value("configuration", json::object()) : json::object();
-        if (name == "bytes")
-            pipeline.big_endian = configuration.value("endian", "little") == "big";
-        else if (name == "transpose")
-            pipeline.order = lengths_in(configuration.at("order"));
-        else if (name == "sharding_indexed" && outer && codecs.size() == 1)
-            take_shard(configuration);
-        else
-            pipeline.codecs.insert(pipeline.codecs.begin(), codec_of(name, element, where("")));
-    }
-    std::vector<std::size_t> sorted = pipeline.order;
-    std::ranges::sort(sorted);
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-        if (sorted.size() != shape_.size() || sorted[i] != i)
-            throw Error(
-                fmt::format("{}: transposed by {}", where(""), fmt::join(pipeline.order, " ")));
-    return inner_.empty() || !outer ? pipeline : pipeline_;
-}
-
-void ZarrArray::take_shard(const json& configuration) {
-    inner_ = lengths_in(configuration.at("chunk_shape"));
-    pipeline_ = pipeline_v3(configuration.at("codecs"), false);
-    index_ = pipeline_v3(configuration.at("index_codecs"), false);
-    index_at_end_ = configuration.value("index_location", "end") == "end";
+    const std::size_t bytes = said_.type ? values_in_chunk() * size_of(*said_.type) : 0;
+    return bytes > kLarge && bytes <= kKept && std::ranges::all_of(dimensions, [&](std::size_t i) {
+               return chunk()[i] >= said_.shape[i];
+           });
 }
 
 std::string ZarrArray::key_of(std::span<const std::uint64_t> at) const {
-    std::string key = prefix_;
+    std::string key = said_.prefix;
     for (const std::uint64_t number : at)
-        key += (key.empty() ? "" : separator_) + std::to_string(number);
-    return joined(path_, at.empty() && key.empty() ? "0" : key);
+        key += (key.empty() ? "" : said_.separator) + std::to_string(number);
+    return zarr_key(said_.path, at.empty() && key.empty() ? "0" : key);
 }
 
 std::size_t ZarrArray::values_in_chunk() const {
@@ -236,20 +40,20 @@ std::size_t ZarrArray::values_in_chunk() const {
 
 /// Makes values of stored bytes.
 void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
-    const std::size_t size = size_of(*type_), bytes = values_in_chunk() * size;
+    const std::size_t size = size_of(*said_.type), bytes = values_in_chunk() * size;
     // A check adds to what comes out of the codecs before it.
     constexpr std::size_t kSlack = 64;
-    for (const ZarrCodec& codec : pipeline_.codecs)
+    for (const ZarrCodec& codec : said_.pipeline.codecs)
         decode(codec, bytes + kSlack, name, values, spare_);
     if (spare_.capacity() > kLarge)
         spare_ = {};
     if (values.size() != bytes)
         throw Error(fmt::format("{}: {} bytes, expected {}", name, values.size(), bytes));
-    if (pipeline_.big_endian)
+    if (said_.pipeline.big_endian)
         for (std::size_t i = 0; i < bytes; i += size)
             std::reverse(values.begin() + static_cast<std::ptrdiff_t>(i),
                          values.begin() + static_cast<std::ptrdiff_t>(i + size));
-    if (pipeline_.order.empty())
+    if (said_.pipeline.order.empty())
         return;
     transpose(values, spare_);
     values.swap(spare_);
@@ -257,8 +61,8 @@ void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
 
 /// Stored dimension i is dimension order[i]: walks through the values as they are stored.
 void ZarrArray::transpose(const ZarrBytes& stored, ZarrBytes& out) const {
-    const std::size_t rank = chunk().size(), size = size_of(*type_), bytes = stored.size();
-    const std::vector<std::size_t>& order = pipeline_.order;
+    const std::size_t rank = chunk().size(), size = size_of(*said_.type), bytes = stored.size();
+    const std::vector<std::size_t>& order = said_.pipeline.order;
     std::vector<std::size_t> stride(rank, 1), at(rank, 0);
     for (std::size_t i = rank - 1; i-- > 0;)
         stride[i] = stride[i + 1] * chunk()[i + 1];
@@ -278,7 +82,7 @@ void ZarrArray::transpose(const ZarrBytes& stored, ZarrBytes& out) const {
 
 /// @param values empty: only the fill value
 void ZarrArray::load(const std::vector<std::uint64_t>& at, ZarrBytes& values) {
-    if (!inner_.empty())
+    if (!said_.inner.empty())
         return load_from_shard(at, values);
     const std::string key = key_of(at);
     if (store_->read(key, values))
@@ -292,7 +96,7 @@ void ZarrArray::load(const std::vector<std::uint64_t>& at, ZarrBytes& values) {
 bool ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t first,
                           std::span<std::byte> values) const {
     const std::string key = key_of(at);
-    const std::size_t size = size_of(*type_), bytes = values_in_chunk() * size;
+    const std::size_t size = size_of(*said_.type), bytes = values_in_chunk() * size;
     const auto stored = store_->size_of_value(key);
     if (!stored)
         return false;
@@ -306,7 +110,7 @@ bool ZarrArray::load_part(const std::vector<std::uint64_t>& at, std::size_t firs
 const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
     if (const ZarrBytes* found = kept_.find(at))
         return *found;
-    kept_.make_room(values_in_chunk() * size_of(*type_));
+    kept_.make_room(values_in_chunk() * size_of(*said_.type));
     ZarrBytes values;
     load(at, values);
     const std::size_t bytes = values.size();
@@ -315,7 +119,7 @@ const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
 
 void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
                      std::span<std::byte> out) {
-    const std::size_t rank = shape_.size();
+    const std::size_t rank = said_.shape.size();
     std::vector<std::uint64_t> first(rank), last(rank), at;
     for (std::size_t i = 0; i < rank; ++i) {
         first[i] = start[i] / chunk()[i];
@@ -338,7 +142,7 @@ void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::
 void ZarrArray::read_from_chunk(const std::vector<std::uint64_t>& at,
                                 std::span<const std::uint64_t> start,
                                 std::span<const std::uint64_t> count, std::span<std::byte> out) {
-    const std::size_t rank = shape_.size(), size = size_of(*type_);
+    const std::size_t rank = said_.shape.size(), size = size_of(*said_.type);
     std::vector<std::uint64_t> low(rank), high(rank);
     std::size_t wanted = 1;
     bool all = true;
@@ -347,7 +151,8 @@ void ZarrArray::read_from_chunk(const std::vector<std::uint64_t>& at,
         high[i] = std::min(start[i] + count[i], (at[i] + 1) * chunk()[i]);
         wanted *= high[i] - low[i];
         all = all && high[i] - low[i] ==
-                         std::min(chunk()[i], shape_[i] - std::min(shape_[i], at[i] * chunk()[i]));
+                         std::min(chunk()[i],
+                                  said_.shape[i] - std::min(said_.shape[i], at[i] * chunk()[i]));
     }
     const auto place_in_chunk = [&](std::span<const std::uint64_t> p, std::uint64_t off) {
         std::size_t place = 0;
@@ -385,7 +190,7 @@ void ZarrArray::read_from_chunk(const std::vector<std::uint64_t>& at,
             std::memcpy(&out[to * size], &values[from * size], row * size);
         else
             for (std::size_t i = 0; i < row; ++i)
-                std::memcpy(&out[(to + i) * size], fill_.data(), size);
+                std::memcpy(&out[(to + i) * size], said_.fill.data(), size);
         std::size_t i = rank - 1;
         while (i > 0 && ++p[i - 1] >= high[i - 1]) {
             p[i - 1] = low[i - 1];
@@ -394,6 +199,65 @@ void ZarrArray::read_from_chunk(const std::vector<std::uint64_t>& at,
         if (i == 0)
             return;
     }
+}
+
+void ZarrArray::load_from_shard(const std::vector<std::uint64_t>& at, ZarrBytes& values) {
+    values.clear();
+    std::vector<std::uint64_t> shard;
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const std::uint64_t along = said_.chunk[i] / said_.inner[i];
+        shard.push_back(at[i] / along);
+        number = number * along + at[i] % along;
+    }
+    const std::string key = key_of(shard), name = fmt::format("{}: {}", store_->name(), key);
+    const ShardIndex& index = index_of_shard(shard, key, name);
+    if (index.entries.empty())
+        return;
+    std::uint64_t entry[2]{};
+    std::memcpy(entry, &index.entries[16 * number], sizeof entry);
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    if (entry[0] == kNone && entry[1] == kNone)
+        return;
+    if (entry[0] > index.bytes || entry[1] > index.bytes - entry[0])
+        throw Error(fmt::format("{}: truncated: chunk {} of {} bytes at {} of {}", name, number,
+                                entry[1], entry[0], index.bytes));
+    values.resize(entry[1]);
+    store_->part(key, entry[0], values);
+    decode_chunk(name, values);
+}
+
+// Behind or before its chunks a shard has, for each, where it begins and its bytes (u64 each).
+const ZarrArray::ShardIndex& ZarrArray::index_of_shard(const std::vector<std::uint64_t>& shard,
+                                                       const std::string& key,
+                                                       const std::string& name) {
+    if (const ShardIndex* found = shards_.find(shard))
+        return *found;
+    ShardIndex index;
+    const auto bytes = store_->size_of_value(key);
+    if (!bytes)
+        return shards_.keep(shard, std::move(index), 0);
+    std::size_t count = 1;
+    for (std::size_t i = 0; i < shard.size(); ++i)
+        if (__builtin_mul_overflow(count, said_.chunk[i] / said_.inner[i], &count) ||
+            count > *bytes)
+            throw Error(fmt::format("{}: {} bytes, expected an index of {} x {} chunks", name,
+                                    *bytes, count, said_.chunk[i] / said_.inner[i]));
+    std::size_t size = 16 * count;
+    for (const ZarrCodec& codec : said_.index.codecs)
+        size += codec.name == "crc32c" ? 4 : 0;
+    if (*bytes < size)
+        throw Error(fmt::format("{}: {} bytes, expected an index of {}", name, *bytes, size));
+    index.bytes = *bytes;
+    index.entries.resize(size);
+    store_->part(key, said_.index_at_end ? *bytes - size : 0, index.entries);
+    for (const ZarrCodec& codec : said_.index.codecs)
+        decode(codec, size, name, index.entries, spare_);
+    if (index.entries.size() != 16 * count)
+        throw Error(fmt::format("{}: an index of {} bytes, expected {}", name, index.entries.size(),
+                                16 * count));
+    const std::size_t kept = index.entries.size();
+    return shards_.keep(shard, std::move(index), kept);
 }
 
 } // namespace isochron::index

@@ -2,40 +2,38 @@
 #pragma once
 
 #include "index/decoders/zarr/zarr_cache.h"
-#include "index/decoders/zarr/zarr_codecs.h"
-#include "index/formats/stored_scalar.h"
+#include "index/decoders/zarr/zarr_description.h"
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
 
-/// Zarr v2: https://zarr.readthedocs.io/en/stable/spec/v2.html; v3:
-/// https://zarr-specs.readthedocs.io/en/latest/v3/core/, sharding codec included.
 class ZarrArray {
   public:
     /// @param path in the store; empty for its root @return empty if there is no array
-    /// @throws Error naming store and array: damaged, or it uses a feature that is not supported
+    /// @throws Error as `description_of_zarr` does
     static std::optional<ZarrArray> open(const ZarrStore& store, const std::string& path);
 
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return said_.path; }
     /// The type of the values; empty if no volume can have it.
-    std::optional<StoredType> type() const { return type_; }
-    const std::vector<std::uint64_t>& shape() const { return shape_; }
+    std::optional<StoredType> type() const { return said_.type; }
+    const std::vector<std::uint64_t>& shape() const { return said_.shape; }
     /// Number of values along each dimension of a chunk, or, if chunks are shards, of its parts.
-    const std::vector<std::uint64_t>& chunk() const { return inner_.empty() ? chunk_ : inner_; }
+    const std::vector<std::uint64_t>& chunk() const { return said_.parts(); }
     /// Names of the dimensions; empty if the array does not give them.
-    const std::vector<std::string>& names() const { return names_; }
-    const nlohmann::json& attributes() const { return attributes_; }
+    const std::vector<std::string>& names() const { return said_.names; }
+    const nlohmann::json& attributes() const { return said_.attributes; }
     /// The value of chunks that were never written, where the description has one.
-    std::optional<double> fill() const { return fill_number_; }
+    std::optional<double> fill() const { return said_.fill_number; }
     /// Whether files hold the chunks as they are in memory, so that a part can be read alone.
     bool plain() const {
-        return inner_.empty() && pipeline_.codecs.empty() && pipeline_.order.empty() &&
-               !pipeline_.big_endian;
+        return said_.inner.empty() && said_.pipeline.codecs.empty() &&
+               said_.pipeline.order.empty() && !said_.pipeline.big_endian;
     }
 
     /// Whether a chunk spans these dimensions, and is large, but small enough to be kept: pieces of
@@ -48,28 +46,14 @@ class ZarrArray {
               std::span<std::byte> out);
 
   private:
-    /// How the bytes of a chunk are turned into values.
-    struct Pipeline {
-        std::vector<ZarrCodec> codecs; ///< in the order of decoding
-        bool big_endian = false;
-        std::vector<std::size_t> order; ///< of the dimensions as stored; empty: as they are
-    };
     /// Where the chunks of a shard lie.
     struct ShardIndex {
         ZarrBytes entries = {};  ///< offset and size of each chunk; empty: there is no shard
         std::uint64_t bytes = 0; ///< of the whole shard
     };
-    ZarrArray(const ZarrStore& store, std::string path) : store_(&store), path_(std::move(path)) {}
+    ZarrArray(const ZarrStore& store, ZarrDescription said)
+        : store_(&store), said_(std::move(said)) {}
 
-    /// @throws Error when a number is not whole, or negative
-    std::vector<std::size_t> lengths_in(const nlohmann::json& list) const;
-    void describe_v2(const nlohmann::json& j);
-    void describe_v3(const nlohmann::json& j);
-    Pipeline pipeline_v3(const nlohmann::json& codecs, bool outer);
-    void take_shard(const nlohmann::json& configuration);
-    void check() const;
-    void fill_with(const nlohmann::json& value);
-    std::string where(const std::string& what) const;
     std::string key_of(std::span<const std::uint64_t> at) const;
     std::size_t values_in_chunk() const;
     /// The values of a chunk; empty: only the fill value.
@@ -86,16 +70,7 @@ class ZarrArray {
     void transpose(const ZarrBytes& stored, ZarrBytes& out) const;
 
     const ZarrStore* store_;
-    std::string path_;
-    std::optional<StoredType> type_;
-    std::vector<std::uint64_t> shape_, chunk_, inner_; ///< of chunks in a shard, if there are
-    std::vector<std::string> names_;
-    nlohmann::json attributes_;
-    std::string prefix_, separator_ = ".";
-    Pipeline pipeline_, index_;
-    bool index_at_end_ = true;
-    ZarrBytes fill_; ///< one value
-    std::optional<double> fill_number_;
+    ZarrDescription said_;
     static constexpr std::size_t kKept = std::size_t{256} << 20, kLarge = std::size_t{64} << 20;
     ZarrCache<ZarrBytes> kept_{kKept};
     ZarrCache<ShardIndex> shards_{std::size_t{64} << 20};

@@ -3,7 +3,6 @@
 
 #include "index/file/sections/metadata.h"
 #include "index/file/sections/step_levels.h"
-#include "index/scan/brick_tiles.h"
 #include "index/system/huge_pages.h"
 #include "index/system/parallel.h"
 #include "index/system/read_ahead.h"
@@ -15,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, tiles_kept, kinds };
+enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, kinds };
 
 /// Bytes of tables that are read at a time.
 constexpr std::uint64_t kTables = 1 << 20;
@@ -298,27 +297,6 @@ std::uint64_t ChunkStore::missing_bytes(std::uint32_t step, std::uint32_t layer,
 
 std::uint64_t ChunkStore::missing_bytes(std::uint32_t step) const {
     return cache_.held({{key(whole_kept, step)}})[0] ? 0 : array_.steps[step].bytes;
-}
-
-bool ChunkStore::can_have_tiles() const {
-    const std::uint64_t bytes = tile_bytes(array_.info.grid);
-    return array_.has_bricks && array_.has_values && size_of(array_.info.type) > 1 &&
-           bytes <= cache_.use().budget / 4;
-}
-
-StepTilesPtr ChunkStore::tiles(std::uint32_t step, const std::stop_token& stop) const {
-    const ByteCache::Key at = key(tiles_kept, step);
-    if (auto known = cache_.find<StepTiles>(at))
-        return known;
-    const LoadedStep loaded = whole(step, stop);
-    auto made = std::make_shared<StepTiles>();
-    made->bytes = tile_bytes(array_.info.grid);
-    made->memory = large_memory(made->bytes);
-    const std::span out(reinterpret_cast<std::uint8_t*>(made->memory.get()), made->bytes);
-    if (!build_tiles(loaded.values, step, out, 0, stop))
-        throw Stopped();
-    cache_.add(at, made, made->bytes);
-    return made;
 }
 
 bool ChunkStore::better_whole(std::uint32_t step) const {

@@ -5,7 +5,6 @@
 #include "index/file/chunks/chunk_grid.h"
 #include "index/file/chunks/chunk_records.h"
 #include "index/file/sections/index_contents.h"
-#include "index/system/huge_pages.h"
 #include "index/system/slot_pool.h"
 #include "index/volume/level_map.h"
 
@@ -27,17 +26,6 @@ struct Chunk {
 using ChunkPtr = std::shared_ptr<const Chunk>;
 
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
-
-/// The tiles of a step (brick_tiles.h).
-struct StepTiles {
-    LargeMemory memory;
-    std::size_t bytes = 0;
-
-    std::span<const std::uint8_t> ranks() const {
-        return {reinterpret_cast<const std::uint8_t*>(memory.get()), bytes};
-    }
-};
-using StepTilesPtr = std::shared_ptr<const StepTiles>;
 
 /// Thrown by a read that was asked to stop.
 struct Stopped {};
@@ -83,12 +71,6 @@ class ChunkStore {
     /// The values and bricks of one whole step, for work that needs all of it.
     /// @throws Stopped as well
     LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
-    /// Whether `tiles` may be asked for: values have more than 8 bits, there are bricks, and the
-    /// tiles fit into a quarter of the cache.
-    bool can_have_tiles() const;
-    /// The tiles of one whole step, for searches that are repeated.
-    /// @throws Stopped as well
-    StepTilesPtr tiles(std::uint32_t step, const std::stop_token& stop = {}) const;
     /// Bytes of records of chunks that are not in the cache.
     std::uint64_t missing_bytes(std::uint32_t step, std::uint32_t layer,
                                 std::span<const std::uint32_t> places) const;

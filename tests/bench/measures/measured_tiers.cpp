@@ -1,10 +1,8 @@
 // The tiers of an index, as structures for the benchmark.
 #include "index/cells/unit_builder.h"
 #include "index/file/sections/tiers.h"
-#include "index/scan/brick_tiles.h"
 #include "index/scan/bricks.h"
 #include "index/search/cell_change.h"
-#include "index/system/huge_pages.h"
 #include "index/volume/chunking.h"
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/structures.h"
@@ -75,38 +73,6 @@ Recipe bricks_of(const FilePtr& file) {
             }};
 }
 
-/// The tiles of all steps, which the program makes for a step that is searched again and again.
-Recipe tiles_of(const FilePtr& file) {
-    return {"tiles", [file](const index::Progress&) {
-                const StepValues& values = file->values();
-                const std::size_t bytes = index::tile_bytes(values.grid);
-                const auto tiles = std::make_shared<std::vector<std::span<const std::uint8_t>>>();
-                std::vector<index::LargeMemory> memory;
-                const Stopwatch watch;
-                for (std::size_t step = 0; step < values.steps; ++step) {
-                    memory.push_back(index::large_memory(bytes));
-                    const std::span out(reinterpret_cast<std::uint8_t*>(memory.back().get()),
-                                        bytes);
-                    index::build_tiles(values, step, out, 1);
-                    tiles->push_back(out);
-                }
-                Structure structure;
-                structure.name = "tiles";
-                structure.build_seconds = watch.seconds();
-                structure.bytes = bytes_without(*file, {Tier::cells, Tier::deltas, Tier::tree}) +
-                                  bytes * values.steps;
-                structure.ids = [file, tiles,
-                                 held = std::make_shared<std::vector<index::LargeMemory>>(
-                                     std::move(memory))](const Query& query, Ids& out) {
-                    out.clear();
-                    const index::LoadedStep step = file->load(query.step);
-                    index::test_tiles(step.values, *file->chunks().levels(query.step), step.bricks,
-                                      (*tiles)[query.step], query, out);
-                };
-                return structure;
-            }};
-}
-
 /// A search of the cell tier, with the memory for its runs.
 struct CellSearch {
     explicit CellSearch(const FilePtr& of) : file(of), changes(of) {}
@@ -161,8 +127,6 @@ std::vector<Recipe> tiers_of(const FilePtr& file) {
     std::vector<Recipe> all;
     if (file->plan().tiers.has(Tier::bricks))
         all.push_back(bricks_of(file));
-    if (file->plan().tiers.has(Tier::bricks) && size_of(file->info().type) > 1)
-        all.push_back(tiles_of(file));
     if (file->cells() && file->levels().lossless()) {
         all.push_back(cells_of(file, false));
         if (file->cells()->has_deltas())

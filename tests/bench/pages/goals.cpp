@@ -71,8 +71,6 @@ std::vector<Goal<Row>> all_goals() {
          of("bricks", "vorticity64", "f32", over_scan)},
         {"ids from bricks (f32) against the scan, 256^3", "x", 40, 12, true,
          of("bricks", "fourier256", "f32", over_scan)},
-        {"ids from tiles (f32) against the scan, 256^3", "x", 40, 12, true,
-         of("tiles", "fourier256", "f32", over_scan)},
         {"ids from cells (u8) against flying edges, sphere", "x", 500, 100, true,
          of("cells", "sphere", "u8",
             [](const Row& row) { return row.flying_edges_us / row.search_ids_us; })},

@@ -98,21 +98,6 @@ TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
                             "thi-node-lattices", "thi-interval-trees", "thi-compact-lists"));
 }
 
-TEST(Structures, OfWideValuesHaveTilesWhichAreExact) {
-    const test_support::TestFolder folder;
-    const TestField field({18, 17, 16}, 3, ValueType::f32, index::moving_sphere);
-    index::MemorySeries series(field.view());
-    index::build_index(series, folder.path() / "a.isochron", {});
-    const auto file = index::IndexFile::open(folder.path() / "a.isochron");
-    const std::vector<Recipe> tiers = tiers_of(file);
-    const auto recipe = std::ranges::find(tiers, "tiles", &Recipe::what);
-    ASSERT_NE(recipe, tiers.end());
-    const ErrorCount count = count_errors(file->values(), recipe->build({}),
-                                          quantile_isovalues(file->values(), 20), [](double) {});
-    EXPECT_GT(count.active, 1000u);
-    EXPECT_EQ(count.false_negatives + count.false_positives, 0u);
-}
-
 TEST(Isovalues, AreTheQuantilesOfAllSteps) {
     const TestField field(
         {10, 10, 10}, 3, ValueType::i16,

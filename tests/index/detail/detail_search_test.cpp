@@ -72,7 +72,8 @@ std::vector<CellPoint> slowly(const std::shared_ptr<const IndexFile>& file, cons
     for (const unsigned level : std::set<unsigned>(levels.begin(), levels.end())) {
         CellSet set;
         set.query = query;
-        EXPECT_TRUE(LayerSearch(file, level).search(set, true, true, {}));
+        EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, query.step, level), set, true,
+                                             true, {}));
         EXPECT_EQ(set.ids, search_level(file, level, query).ids);
         if (level > 0)
             move_planes_out(set.points, file->info().grid.spacing);

@@ -83,7 +83,7 @@ TEST_F(LostCellsTest, WhereTheyAreTooManyChunksWithNothingDrawnAreReadOrCountAsC
     const std::vector<std::uint8_t> levels(regions.size(), 2);
     CellSet coarse;
     coarse.query = {0, 0.0};
-    ASSERT_TRUE(LayerSearch(file_, 2).search(coarse, true, true, {}));
+    ASSERT_TRUE(LayerSearch(file_).search(step_in_chunks(*file_, 0, 2), coarse, true, true, {}));
     ASSERT_FALSE(coarse.points.empty());
     for (CellPoint& p : coarse.points)
         for (std::uint16_t* at : {&p.x, &p.y, &p.z})

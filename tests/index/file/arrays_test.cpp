@@ -4,6 +4,7 @@
 #include "index/extraction/recent_extractions.h"
 #include "index/file/color_source.h"
 #include "index/file/index_series.h"
+#include "index/file/index_states.h"
 #include "index/file/index_watch.h"
 #include "index/indexing/appended_series.h"
 #include "index/indexing/index_build.h"
@@ -185,7 +186,7 @@ TEST_F(IndexArrays, AllGrowWithAnAppend) {
         ASSERT_TRUE(append(path, steps));
         const auto now = IndexFile::open(path);
         expect_like_brute_force(now, steps);
-        EXPECT_TRUE(now->has_had(old->content_hash()));
+        EXPECT_TRUE(has_had(*now, old->content_hash()));
     }
     const auto anew = IndexFile::open(built("anew.isochron"));
     for (std::size_t number = 0; number < 3; ++number)

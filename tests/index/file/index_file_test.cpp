@@ -3,6 +3,7 @@
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/metadata.h"
 #include "index/indexing/index_build.h"
+#include "index/search/tree_of_file.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -79,7 +80,7 @@ TEST_F(IndexFileTest, EveryTypeGoesInAndComesOutUnchanged) {
             for (std::size_t t = 0; t < 3; ++t)
                 EXPECT_EQ(0, std::memcmp(out.first + t * out.stride, in.first + t * in.stride,
                                          60 * size_of(type)));
-            EXPECT_EQ(file->tree() != nullptr, with_tree);
+            EXPECT_EQ(tree_of(*file) != nullptr, with_tree);
             EXPECT_EQ(file->stats().tree_bytes > 0, with_tree);
             EXPECT_EQ(file->plan().tiers.has(Tier::tree), with_tree);
             // 180 values at most: every type has its levels.
@@ -137,7 +138,7 @@ TEST_F(IndexFileTest, TheDescriptionOfTheSeriesGoesInAndComesOutUnchanged) {
     EXPECT_EQ(out.sources, info.sources);
     EXPECT_EQ(out.notes, info.notes);
     EXPECT_EQ(file->tree_options(), (ThiOptions{.lattice = 16, .max_variation = 3}));
-    EXPECT_EQ(file->tree()->options(), file->tree_options());
+    EXPECT_EQ(tree_of(*file)->options(), file->tree_options());
 }
 
 TEST_F(IndexFileTest, ValuesThatAreNotFiniteAreCountedAndKeptOutOfTheRange) {
@@ -351,8 +352,8 @@ TEST_F(IndexFileTest, ADamagedTreeIsRefusedWhenItIsFirstUsed) {
     std::fill_n(bytes.begin() + std::ptrdiff_t(tree.offset), tree.bytes, '\xff');
     put(folder.path() / "b.isochron", bytes);
     const auto file = IndexFile::open(folder.path() / "b.isochron");
-    EXPECT_THROW(file->tree(), Error);
-    EXPECT_THROW(file->tree(), Error) << "and again";
+    EXPECT_THROW(tree_of(*file), Error);
+    EXPECT_THROW(tree_of(*file), Error) << "and again";
 }
 
 } // namespace

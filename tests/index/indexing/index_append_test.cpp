@@ -1,6 +1,7 @@
 // Appending in place: the same answers as after building anew, few bytes written, and an intact
 // index if it is killed at any moment.
 #include "index/error.h"
+#include "index/file/index_states.h"
 #include "index/file/index_watch.h"
 #include "index/indexing/appended_series.h"
 #include "index/indexing/index_build.h"
@@ -287,9 +288,9 @@ TEST_F(IndexAppendTest, WhoHasTheIndexOpenGoesOnWithIt) {
     EXPECT_NO_THROW(old->verify());
     const auto now = IndexFile::open(path);
     EXPECT_EQ(now->info().steps(), 6u);
-    EXPECT_TRUE(now->has_had(old->content_hash()));
-    EXPECT_TRUE(now->has_had(now->content_hash()));
-    EXPECT_FALSE(now->has_had(old->content_hash() ^ 1));
+    EXPECT_TRUE(has_had(*now, old->content_hash()));
+    EXPECT_TRUE(has_had(*now, now->content_hash()));
+    EXPECT_FALSE(has_had(*now, old->content_hash() ^ 1));
     ASSERT_TRUE(grown(path, *old));
     EXPECT_EQ(grown(path, *old)->info().steps(), 6u);
     EXPECT_FALSE(grown(path, *now)) << "it is the same";
@@ -305,7 +306,7 @@ TEST_F(IndexAppendTest, WhoHasTheIndexOpenGoesOnWithIt) {
     build_index(*series_of(other.view()), folder.path() / "other", {});
     EXPECT_FALSE(grown(folder.path() / "other", *old)) << "other data";
     std::filesystem::remove(folder.path() / "other");
-    EXPECT_FALSE(old->has_had(now->content_hash()));
+    EXPECT_FALSE(has_had(*old, now->content_hash()));
     EXPECT_THAT(names_in(folder.path()), testing::ElementsAre("a.isochron"));
 }
 

@@ -1,5 +1,6 @@
 // The states of a growing index: what they leave in the file, and what is known of earlier ones.
 #include "index/error.h"
+#include "index/file/index_states.h"
 #include "index/indexing/appended_series.h"
 #include "index/indexing/index_build.h"
 #include "index/system/growing_file.h"
@@ -117,16 +118,16 @@ TEST_F(IndexStatesTest, EveryStateThatAnIndexHasGrownFromIsKnown) {
         EXPECT_EQ(file->metadata().earlier, hashes);
         hashes.push_back(file->content_hash());
         for (const std::uint64_t hash : hashes)
-            EXPECT_TRUE(file->has_had(hash));
-        EXPECT_TRUE(file->has_had(hashes.front(), 3));
-        EXPECT_FALSE(file->has_had(hashes.front(), 4));
-        EXPECT_FALSE(file->has_had(hashes.front() ^ 1));
+            EXPECT_TRUE(has_had(*file, hash));
+        EXPECT_TRUE(has_had(*file, hashes.front(), 3));
+        EXPECT_FALSE(has_had(*file, hashes.front(), 4));
+        EXPECT_FALSE(has_had(*file, hashes.front() ^ 1));
     }
     // Built anew it has grown from nothing, and is known by its first steps all the same.
     build(20);
     EXPECT_TRUE(IndexFile::open(path)->metadata().earlier.empty());
     for (const std::uint64_t hash : hashes)
-        EXPECT_TRUE(IndexFile::open(path)->has_had(hash));
+        EXPECT_TRUE(has_had(*IndexFile::open(path), hash));
 }
 
 TEST_F(IndexStatesTest, ANewestHeaderThatIsDamagedIsToldWhereWhatItNamesIsWhole) {
@@ -136,7 +137,7 @@ TEST_F(IndexStatesTest, ANewestHeaderThatIsDamagedIsToldWhereWhatItNamesIsWhole)
         append(steps);
         const std::string whole = read_file(path);
         const auto newest = IndexFile::open(path);
-        EXPECT_EQ(newest->lost_state(), std::nullopt);
+        EXPECT_EQ(lost_state(*newest), std::nullopt);
         const std::uint64_t at = slot_of(newest->header()), other = kHeaderBytes - at;
         for (int i = 0; i < 20; ++i) {
             folder.write("a.isochron", whole);
@@ -145,21 +146,21 @@ TEST_F(IndexStatesTest, ANewestHeaderThatIsDamagedIsToldWhereWhatItNamesIsWhole)
                 continue; // no index any more
             const auto left = IndexFile::open(path);
             EXPECT_EQ(left->info().steps(), steps - 1);
-            ASSERT_TRUE(left->lost_state());
-            EXPECT_THAT(*left->lost_state(),
+            ASSERT_TRUE(lost_state(*left));
+            EXPECT_THAT(*lost_state(*left),
                         HasSubstr(fmt::format("its first {} steps are what is left", steps - 1)));
         }
         // Of the older header, or of one whose sections are not there, there is nothing to say.
         folder.write("a.isochron", whole);
         damage(other + 24 + random() % 100);
         EXPECT_EQ(IndexFile::open(path)->info().steps(), steps);
-        EXPECT_EQ(IndexFile::open(path)->lost_state(), std::nullopt);
+        EXPECT_EQ(lost_state(*IndexFile::open(path)), std::nullopt);
         folder.write("a.isochron", whole);
         damage(at + 40);
         for (const Section& section : newest->header().sections)
             if (section.bytes > 0)
                 damage(section.offset + random() % section.bytes);
-        EXPECT_EQ(IndexFile::open(path)->lost_state(), std::nullopt);
+        EXPECT_EQ(lost_state(*IndexFile::open(path)), std::nullopt);
         folder.write("a.isochron", whole);
     }
 }
@@ -185,8 +186,7 @@ TEST_F(IndexStatesTest, WhoOpensItWhileTwoAppendsFinishSeesTheOldStateOrTheNew) 
             ++mixed;
         }
         contents = {&before, &after, reads};
-        const auto file =
-            IndexFile::open_newest([&] { return std::make_unique<ChangingFile>(contents); });
+        const auto file = open_newest([&] { return std::make_unique<ChangingFile>(contents); });
         const bool old = file->info().steps() == 3;
         EXPECT_EQ(file->content_hash(), old ? old_hash : new_hash) << reads;
         old_states += old ? 1 : 0;
@@ -201,7 +201,7 @@ TEST_F(IndexStatesTest, WhoOpensItWhileTwoAppendsFinishSeesTheOldStateOrTheNew) 
     damaged[IndexFile::open(path)->header().section(SectionKind::metadata).offset] ^= 1;
     ChangingFile::Contents contents{&damaged, &damaged, 0};
     try {
-        IndexFile::open_newest([&] { return std::make_unique<ChangingFile>(contents); });
+        open_newest([&] { return std::make_unique<ChangingFile>(contents); });
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("the checksum of section metadata does not match"));

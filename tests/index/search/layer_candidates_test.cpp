@@ -94,13 +94,15 @@ TEST_P(LayerCandidatesTest, NothingIsReadThatWasNotAnnouncedWithTheCandidates) {
             for (std::uint32_t near = layer - std::min(layer, 1u);
                  near < std::min(layer + 2, store.grid().layers()); ++near)
                 store.fetch(0, near, LayerCandidates::places_of(*store.layer(0, near), cut), {});
-            const LayerCandidates candidates(store, 0, layer, cut, normals, {});
+            const StepView step = step_in_chunks(*file, 0);
+            const LayerCandidates candidates(step, layer, cut, normals, {});
             const std::uint64_t announced = source.announcements;
             source.unannounced = 0;
             CellSet set;
             std::chrono::nanoseconds shading{0};
             const auto divided = *stored_cut(store.info().type, store.info().scaling, isovalue);
-            CubeSearch(store).search(candidates, {0, isovalue}, divided, normals, {}, set, shading);
+            CubeSearch().search(step, candidates, {0, isovalue}, divided, normals, {}, set,
+                                shading);
             found += set.ids.size();
             EXPECT_EQ(set.points.size(), normals ? set.ids.size() : 0);
             EXPECT_EQ(source.unannounced, 0u)
@@ -134,7 +136,7 @@ TEST(LayersOfAStep, AreReadInOneGoEachWhereMostOfThemIsNeeded) {
         const std::uint32_t fetches = source.fetches;
         CellSet set;
         set.query = {0, isovalue};
-        EXPECT_TRUE(LayerSearch(file).search(set, true, true, {}));
+        EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, 0), set, true, true, {}));
         EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(isovalue));
         return fetches;
     };

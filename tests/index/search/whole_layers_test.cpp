@@ -67,7 +67,12 @@ class WholeLayersTest : public testing::Test {
     }
     std::optional<WholeLayers::Range> worth(double isovalue, std::uint64_t room = kRoom) const {
         const auto at = cut(0, isovalue);
-        return at ? WholeLayers::worth(file_->chunks(), 0, *at, 2, room) : std::nullopt;
+        return at ? WholeLayers::worth(step(), *at, 2, room) : std::nullopt;
+    }
+
+    StepView step() const { return step_in_chunks(*file_, 0); }
+    bool search(CellSet& set, const std::stop_token& stop = {}) const {
+        return LayerSearch(file_).search(step(), set, true, true, stop);
     }
 
     std::mt19937 random_{test_seed()};
@@ -90,7 +95,7 @@ TEST_F(WholeLayersTest, GiveTheCellsAndPlanesOfAWholeStepForEveryTypeAndGrid) {
             wanted.ids = BruteForce(field.view(), 0).active(isovalue);
             ASSERT_EQ(!worth(isovalue), wanted.ids.empty());
             const std::uint64_t before = file_->reading().held;
-            ASSERT_TRUE(LayerSearch(file_).search(found, true, true, {}));
+            ASSERT_TRUE(search(found));
             EXPECT_LT(file_->reading().held - before, std::uint64_t{4096})
                 << "chunks have been kept";
             shade_cells(field.view(), wanted);
@@ -116,13 +121,13 @@ TEST_F(WholeLayersTest, AreReadOnceAndOnlyTheFirstTimeThatAStepIsLookedAt) {
     ASSERT_TRUE(worth(128.5));
     for (auto& reads : source_->reads)
         reads = 0;
-    ASSERT_TRUE(LayerSearch(file_).search(set, true, true, {}));
+    ASSERT_TRUE(search(set));
     const ChunkStore& store = file_->chunks();
     for (std::uint64_t i = store.layer(0, 0)->offsets.front();
          i < store.layer(0, 5)->offsets.back(); ++i)
         ASSERT_EQ(source_->reads[i], 1) << i;
     store.worked_on(0);
-    ASSERT_TRUE(LayerSearch(file_).search(set, true, true, {}));
+    ASSERT_TRUE(search(set));
     EXPECT_GT(file_->reading().held, field.view().grid.vertex_count()) << "chunks are kept";
     EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(128.5));
 }
@@ -134,8 +139,8 @@ TEST_F(WholeLayersTest, AreOnlyTakenWhereMostIsNeededAndThereIsRoom) {
     ASSERT_TRUE(all);
     EXPECT_EQ(all->first, 0u);
     EXPECT_EQ(all->end, 6u);
-    EXPECT_FALSE(worth(128.5, 9 * StepSlab::bytes(file_->info())));
-    EXPECT_TRUE(worth(128.5, 10 * StepSlab::bytes(file_->info())));
+    EXPECT_FALSE(worth(128.5, 9 * StepSlab::bytes(step().grid(), step().type())));
+    EXPECT_TRUE(worth(128.5, 10 * StepSlab::bytes(step().grid(), step().type())));
     EXPECT_FALSE(worth(20.5)) << "no cell is active";
     index(TestField({130, 20, 90}, 1, ValueType::u8, [](double x, double, double z, double) {
         return x < 8 || z < 40 ? 10.0 : x + 100;
@@ -157,7 +162,8 @@ TEST_F(WholeLayersTest, AreWorkedOnOnceEachByAnyNumberOfThreads) {
     for (const unsigned threads : {1u, 2u, 3u, 8u}) {
         std::mutex mutex;
         std::map<std::uint32_t, std::vector<CellId>> of_layer;
-        WholeLayers layers(file_->chunks(), 0, *worth(128.5), *cut(0, 128.5), threads);
+        const StepView whole = step();
+        WholeLayers layers(whole, *worth(128.5), *cut(0, 128.5), threads);
         EXPECT_TRUE(layers.for_each(
             [&](StepSlab& slab, std::uint32_t layer, std::chrono::nanoseconds) {
                 std::vector<CellId> ids;
@@ -188,7 +194,7 @@ TEST_F(WholeLayersTest, EndWhenTheyAreStoppedAtAnyReadOrTheFileFails) {
         CellSet set;
         set.query = {0, 0.1};
         source_->requests = 0;
-        const bool finished = LayerSearch(file_).search(set, true, true, stop);
+        const bool finished = this->search(set, stop);
         if (finished) {
             EXPECT_EQ(set.ids, wanted);
         }
@@ -212,7 +218,8 @@ TEST_F(WholeLayersTest, EndWhenTheyAreStoppedAtAnyReadOrTheFileFails) {
         source_->at_read = {};
     }
     EXPECT_TRUE(search({}));
-    WholeLayers layers(file_->chunks(), 0, *worth(0.1), *cut(0, 0.1), 3);
+    const StepView whole = step();
+    WholeLayers layers(whole, *worth(0.1), *cut(0, 0.1), 3);
     EXPECT_THROW(layers.for_each(
                      [](StepSlab&, std::uint32_t layer, std::chrono::nanoseconds) {
                          if (layer == 4)
@@ -232,7 +239,8 @@ TEST_F(WholeLayersTest, ADamagedChunkIsOneLine) {
     CellSet set;
     set.query = {0, 128.5};
     try {
-        LayerSearch(IndexFile::open(damaged)).search(set, true, true, {});
+        const auto file = IndexFile::open(damaged);
+        LayerSearch(file).search(step_in_chunks(*file, 0), set, true, true, {});
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.what(), damaged.string() + ": damaged: volume, step 0: chunk 3 0 2: its "

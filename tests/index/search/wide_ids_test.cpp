@@ -133,7 +133,8 @@ TEST(WideIds, OfASurfaceAreColoredAsTheSameCellsOfAGridWithoutThem) {
         const CellSetPtr set = search_in(file)({0, 150}, {});
         std::vector<std::uint16_t> out(set->ids.size(), kNoColor);
         const ColorSource by_own_values(*file, 0);
-        EXPECT_TRUE(LayerSearch(file).color_cells(*set, by_own_values, out, {}));
+        EXPECT_TRUE(
+            LayerSearch(file).color_cells(step_in_chunks(*file, 0), *set, by_own_values, out, {}));
         return out;
     };
     const auto found = colors(step_of(2049, 2049));
@@ -144,8 +145,10 @@ TEST(WideIds, OfASurfaceAreColoredAsTheSameCellsOfAGridWithoutThem) {
 TEST(WideIds, AreCountedWithoutBeingKept) {
     const auto file = step_of(2049, 2049);
     const Query query{0, 150};
-    EXPECT_EQ(LayerSearch(file).count(query, true, {}), search_in(file)(query, {})->ids.size());
-    EXPECT_EQ(LayerSearch(file).count({0, 250}, true, {}), 0u);
+    const StepView step = step_in_chunks(*file, 0);
+    EXPECT_EQ(LayerSearch(file).count(step, query, true, {}),
+              search_in(file)(query, {})->ids.size());
+    EXPECT_EQ(LayerSearch(file).count(step, {0, 250}, true, {}), 0u);
 }
 
 TEST(WideIds, WhatTellsCellsApartBy32BitsRefusesThemBeforeAnythingIsRead) {

@@ -34,8 +34,8 @@ std::vector<CellPoint> cells_of_ball(unsigned level, double side) {
     build_index(series, folder.path() / "a.isochron", {.tiers = TierSet().with(Tier::bricks)});
     CellSet set;
     set.query = {0, 0.0};
-    LayerSearch search(IndexFile::open(folder.path() / "a.isochron", 1), level);
-    EXPECT_TRUE(search.search(set, true, true, {}));
+    const auto file = IndexFile::open(folder.path() / "a.isochron", 1);
+    EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, 0, level), set, true, true, {}));
     return set.points;
 }
 

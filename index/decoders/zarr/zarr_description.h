@@ -1,0 +1,50 @@
+// What an array of a Zarr hierarchy, of version 2 or 3, says of itself.
+#pragma once
+
+#include "index/decoders/zarr/zarr_codecs.h"
+#include "index/decoders/zarr/zarr_store.h"
+#include "index/formats/stored_scalar.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// How the bytes of a chunk are turned into values.
+struct ZarrPipeline {
+    std::vector<ZarrCodec> codecs; ///< in the order of decoding
+    bool big_endian = false;
+    std::vector<std::size_t> order; ///< of the dimensions as stored; empty: as they are
+};
+
+struct ZarrDescription {
+    std::string path;               ///< in the store; empty for its root
+    std::optional<StoredType> type; ///< of the values; empty if no volume can have it
+    std::vector<std::uint64_t> shape, chunk, inner; ///< inner: of chunks in a shard, if there are
+    std::vector<std::string> names; ///< of the dimensions; empty if the array does not give them
+    nlohmann::json attributes;
+    std::string prefix, separator = "."; ///< of the keys of chunks
+    ZarrPipeline pipeline, index;        ///< of chunks, and of the index of a shard
+    bool index_at_end = true;            ///< of a shard
+    ZarrBytes fill;                      ///< one value
+    std::optional<double> fill_number;   ///< if there is one
+
+    /// Number of values along each dimension of a chunk, or, if chunks are shards, of its parts.
+    const std::vector<std::uint64_t>& parts() const { return inner.empty() ? chunk : inner; }
+};
+
+/// Zarr v2: https://zarr.readthedocs.io/en/stable/spec/v2.html; v3:
+/// https://zarr-specs.readthedocs.io/en/latest/v3/core/, sharding codec included.
+/// @param path in the store; empty for its root @return empty if there is no array
+/// @throws Error naming store and array: damaged, or it uses a feature that is not supported
+std::optional<ZarrDescription> description_of_zarr(const ZarrStore& store, const std::string& path);
+
+/// The key of something in a group; that of the root is empty.
+std::string zarr_key(const std::string& group, const std::string& name);
+
+} // namespace isochron::index

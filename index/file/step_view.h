@@ -1,0 +1,94 @@
+// One step of an array as work on it asks for it: its grid, type and scaling, and its values whole
+// or in chunks.
+//
+//     const index::StepView step = index::step_of(*file, query.step);
+//     index::LayerSearch(file).search(step, set, true, true, {}); // whole or in chunks
+#pragma once
+
+#include "index/file/chunks/chunk_store.h"
+#include "index/file/index_file.h"
+#include "index/volume/instant.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+
+/// Whether the work is on the whole step or on its chunks is decided when the view is made, and
+/// stays so, whatever is read meanwhile. Functions that read throw as ChunkStore does.
+class StepView {
+  public:
+    /// What there is to know of a step before it is read.
+    struct Kind {
+        const Grid* grid;
+        ValueType type;
+        Scaling scaling;
+        std::size_t steps; ///< of the series
+    };
+    using Load = std::function<LoadedStep(std::uint32_t step, const std::stop_token& stop)>;
+    /// By chunks. @param store of the array at a level of detail; outlives the view
+    StepView(const ChunkStore& store, Instant at, std::size_t level = 0)
+        : kind_{&store.info().grid, store.info().type, store.info().scaling, store.info().steps()},
+          store_(&store), at_(at), level_(level) {}
+    /// As a whole. @param store null if there are no chunks @param load reads the whole step
+    StepView(const Kind& kind, const ChunkStore* store, Instant at, Load load)
+        : kind_(kind), store_(store), at_(at), load_(std::move(load)) {}
+
+    Instant at() const { return at_; }
+    const Grid& grid() const { return *kind_.grid; }
+    ValueType type() const { return kind_.type; }
+    const Scaling& scaling() const { return kind_.scaling; }
+    std::size_t steps() const { return kind_.steps; }
+    std::size_t level() const { return level_; } ///< of detail
+    /// The stored value at which `scaled >= isovalue` changes (index/volume/stored_cut.h).
+    std::optional<std::uint64_t> stored_cut(double isovalue) const;
+
+    bool by_chunks() const { return !load_; }
+    /// All of a step that is not worked on by chunks: read when it is first needed, since that may
+    /// decode a file. Call it first from one thread. @throws Stopped as well
+    const LoadedStep& whole(const std::stop_token& stop) const;
+
+    const ChunkGrid& chunk_grid() const { return store_->grid(); }
+    /// The levels whose ranks its bricks hold, which the index must have.
+    LevelMapPtr levels() const { return store_->levels(at_); }
+    /// The isovalue among these levels; none if no cell is active.
+    std::optional<LevelMap::Cut> cut(double isovalue) const {
+        return levels()->cut(scaling(), isovalue);
+    }
+    ChunkLayerPtr layer(std::uint32_t layer) const { return store_->layer(at_, layer); }
+    std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
+                                 const std::stop_token& stop) const {
+        return store_->chunks(at_, layer, places, stop);
+    }
+    std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
+        return store_->expect(at_, layer, places);
+    }
+    std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
+                        const std::stop_token& stop) const {
+        return store_->fetch(at_, layer, places, stop);
+    }
+    bool was_worked_on() const { return store_->was_worked_on(at_); }
+    const ChunkStore& store() const { return *store_; }
+
+  private:
+    Kind kind_;
+    const ChunkStore* store_;
+    Instant at_;
+    std::size_t level_ = 0;
+    Load load_;
+    mutable std::optional<LoadedStep> whole_;
+};
+
+/// A step of the volume: whole where that is faster than work on the needed chunks alone.
+/// @param file outlives the view
+StepView step_of(const IndexFile& file, Instant at);
+/// By chunks, at a level of detail.
+StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level = 0);
+
+} // namespace isochron::index

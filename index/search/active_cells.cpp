@@ -1,0 +1,186 @@
+// Searches the parts of a step, with all cores.
+#include "index/search/active_cells.h"
+
+#include "index/scan/bricks.h"
+#include "index/scan/scan.h"
+#include "index/search/id_sort.h"
+#include "index/search/whole_layers.h"
+#include "index/surface/cell_set.h"
+#include "index/system/parallel.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kScannedAtATime = 1 << 22; ///< cells of a part of a whole step
+
+/// Planes of cells of a step that are scanned at a time.
+std::uint32_t scanned_planes(const Grid& grid) {
+    const auto [width, height, depth] = grid.cells();
+    return static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(kScannedAtATime / (std::uint64_t{width} * height), 1, depth));
+}
+std::uint32_t scanned_parts(const Grid& grid) {
+    const std::uint32_t planes = scanned_planes(grid);
+    return (grid.cells()[2] + planes - 1) / planes;
+}
+
+/// What is done with each part of a step.
+class PartsSearch {
+  public:
+    PartsSearch(LayerWork& work, const StepView& step, const ActiveCellsOrder& order,
+                LayerResults& results, const std::stop_token& stop)
+        : work_(work), step_(step), order_(order), stop_(stop), results_(results),
+          levels_(order.by_bricks ? step.levels() : nullptr),
+          cut_(levels_ ? levels_->cut(step.scaling(), order.query.isovalue) : std::nullopt) {}
+
+    /// @return false when stopped
+    bool operator()() {
+        if (levels_ && !cut_)
+            return true;
+        if (!step_.by_chunks())
+            return whole();
+        return cut_ ? by_candidates() : scan_layers();
+    }
+
+  private:
+    /// All of the step, by its bricks; or some planes after the other, by a scan.
+    bool whole() {
+        const LoadedStep& all = step_.whole(stop_);
+        const StepPart step{.cells = all.values, .around = all.values, .bricks = all.bricks};
+        if (cut_) {
+            work_on(step, 0, results_.begin(), Clock::now());
+            return !stop_.stop_requested();
+        }
+        const std::uint32_t planes = scanned_planes(step_.grid());
+        const std::uint32_t depth = step_.grid().cells()[2];
+        const std::uint32_t parts = scanned_parts(step_.grid());
+        parallel_for(parts, std::min(parts, thread_count(0)),
+                     [&](std::size_t number, unsigned) {
+                         stop_if_asked(stop_);
+                         const auto first = static_cast<std::uint32_t>(number) * planes;
+                         work_on(step.planes(first, std::min(first + planes, depth)), number,
+                                 results_.begin(), Clock::now());
+                     },
+                     {});
+        return !stop_.stop_requested();
+    }
+
+    bool scan_layers() {
+        const auto places = [&](std::uint32_t) {
+            std::vector<std::uint32_t> all(step_.chunk_grid().chunks_of_layer());
+            std::iota(all.begin(), all.end(), 0u);
+            return all;
+        };
+        const auto scan_slab = [&](unsigned worker, std::uint32_t layer) {
+            StepSlab& slab = work_.slab(worker);
+            slab.begin(step_, layer, stop_);
+            LayerResult result = results_.begin();
+            const auto begun = Clock::now();
+            slab.fill_all();
+            work_on(slab.part(), layer, std::move(result), begun);
+        };
+        return work_.for_each_layer(step_, places, {}, scan_slab, stop_);
+    }
+
+    bool by_candidates() {
+        const std::uint32_t layers = StepSlab::layers(step_.grid());
+        const bool may_need_all =
+            !order_.only && &step_.store() == &work_.file().chunks() && !step_.was_worked_on();
+        const unsigned threads = work_.threads(step_);
+        if (const auto range = may_need_all ? WholeLayers::worth(step_, *cut_, threads,
+                                                                 work_.file().cache().budget)
+                                            : std::nullopt) {
+            for (std::uint32_t layer = 0; layer < layers; ++layer)
+                if (layer < range->first || layer >= range->end)
+                    results_.add(layer, {});
+            const auto work = [&](StepSlab& slab, std::uint32_t layer,
+                                  std::chrono::nanoseconds decoding) {
+                work_on(slab.part(), layer, results_.begin(), Clock::now() - decoding);
+            };
+            return WholeLayers(step_, *range, *cut_, threads).for_each(work, stop_);
+        }
+        PreparedCandidates candidates(layers, [&](std::uint32_t layer) {
+            return LayerCandidates(step_, layer, *cut_, order_.shaded, stop_, order_.only);
+        });
+        const auto stored = step_.stored_cut(order_.query.isovalue);
+        const auto search_cubes = [&](unsigned worker, std::uint32_t layer) {
+            LayerResult result = results_.begin();
+            const LayerCandidates prepared = candidates.take(layer);
+            const auto begun = Clock::now() - prepared.time();
+            if (stored && !prepared.places().empty())
+                work_.cubes(worker).search(step_, prepared, order_.query, *stored, order_.shaded,
+                                           stop_, result.cells, result.shading);
+            result.searching = Clock::now() - begun - result.shading;
+            results_.add(layer, std::move(result));
+        };
+        return work_.for_each_layer(
+            step_,
+            [&](std::uint32_t layer) {
+                return LayerCandidates::places_of(*step_.layer(layer), *cut_, layer, order_.only);
+            },
+            [&](std::uint32_t layer) { candidates.prepare(layer); }, search_cubes, stop_);
+    }
+
+    /// Finds the active cells of a part that is in memory, and shades them. @throws Stopped
+    void work_on(const StepPart& part, std::size_t number, LayerResult result,
+                 Clock::time_point begun) {
+        std::vector<CellId>& ids = result.cells.ids;
+        if (cut_) {
+            result.cells.candidates =
+                search_bricks(part.cells, *levels_, part.bricks, order_.query, ids);
+            stop_if_asked(stop_);
+            sort_ids(ids, part.cells.grid.cell_count());
+        } else {
+            scan(part.cells, order_.query, ids);
+            result.cells.candidates = ids.size();
+        }
+        for (CellId& id : ids)
+            id += part.first_cell - part.first_around;
+        result.first = part.first_around;
+        result.first_plane = part.first_plane;
+        stop_if_asked(stop_);
+        const auto found = Clock::now();
+        result.searching = found - begun;
+        if (order_.shaded && !ids.empty()) {
+            if (part.slab)
+                part.slab->fill_around(ids, true);
+            if (!index::shade_cells(part.around, order_.query, ids, result.cells.points,
+                                    result.cells.rows, stop_))
+                throw Stopped();
+            result.shading = Clock::now() - found;
+        }
+        results_.add(static_cast<std::uint32_t>(number), std::move(result));
+    }
+
+    LayerWork& work_;
+    const StepView& step_;
+    const ActiveCellsOrder& order_;
+    const std::stop_token& stop_;
+    LayerResults& results_;
+    LevelMapPtr levels_; ///< of the bricks; null: without them
+    std::optional<LevelMap::Cut> cut_;
+};
+
+} // namespace
+
+std::uint32_t parts_to_search(const StepView& step, bool by_bricks) {
+    if (step.by_chunks())
+        return StepSlab::layers(step.grid());
+    return by_bricks ? 1 : scanned_parts(step.grid());
+}
+
+bool find_active(LayerWork& work, const StepView& step, const ActiveCellsOrder& order,
+                 LayerResults& results, const std::stop_token& stop) {
+    return PartsSearch(work, step, order, results, stop)();
+}
+
+} // namespace isochron::index

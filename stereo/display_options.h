@@ -18,7 +18,7 @@ struct DisplayOptions {
 
 /// Draws all eyes of one viewport, in the order of `eyes_of`. Their pictures lie in one target, so
 /// that one pass can draw both. The target is bound and cleared to the background; viewport and
-/// scissor number i are those of view i.
+/// scissor number i are set for view i.
 using DrawViews = std::function<void(std::span<const render::View>)>;
 /// The same, but draws a further part of the picture, over what has been drawn before.
 /// @return whether the picture is complete now

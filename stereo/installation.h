@@ -80,8 +80,8 @@ inline StereoMode mode_of(const Window& window, const Installation& installation
     return window.stereo == installation.windows.front().stereo ? live : window.stereo;
 }
 
-/// A viewer's eye separation [m] when the user has chosen `live` for the first viewer: those of the
-/// other viewers change in proportion, so that 0 makes all of them 0.
+/// A viewer's eye separation [m] when the user has chosen `live` for the first viewer. The eye
+/// separations of the other viewers change in proportion, so that 0 makes all of them 0.
 inline float eye_separation_of(const Viewer& viewer, const Installation& installation, float live) {
     const float first = installation.viewers.front().eye_separation;
     if (first == viewer.eye_separation || first <= 0.0f)

@@ -16,7 +16,7 @@ void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& targe
                 const DisplayOptions& options, std::span<const render::View> views,
                 const DrawViews& scene);
 
-/// The same in several calls, each of which draws something more.
+/// Draws the views in several calls; each call draws something more.
 /// @param begins this is the first one: the target is cleared
 /// @param scene returns whether the picture is complete now
 /// @return what `scene` returned; if true, the target is resolved

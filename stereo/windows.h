@@ -70,7 +70,7 @@ struct WindowOptions {
 Windows open_windows(ContextKind kind, const Installation& installation,
                      const WindowOptions& options);
 
-/// Makes the driver swap the windows together with those of other processes, see swap_group.h.
+/// Makes the driver swap these windows together with the windows of other processes, see swap_group.h.
 /// Pictures without a window are left out. @throws render::Error
 void join_swap_group(const Windows& windows);
 

@@ -30,9 +30,9 @@ class ByteSource {
     std::uint64_t bytes_read() const { return bytes_read_; }
     /// Announces that these bytes are needed soon, so that the disk works on many requests at once.
     virtual void expect(std::uint64_t /*offset*/, std::uint64_t /*bytes*/) const {}
-    /// The same for bytes of which nearly all are needed: reads them from the disk in their order,
-    /// which takes less time than many requests, and waits until they have come. Never throws for
-    /// the file or the disk: whoever reads them gets the error. Returns early when stopped.
+    /// Announces a range of bytes when nearly all of them are needed: reads the range from the disk in
+    /// order, which takes less time than many requests, and waits until it has come. Never throws for
+    /// the file or the disk: whoever reads the bytes gets the error. Returns early when stopped.
     virtual void fetch(std::uint64_t offset, std::uint64_t bytes,
                        const std::stop_token& /*stop*/) const {
         expect(offset, bytes);

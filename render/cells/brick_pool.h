@@ -23,7 +23,7 @@ class BrickPool {
     /// @param bricks live until `show`
     void begin(const index::VolumeBricks& bricks);
 
-    /// Whether the pool can hold these bricks and those of the shown set at the same time.
+    /// Whether the pool can hold these bricks and the bricks of the shown set together.
     bool has_room_for(const index::VolumeBricks& bricks) const;
     /// Drops all bricks, which makes room for as many as the driver's textures can hold. Call it
     /// only while no set is being sent.

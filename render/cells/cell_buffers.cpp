@@ -15,7 +15,7 @@ namespace isochron::render {
 namespace {
 
 constexpr std::size_t kWord = sizeof(std::uint32_t);
-const Slots kNoSlots; ///< of which a set of mixed levels has none that others could keep
+const Slots kNoSlots; ///< for sets of mixed levels: no later set keeps any of their slots
 
 /// Unique among all buffers: the address alone would not do, as new buffers may reuse it.
 std::uint64_t next_version() {

@@ -52,8 +52,8 @@ class CellBuffers {
     bool has_fences() const { return ring_.fences() == Fences::pass; }
 
     /// Fixed cells from points with normals; `shown()` is null.
-    /// @param grid they are of, which need not be said if it is regular
-    /// @param largest cell [voxels] where the points are those of mixed levels of detail; else 0
+    /// @param grid of the cells; a regular grid need not be given
+    /// @param largest cell [voxels] if the points are of mixed levels of detail; else 0
     static CellBuffers of_points(const Gl& gl, std::span<const index::CellPoint> points,
                                  const index::Grid& grid = {.vertices = {2, 2, 2}},
                                  std::uint32_t largest = 0);

@@ -14,8 +14,8 @@ struct DrawPart {
 
     bool operator==(const DrawPart&) const = default;
 
-    /// The overlap of this part with the things from `before` to `before + things`, counted from
-    /// the first of those; its count is 0 if there is no overlap.
+    /// The overlap of this part with the things from `before` to `before + things`. Its `first` is
+    /// counted from `before`; its count is 0 if there is no overlap.
     DrawPart among(std::size_t before, std::size_t things) const {
         const std::size_t most = std::numeric_limits<std::size_t>::max();
         const std::size_t end = count > most - first ? most : first + count;

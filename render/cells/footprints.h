@@ -60,7 +60,7 @@ constexpr bool has_layers(Footprint footprint) {
 }
 
 /// Sizes in voxels (lengths in vertex index coordinates, so anisotropic spacing stretches them).
-/// The Gaussian's sizes are those of the authors' later code. That code had quads of 1.6; here they
+/// The Gaussian has the sizes of the authors' later code. That code had quads of 1.6; here quads
 /// are sqrt(2), with which discs cover a layer of cells seen face-on without a gap. In oblique
 /// views the cells are denser, so quads of sqrt(2) leave no more gaps than quads of 1.6, and draw a
 /// fifth fewer pixels.
@@ -71,8 +71,8 @@ struct FootprintShapes {
     float gaussian_diameter = 4.0f; ///< at which the Gaussian is cut off
     float gaussian_sigma = 0.7f;
     // On planes:
-    /// Half a side of the enlarged cell of which a quad shows the plane's part: planes of neighbors
-    /// differ, so each goes on a little behind the common face.
+    /// A quad shows the part of the plane within an enlarged cell; this is half a side of that cell.
+    /// Planes of neighbors differ, so each plane goes on a little behind the common face.
     float half_cell = 0.597f;
     float plane_gaussian_radius = 1.45f; ///< at which the Gaussian is cut off
     float plane_sigma = 0.5075f;

@@ -33,7 +33,7 @@ struct Slots {
     std::vector<CellPlace> places; ///< by slot
     /// By slot, the third word of an index::CellPoint; empty if only the GPU has them.
     std::vector<std::uint32_t> planes;
-    /// Size of the largest cell [voxels] where places are those of mixed levels of detail
+    /// Size of the largest cell [voxels] if the cells are of mixed levels of detail
     /// (index/detail/detail_regions.h); else 0.
     std::uint32_t largest = 0;
 };

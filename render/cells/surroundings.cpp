@@ -7,8 +7,8 @@
 namespace isochron::render {
 namespace {
 
-/// Places in the texture along an axis, of which some may have no use: llvmpipe compiles shaders
-/// anew for powers of two, as for buffer textures (see texel_storage).
+/// Places in the texture along an axis; some places may stay unused. llvmpipe compiles shaders anew
+/// for sizes that are powers of two, as for buffer textures (see texel_storage).
 int along_texture(int places) {
     while (std::has_single_bit(static_cast<unsigned>(places)))
         ++places;

@@ -69,7 +69,7 @@ using AxisTable = std::vector<std::uint64_t>;
 /// Each axis's part of the distance, by coordinate.
 struct Distances {
     std::array<AxisTable, 3> along;
-    /// Bits of a distance that are dropped; cells of which one may hide the other stay apart.
+    /// Bits of a distance that are dropped. If one cell may hide another, their distances still differ.
     int unit_bits = 0;
     std::uint64_t largest = 0; ///< largest possible distance
 

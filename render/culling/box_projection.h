@@ -32,8 +32,8 @@ class BoxProjection {
   private:
     glm::vec2 size_, center_; ///< of the viewport [pixel]
     glm::vec4 x_, y_, w_;     ///< rows from even coordinates to clip space, x and y in pixels
-    /// Clip depth is `slope_` + (this row) / w. In perspective this row is constant, so that the
-    /// bounds of both parts are those of the whole.
+    /// Clip depth is `slope_` + (this row) / w. In perspective this row is constant, so that bounding
+    /// both terms bounds the depth.
     glm::vec4 rest_;
     float slope_;
 };

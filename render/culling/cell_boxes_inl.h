@@ -80,7 +80,7 @@ struct Boxes {
 };
 
 /// The next cells of a rectilinear grid, from their coordinates.
-/// @tparam kMixed these are those of mixed levels
+/// @tparam kMixed the cells are of mixed levels of detail
 template <bool kMixed>
 HWY_INLINE Boxes<UnevenSides> uneven_boxes(const SquareProjection& p,
                                            const hn::Vec<hn::RebindToSigned<Floats>> (&cell)[3]) {

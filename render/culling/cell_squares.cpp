@@ -56,7 +56,7 @@ struct Ellipsoids {
 };
 
 /// The ellipsoids on the planes of the next cells.
-/// @param cells their centers become those of the ellipsoids
+/// @param cells their centers are moved to the centers of the ellipsoids
 template <class Sides>
 HWY_INLINE Ellipsoids<Sides> ellipsoids(const SquareProjection& p, const std::uint32_t* words,
                                         Boxes<Sides>& cells) {

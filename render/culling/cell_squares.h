@@ -76,9 +76,9 @@ class CellSquares {
     std::size_t size_ = 0, done_ = 0;
     SquareProjection projection_{};
     CellKind kind_{};
-    std::optional<index::Grid> grid_; ///< a rectilinear one, of which the axes are
+    std::optional<index::Grid> grid_; ///< the grid of `axes_`, if it is rectilinear
     std::array<AxisPlaces, 3> axes_;
-    std::vector<std::uint32_t> words_; ///< two for each cell: those of its CellPlace
+    std::vector<std::uint32_t> words_; ///< two for each cell: the words of its CellPlace
     std::vector<std::uint32_t> planes_;
     std::vector<float> x_, y_, z_, inner_, outer_, inner_disc_, outer_disc_, low_, high_;
     std::array<std::array<std::vector<float>, 3>, 3> stripes_;

@@ -33,16 +33,16 @@ class CellsInSight {
   public:
     explicit CellsInSight(const Gl& gl);
 
-    /// Goes on with a picture if the last one stopped just there, else begins with one of which
-    /// only what is in the bound framebuffer is known.
+    /// Goes on with the last picture if it stopped just there. Else begins with a new picture; all
+    /// that is known about a new picture is what the bound framebuffer holds.
     /// @param first number of cells that came before; 0: nothing of the picture is drawn
     void begin(const SightWanted& wanted, std::size_t first);
 
     /// Finds the next cells that may be seen, which must be drawn before the next call.
     /// @param back_to_front slots in this order, the same while a picture is drawn
     /// @param most cells to find
-    /// @param effort as which a cell that is found counts 1 and any other `kHidden` of it; stops
-    /// when it is used up
+    /// @param effort that may be spent: a cell that is found costs 1, any other cell costs `kHidden`;
+    /// the search stops when the effort is used up
     /// @return slots, nearest first
     std::span<const std::uint32_t> next(std::span<const std::uint32_t> back_to_front,
                                         std::size_t most, double& effort);

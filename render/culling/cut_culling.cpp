@@ -20,7 +20,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// [pixels] by which GL's cuts may be larger or smaller than ours, of which each pixel is tested.
+/// [pixels] by which GL's cuts may be larger or smaller than our cuts; each pixel is tested.
 constexpr float kMargin = 1.0f / 64.0f;
 /// Most rows of tiles of a cut. Larger ones are few: they are drawn, and hide nothing.
 constexpr int kMostRows = 64;

@@ -44,8 +44,8 @@ std::span<const std::uint32_t> SeenSlots::advance(std::size_t to, const Slots& s
     return seen_;
 }
 
-/// Chooses tiles of such a size that most quads cover some of them, and cuts and splats, of which
-/// parts are drawn or let light through, many.
+/// Chooses the size of tiles: most squares cover some tiles. Cuts and splats cover many, because
+/// only a part of a cut is drawn, and a splat lets light through at its rim.
 void SeenSlots::lay_out_tiles() {
     constexpr float kFarthestDepth = std::numeric_limits<float>::max(), kAllLight = 1.0f;
     struct Layout {

@@ -1,4 +1,4 @@
-// Rows of tiles of which cells cover some; compiled once for each SIMD target.
+// Tests and covers tiles, a row at a time; compiled once for each SIMD target.
 #include "render/culling/cell_squares.h"
 #include "render/culling/picture_tiles.h"
 

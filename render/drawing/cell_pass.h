@@ -57,9 +57,9 @@ class CellPass {
     static bool needs_corners(const CellBuffers& cells, Footprint footprint,
                               const CellAppearance& appearance);
 
-    /// Work of drawing these cells into so many views, of which `draw` can do a part: cells of the
-    /// exact surface, triangles of a mesh. Most are first put in order, which counts as a little
-    /// work for each.
+    /// Work of drawing these cells into so many views, counted in cells of the exact surface or
+    /// triangles of a mesh; `draw` can do a part of the work. Most cells are first put in order, which
+    /// counts as a little work for each cell.
     std::size_t work(std::size_t views, const CellBuffers& cells, Footprint footprint,
                      const CellAppearance& appearance) const;
 

@@ -34,10 +34,12 @@ PlaneOrder near_planes_first(const glm::vec4& eye, const glm::vec3& extent,
 /// Triangles in some order.
 struct OrderedTriangles {
     std::vector<std::uint32_t> corners; ///< three vertices each
-    std::vector<std::uint32_t> numbers; ///< of each in its mesh, behind those of earlier ones
+    std::vector<std::uint32_t>
+        numbers; ///< of each triangle in its mesh; meshes are counted through
 };
 
-/// Appends the triangles of a surface in this order; those of a plane stay in the order of cells.
+/// Appends the triangles of a surface in this order. Triangles of one plane stay in the order of
+/// cells.
 /// @param cells of the surface, in order of their ids
 void append_in_order(std::span<const CellPlace> cells, const index::CellMesh& mesh,
                      PlaneOrder order, OrderedTriangles& triangles);

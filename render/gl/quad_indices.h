@@ -8,7 +8,7 @@
 namespace isochron::render {
 
 /// No vertices are stored: the shader finds its data by gl_VertexID. Quads are drawn as plain
-/// vertices, because software GL processes many of those at a time, but one instance at a time.
+/// vertices, because software GL processes many vertices at a time, but one instance at a time.
 class QuadIndices {
   public:
     explicit QuadIndices(const Gl& gl);

@@ -6,7 +6,7 @@
 
 namespace isochron::render {
 
-/// Sets the GL viewport, and the scissor rectangle for the scissor test, to those of the view.
+/// Sets the GL viewport, and the rectangle of the scissor test, to the view's rectangle.
 /// @param index of the viewport, for vertex shaders that choose one; others use 0
 inline void set_viewport(const Gl& gl, const View& view, GLuint index = 0) {
     const glm::vec2 corner(view.corner), size(view.size);

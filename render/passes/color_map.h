@@ -32,8 +32,8 @@ std::optional<ColorMap> color_map_from_name(std::string_view name);
 
 inline constexpr std::size_t kColorMapSize = 256;
 
-/// The map from low to high, linear light. Lightness L* grows all the way; that of `coolwarm` and
-/// `turbo` grows up to their middle and falls behind it. `gray` starts at 32, so that low values
+/// The map from low to high, linear light. Lightness L* grows all the way, except in `coolwarm` and
+/// `turbo`, where it grows up to the middle and then falls. `gray` starts at 32, so that low values
 /// still show their shape before a dark background.
 std::vector<glm::vec3> color_map(ColorMap map);
 

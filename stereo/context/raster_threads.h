@@ -8,7 +8,7 @@ namespace isochron::stereo {
 
 /// The processors and threads with which llvmpipe draws in this process.
 struct RasterThreads {
-    std::vector<int> processors; ///< numbers of those that the process may use
+    std::vector<int> processors; ///< numbers of the processors that this process may use
     std::size_t threads = 0;     ///< apart from the calling thread; 0: the calling thread draws
 };
 RasterThreads raster_threads();

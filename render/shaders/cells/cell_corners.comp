@@ -12,8 +12,8 @@ layout(std430, binding = 1) writeonly buffer Values { vec4 corner_values[]; };  
 layout(std430, binding = 2) writeonly buffer Gradients { uvec4 corner_gradients[]; }; // 4 per cell
 layout(std430, binding = 3) readonly buffer List { uint listed[]; }; // slots
 
-// The gradient towards lower values, in physical space, from differences along the axes; as halves,
-// the last of which is 0.
+// The gradient towards lower values, in physical space, from differences along the axes; as four
+// halves, the fourth is 0.
 uvec2 packed_gradient(vec3 d) {
     if (!is_finite(d))
         return uvec2(0u);

@@ -3,7 +3,7 @@
 //
 // Each of the three pairs of faces of the cell bounds a stripe of the plane, and so of the picture.
 // What lies in all three is drawn, flat and of one depth. Near the eye, where stripes in the picture
-// would be bent, they are those of the plane itself. `radius` is half a side of the enlarged cell.
+// would be bent, stripes of the plane itself are taken. `radius` is half a side of the enlarged cell.
 
 // As render/cells/cell_shape.h has them.
 const float kLeastCosine = 0.02;

@@ -5,7 +5,7 @@
 // in halves of the enlarged cell's sides.
 //
 // With POINTS a footprint is drawn as a square point around it, whose fragments outside are
-// discarded; with SQUARE it fills the point. Without POINTS it is a quad whose corners are those of
+// discarded; with SQUARE it fills the point. Without POINTS it is a quad with the corners of
 // the rectangle.
 
 #ifdef VERTEX_STAGE

@@ -1,8 +1,8 @@
 #version 450 core
 // A triangle of a mesh, lit as the exact surface is: for each pixel, by normals in between.
-// NEAR: all of it is found for each pixel, and what is too near is left out. Else the ways to the eye
-// and the key light, which hardly change within a triangle, are those of the vertices; and with
-// LIT_AT_VERTICES, where triangles are of few pixels, the light is.
+// NEAR: the directions to the eye and to the key light are found for each pixel, and what is too near is
+// left out. Else these directions, which hardly change within a triangle, are interpolated from the
+// vertices. LIT_AT_VERTICES: the light itself is, as triangles are of few pixels.
 
 #include "frame.glsl"
 #ifdef LIT_AT_VERTICES

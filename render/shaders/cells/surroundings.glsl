@@ -9,7 +9,7 @@ layout(binding = 9) uniform sampler3D surroundings_field; // of each surface, on
 
 const float kBefore = 2.5;      // places of the field
 const float kPlane = 0.125;     // what is found so far before a plane,
-const float kSteepness = 2.0;   // and how fast what is more than that darkens,
+const float kSteepness = 2.0;   // how fast anything beyond it darkens,
 const float kDarkest = 0.85;    // at most
 
 // The share of light that reaches a point of the surface.

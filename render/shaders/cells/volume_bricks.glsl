@@ -44,8 +44,8 @@ vec2 row_01, row_31, row_02, row_32, row_10, row_20, row_13, row_23;
 float value_at(int texel) { return float(texelFetch(bricks, texel).x) * factor; }
 
 // First texels of a row in the first and the second brick along x. `lower` has the first texels of
-// the bricks that are first along z, `upper` of those that are second; each has both bricks along x
-// for the first brick along y, then for the second.
+// the bricks that are first along z, `upper` of the bricks that are second along z; each has both
+// bricks along x for the first brick along y, then for the second.
 ivec2 row_start(bool second_y, bool second_z, int offset, ivec4 lower, ivec4 upper) {
     ivec4 of_z = second_z ? upper : lower;
     return (second_y ? of_z.zw : of_z.xy) + offset;

@@ -4,7 +4,6 @@
 #include "app/command_line/cancel.h"
 #include "app/text.h"
 #include "app/version.h"
-#include "stereo/image_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -247,7 +246,7 @@ std::string_view command_for(const std::filesystem::path& file) {
         return "explore";
     if (suffix == ".jsonl")
         return "replay";
-    return stereo::is_picture_name(file) ? "reproduce" : "build";
+    return suffix == ".png" || suffix == ".exr" || suffix == ".jpg" ? "reproduce" : "build";
 }
 
 /// What the user may have meant by a word that is no command.

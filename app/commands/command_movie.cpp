@@ -6,7 +6,7 @@
 #include "app/output/guarded_outputs.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"
-#include "app/session/recording_file.h"
+#include "app/session/kept/recording_file.h"
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
 #include "index/system/input_file.h"

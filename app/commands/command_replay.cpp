@@ -5,8 +5,8 @@
 #include "app/explore/replay_source.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
+#include "app/session/kept/recording_file.h"
 #include "app/session/pattern_show.h"
-#include "app/session/recording_file.h"
 #include "app/text.h"
 #include "index/system/new_file.h"
 

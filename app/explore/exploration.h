@@ -7,9 +7,9 @@
 #include "app/explore/cluster_job.h"
 #include "app/explore/explore_options.h"
 #include "app/indexing/indexing.h"
+#include "app/session/kept/session_file.h"
+#include "app/session/kept/user_memory.h"
 #include "app/session/live_loop.h"
-#include "app/session/session_file.h"
-#include "app/session/user_memory.h"
 #include "stereo/headset.h"
 #include "stereo/windows.h"
 

@@ -9,7 +9,7 @@
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/room_view.h"
-#include "app/session/recording_file.h"
+#include "app/session/kept/recording_file.h"
 #include "app/session/start_state.h"
 #include "app/text.h"
 #include "index/error.h"

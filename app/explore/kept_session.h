@@ -1,8 +1,8 @@
 // Saving and resuming of the session of `explore`.
 #pragma once
 
+#include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
-#include "app/session/session_file.h"
 
 #include <filesystem>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "app/output/known_files.h"
 #include "app/output/movie_file.h"
 #include "index/error.h"
-#include "index/formats/known_formats.h"
+#include "index/formats/format.h"
 #include "index/formats/series/file_series.h"
 #include "index/lower_case.h"
 #include "index/system/input_file.h"
@@ -111,7 +111,7 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
     fs::path folder = folder_described_by(index::described_in(input));
     // Of other folders, files of values are read.
     if (folder.empty() && fs::is_directory(input, ignored) &&
-        !(found.known && !index::format_of(found.path)))
+        !(found.known && !index::known_file(found.path).format))
         folder = input;
     if (!folder.empty() && lies_within(found.path, folder))
         return fmt::format("is an input, as {} is read", folder.string());

@@ -1,7 +1,6 @@
 // Reads everything that a checksum covers, and what lies between.
-#include "index/file/index_check.h"
-
 #include "index/error.h"
+#include "index/file/index_file.h"
 
 #include <fmt/format.h>
 

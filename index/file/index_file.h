@@ -193,4 +193,9 @@ inline std::shared_ptr<const IndexFile> array_of(const std::shared_ptr<const Ind
     return {file, &file->array(number)};
 }
 
+/// Checks every checksum of all arrays: reads the whole file, and the sources that it refers to. What
+/// `IndexFile::verify` does.
+/// @throws Error naming the damaged section
+void check_index(const IndexFile& file, const Progress& progress);
+
 } // namespace isochron::index

@@ -14,9 +14,9 @@
 #include "app/quality/frame_quality.h"
 #include "app/quality/quality_controller.h"
 #include "app/scene/scene.h"
+#include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
-#include "app/session/session_file.h"
 #include "index/detail/cell_joiner.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
@@ -53,7 +53,7 @@
 #include "stereo/headset.h"
 #include "stereo/screen.h"
 #include "stereo/windows.h"
-#include "tests/support/image_compare.h"
+#include "tests/support/drawing/image_compare.h"
 #include "tests/support/played_headset/played_headset.h"
 
 #include <gmock/gmock.h>
@@ -306,7 +306,7 @@ void movie_file_example(const render::Image& image) {
 void session_file_example(const std::filesystem::path& path, const std::string& data,
                           const std::string& hash, Session& session,
                           const interaction::StandingPlace& head, std::size_t steps) {
-#include "app/session/session_file.example"
+#include "app/session/kept/session_file.example"
 }
 
 void live_loop_example(const Config& config, interaction::CompositeInput trackers, Session& session,
@@ -355,7 +355,7 @@ namespace isochron::test_support {
 namespace {
 
 void image_compare_example(const render::Image& picture, const render::Image& expected) {
-#include "tests/support/image_compare.example"
+#include "tests/support/drawing/image_compare.example"
 }
 
 } // namespace

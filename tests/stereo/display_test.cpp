@@ -4,7 +4,7 @@
 #include "render/gl/shader.h"
 #include "render/gl/srgb.h"
 #include "tests/stereo/each_eye.h"
-#include "tests/support/image_compare.h"
+#include "tests/support/drawing/image_compare.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

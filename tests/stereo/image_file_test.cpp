@@ -3,7 +3,7 @@
 
 #include "index/error.h"
 #include "render/gl/gl.h"
-#include "tests/support/image_compare.h"
+#include "tests/support/drawing/image_compare.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_seed.h"
 

@@ -4,7 +4,7 @@
 #include "tests/support/eventually.h"
 
 #include "app/config/shipped_configs.h"
-#include "app/session/recording_file.h"
+#include "app/session/kept/recording_file.h"
 #include "index/file/index_file.h"
 #include "stereo/image_file.h"
 

@@ -2,8 +2,8 @@
 #include "tests/app/commands/explore_fixture.h"
 #include "tests/support/eventually.h"
 
-#include "app/session/recording_file.h"
-#include "app/session/user_memory.h"
+#include "app/session/kept/recording_file.h"
+#include "app/session/kept/user_memory.h"
 
 #include <filesystem>
 #include <functional>

@@ -6,7 +6,7 @@
 #include "app/output/room_view.h"
 #include "render/gl/srgb.h"
 #include "stereo/windows.h"
-#include "tests/support/image_compare.h"
+#include "tests/support/drawing/image_compare.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 // replay repeats it.
 #include "tests/app/panel/room_panel_fixture.h"
 
-#include "tests/support/sphere_oracle.h"
+#include "tests/support/drawing/sphere_oracle.h"
 
 #include "app/scene/font.h"
 #include "app/session/replay.h"

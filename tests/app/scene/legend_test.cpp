@@ -5,7 +5,7 @@
 
 #include "index/surface/cell_colors.h"
 #include "render/gl/srgb.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // The test pattern: each eye has its letter, and the cross is at its place, in every mode and on
 // every wall.
-#include "tests/support/golden_fixture.h"
+#include "tests/support/drawing/golden_fixture.h"
 
 #include "app/session/pattern_show.h"
 

@@ -1,5 +1,5 @@
 // The box's edges in front of the cells are translucent, and no edge behind the cells shows.
-#include "tests/support/golden_fixture.h"
+#include "tests/support/drawing/golden_fixture.h"
 
 #include "render/gl/srgb.h"
 

@@ -1,7 +1,7 @@
 // Both eyes' cells in one draw if the driver can, else in two; the pictures are the same.
 #include "render/gl/driver_trials.h"
-#include "tests/support/context_in_between.h"
-#include "tests/support/golden_fixture.h"
+#include "tests/support/drawing/context_in_between.h"
+#include "tests/support/drawing/golden_fixture.h"
 
 #include <array>
 #include <map>

@@ -1,8 +1,8 @@
 // Every GL object made to fail in turn: one line, or the right picture; never a crash or a wrong
 // one. With ISOCHRON_EVERY_FAULT in the environment all are tried, else some.
-#include "tests/support/context_in_between.h"
-#include "tests/support/faulty_driver.h"
-#include "tests/support/golden_fixture.h"
+#include "tests/support/drawing/context_in_between.h"
+#include "tests/support/drawing/faulty_driver.h"
+#include "tests/support/drawing/golden_fixture.h"
 
 #include <algorithm>
 #include <cstdlib>

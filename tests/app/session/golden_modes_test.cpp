@@ -1,6 +1,6 @@
 // The windows of all stereo modes, compared with golden pictures and with the geometry of each
 // eye's part.
-#include "tests/support/golden_fixture.h"
+#include "tests/support/drawing/golden_fixture.h"
 
 #include "stereo/image_file.h"
 #include "tests/support/paths.h"

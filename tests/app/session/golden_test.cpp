@@ -1,6 +1,6 @@
 // Pictures of a sphere, compared with golden pictures and with geometry.
 #include "render/gl/driver.h"
-#include "tests/support/golden_fixture.h"
+#include "tests/support/drawing/golden_fixture.h"
 
 #include "stereo/windows.h"
 

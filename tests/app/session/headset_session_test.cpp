@@ -1,6 +1,6 @@
 // The whole picture in a headset: what each eye sees of a sphere, and at what distance.
+#include "tests/support/drawing/golden_fixture.h"
 #include "tests/support/eventually.h"
-#include "tests/support/golden_fixture.h"
 #include "tests/support/played_fixture.h"
 
 namespace isochron::app {

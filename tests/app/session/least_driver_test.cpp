@@ -1,8 +1,8 @@
 // A driver with the smallest limits of GL 4.5 core draws the same; with smaller limits an error
 // says what is missing.
-#include "tests/support/context_in_between.h"
-#include "tests/support/golden_fixture.h"
-#include "tests/support/least_driver.h"
+#include "tests/support/drawing/context_in_between.h"
+#include "tests/support/drawing/golden_fixture.h"
+#include "tests/support/drawing/least_driver.h"
 
 #include <array>
 #include <map>

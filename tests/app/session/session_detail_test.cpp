@@ -1,7 +1,7 @@
 // Levels of detail in a session: what moves or sways is shown a set that fits, what rests all
 // cells.
 #include "tests/app/session/large_session.h"
-#include "tests/support/context_in_between.h"
+#include "tests/support/drawing/context_in_between.h"
 
 #include <algorithm>
 #include <limits>

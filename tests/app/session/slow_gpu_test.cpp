@@ -1,8 +1,8 @@
 // A slow driver: fences are passed late, times are known ten frames late. Frames continue, every set
 // is shown once and complete, and nothing is sent twice.
-#include "tests/support/context_in_between.h"
+#include "tests/support/drawing/context_in_between.h"
+#include "tests/support/drawing/late_fences.h"
 #include "tests/support/eventually.h"
-#include "tests/support/late_fences.h"
 #include "tests/support/session_fixture.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Warming up: what cells are drawn with has been used before the first frame.
-#include "tests/support/compilations.h"
-#include "tests/support/context_in_between.h"
+#include "tests/support/drawing/compilations.h"
+#include "tests/support/drawing/context_in_between.h"
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 

@@ -3,7 +3,7 @@
 #include "render/cells/brick_pool.h"
 #include "render/cells/cell_compute.h"
 #include "tests/render/cells/extractions.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <algorithm>
 

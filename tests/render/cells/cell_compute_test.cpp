@@ -1,6 +1,6 @@
 // The results of the compute passes, compared with the CPU and the definitions.
 #include "tests/render/cells/extractions.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/render/cells/extractions.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <algorithm>
 #include <set>

@@ -3,7 +3,7 @@
 #include "render/gl/render_target.h"
 #include "tests/render/cells/outline_oracle.h"
 #include "tests/render/cells/random_views.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <algorithm>
 #include <functional>

@@ -6,7 +6,7 @@
 #include "render/gl/srgb.h"
 #include "render/passes/color_map.h"
 #include "render/passes/line_pass.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

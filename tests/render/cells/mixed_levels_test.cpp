@@ -4,7 +4,7 @@
 #include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/extractions.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_folder.h"
 

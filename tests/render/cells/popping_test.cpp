@@ -2,8 +2,8 @@
 // pop when an eye crosses from one case of the traversal to the next.
 #include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
-#include "tests/support/gl_test.h"
-#include "tests/support/image_compare.h"
+#include "tests/support/drawing/gl_test.h"
+#include "tests/support/drawing/image_compare.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #define GLM_ENABLE_EXPERIMENTAL

@@ -4,7 +4,7 @@
 #include "render/drawing/cell_pass.h"
 #include "tests/render/cells/extractions.h"
 #include "tests/render/cells/vertex_field.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

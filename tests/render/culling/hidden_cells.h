@@ -3,7 +3,7 @@
 
 #include "render/drawing/cell_pass.h"
 #include "render/gl/render_target.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -6,7 +6,7 @@
 #include "index/surface/mesh_parts.h"
 #include "render/gl/driver.h"
 #include "render/gl/render_target.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 #include "tests/support/test_field.h"
 
 #include <glm/ext/matrix_clip_space.hpp>

@@ -2,7 +2,7 @@
 #include "index/surface/mesh_parts.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/extractions.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 #include "tests/support/test_field.h"
 
 #include "render/drawing/cell_pass.h"

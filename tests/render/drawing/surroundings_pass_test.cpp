@@ -5,7 +5,7 @@
 #include "index/surface/mesh_parts.h"
 #include "render/gl/render_target.h"
 #include "tests/render/cells/extractions.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>

@@ -1,7 +1,7 @@
 // Drivers that break their promises are recognized, and can still be used.
 #include "render/gl/driver.h"
 #include "render/gl/driver_trials.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // Frames wait, for a limited time, for a GPU that is behind; a lost context is reported.
 #include "render/gl/driver.h"
 #include "render/gl/frames_in_flight.h"
-#include "tests/support/gl_test.h"
-#include "tests/support/late_fences.h"
+#include "tests/support/drawing/gl_test.h"
+#include "tests/support/drawing/late_fences.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // The table of entry points, its owners of objects, and shaders that must compile.
 #include "render/gl/shader.h"
 #include "stereo/multiplex.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <algorithm>
 #include <cstring>

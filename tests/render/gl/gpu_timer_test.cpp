@@ -2,7 +2,7 @@
 #include "render/gl/gpu_timer.h"
 
 #include "render/gl/render_target.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <functional>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "render/gl/render_target.h"
 #include "render/gl/texel_buffer.h"
 #include "tests/render/cells/cell_upload.h"
-#include "tests/support/least_driver.h"
+#include "tests/support/drawing/least_driver.h"
 
 #include <cstring>
 #include <string>

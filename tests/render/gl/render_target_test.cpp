@@ -1,6 +1,6 @@
 // The offscreen target: orientation, size and color.
 #include "render/gl/render_target.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 namespace isochron::render {
 namespace {

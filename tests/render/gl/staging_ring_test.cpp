@@ -1,6 +1,6 @@
 // The staging ring: bytes arrive, room is never given out twice, and it never waits.
 #include "render/gl/staging_ring.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <algorithm>
 #include <cstring>

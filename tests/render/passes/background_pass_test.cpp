@@ -2,7 +2,7 @@
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"
 #include "render/passes/background_pass.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>

@@ -1,7 +1,7 @@
 // Lines: their places and widths, and what they hide.
 #include "render/gl/render_target.h"
 #include "render/passes/line_pass.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 #include "tests/support/test_seed.h"
 
 #include <glm/gtc/matrix_transform.hpp>

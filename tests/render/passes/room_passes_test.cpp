@@ -2,7 +2,7 @@
 #include "render/gl/render_target.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/solid_pass.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

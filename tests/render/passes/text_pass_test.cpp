@@ -4,7 +4,7 @@
 #include "render/gl/render_target.h"
 #include "render/gl/srgb.h"
 #include "render/passes/line_pass.h"
-#include "tests/support/gl_test.h"
+#include "tests/support/drawing/gl_test.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

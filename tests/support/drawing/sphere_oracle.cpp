@@ -1,5 +1,5 @@
 // Tests the line of sight through each pixel.
-#include "tests/support/sphere_oracle.h"
+#include "tests/support/drawing/sphere_oracle.h"
 
 #include "stereo/stereo_mode.h"
 

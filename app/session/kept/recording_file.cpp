@@ -1,5 +1,5 @@
 // Reads recordings from files.
-#include "app/session/recording_file.h"
+#include "app/session/kept/recording_file.h"
 
 #include "index/system/input_file.h"
 #include "interaction/error.h"

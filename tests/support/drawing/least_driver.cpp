@@ -1,7 +1,7 @@
 // The limits of the least driver, and the checks that calls keep to them.
-#include "tests/support/least_driver.h"
+#include "tests/support/drawing/least_driver.h"
 
-#include "tests/support/context_in_between.h"
+#include "tests/support/drawing/context_in_between.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Remembers in small files in the user's folder.
-#include "app/session/user_memory.h"
+#include "app/session/kept/user_memory.h"
 
 #include "app/config/series_names.h"
 #include "index/error.h"

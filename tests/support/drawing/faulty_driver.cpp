@@ -1,5 +1,5 @@
 // Counts the calls that make something, and lets one of them fail.
-#include "tests/support/faulty_driver.h"
+#include "tests/support/drawing/faulty_driver.h"
 
 #include <map>
 

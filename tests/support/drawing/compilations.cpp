@@ -1,5 +1,5 @@
 // Stands before the function of LLVM with which a driver asks for what it compiled.
-#include "tests/support/compilations.h"
+#include "tests/support/drawing/compilations.h"
 
 #include <dlfcn.h>
 #include <link.h>

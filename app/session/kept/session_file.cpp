@@ -1,5 +1,5 @@
 // Saves and reads sessions.
-#include "app/session/session_file.h"
+#include "app/session/kept/session_file.h"
 
 #include "app/config/user_folders.h"
 #include "index/system/input_file.h"

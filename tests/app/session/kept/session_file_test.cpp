@@ -1,6 +1,6 @@
 // A resumed session is the same as the saved one, pixel by pixel.
-#include "app/session/session_file.h"
-#include "app/session/session_keeper.h"
+#include "app/session/kept/session_file.h"
+#include "app/session/kept/session_keeper.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"

@@ -1,5 +1,5 @@
 // Compares pictures by OpenImageIO.
-#include "tests/support/image_differences.h"
+#include "tests/support/drawing/image_differences.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

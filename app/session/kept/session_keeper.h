@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/frame/background_work.h"
-#include "app/session/session_file.h"
+#include "app/session/kept/session_file.h"
 #include "interaction/pose.h"
 
 #include <filesystem>

@@ -3,8 +3,8 @@
 
 #include "tests/support/session_fixture.h"
 
-#include "tests/support/image_compare.h"
-#include "tests/support/sphere_oracle.h"
+#include "tests/support/drawing/image_compare.h"
+#include "tests/support/drawing/sphere_oracle.h"
 
 #include <string>
 

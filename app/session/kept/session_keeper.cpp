@@ -1,5 +1,5 @@
 // Saves a session at intervals and at its end.
-#include "app/session/session_keeper.h"
+#include "app/session/kept/session_keeper.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // What the program remembers between sessions.
-#include "app/session/user_memory.h"
+#include "app/session/kept/user_memory.h"
 #include "tests/support/test_folder.h"
 
 #include <fmt/format.h>

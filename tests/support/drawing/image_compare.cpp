@@ -1,9 +1,9 @@
 // Computes differences of pictures, as numbers and as a picture.
-#include "tests/support/image_compare.h"
+#include "tests/support/drawing/image_compare.h"
 
 #include "index/system/module.h"
 #include "stereo/image_file.h"
-#include "tests/support/image_differences.h"
+#include "tests/support/drawing/image_differences.h"
 #include "tests/support/paths.h"
 
 #include <algorithm>

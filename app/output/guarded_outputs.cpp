@@ -67,7 +67,7 @@ fs::path folder_described_by(const fs::path& file) {
     };
     if (!is_described(folder))
         return {};
-    while (is_described(folder.parent_path())) // the group around an array
+    while (folder.has_relative_path() && is_described(folder.parent_path())) // a group around it
         folder = folder.parent_path();
     return folder;
 }

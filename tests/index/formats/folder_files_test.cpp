@@ -12,6 +12,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// A folder with files in folders.
 class UsersFolder : public testing::Test {
@@ -54,6 +55,16 @@ TEST_F(UsersFolder, MayHaveAFolderForEachStep) {
     const auto series = open_series({folder_.path() / "run"});
     ASSERT_EQ(series->info().steps(), 3u);
     EXPECT_EQ(values_of<std::uint8_t>(*series, 1), std::vector<std::uint8_t>(8, '2'));
+}
+
+// A list of pieces names files by their ends alone.
+TEST_F(UsersFolder, MayHoldValuesWithoutAnExtensionBesideAListOfPieces) {
+    nrrd("output", 'a');
+    write("piece.vti", "?");
+    write("pieces.pvti", "?");
+    EXPECT_THAT(error_of([&] { open_series({folder_.path()}); }),
+                AllOf(HasSubstr("several series or files"), HasSubstr("output'"),
+                      HasSubstr("pieces.pvti'"), Not(HasSubstr("piece.vti'"))));
 }
 
 TEST_F(UsersFolder, OfOneSeriesSaysWhichFileItLeavesOut) {

@@ -63,7 +63,7 @@ fs::path folder_described_by(const fs::path& file) {
     if (folder.filename() == "system")
         folder = folder.parent_path();
     const auto is_described = [](const fs::path& each) {
-        return index::described_in(each) != each;
+        return index::known_file(each).path != each;
     };
     if (!is_described(folder))
         return {};
@@ -108,7 +108,7 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
         return "is an input";
     if (found.marked)
         return std::nullopt;
-    fs::path folder = folder_described_by(index::described_in(input));
+    fs::path folder = folder_described_by(index::known_file(input).path);
     // Of other folders, files of values are read.
     if (folder.empty() && fs::is_directory(input, ignored) &&
         !(found.known && !index::known_file(found.path).format))

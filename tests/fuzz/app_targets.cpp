@@ -57,7 +57,7 @@ void fuzz_cluster(Bytes input) {
             if (const auto order = app::decode_order(message))
                 comes_back(*order, [](auto bytes) { return *app::decode_order(bytes); });
             break;
-        case 1: comes_back(app::decode_choice(message), app::decode_choice); break;
+        case 1: comes_back(app::decode_plan(message), app::decode_plan); break;
         default: comes_back(app::decode_answer(message), app::decode_answer); break;
         }
     } catch (const interaction::Error& error) {

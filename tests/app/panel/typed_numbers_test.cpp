@@ -36,11 +36,7 @@ class TypedNumbers : public testing::Test {
                                .stats = stats_,
                                .asked = asked_,
                                .frame = report_,
-                               .frame_times = {},
-                               .failure = {},
-                               .message = {},
-                               .controls = {},
-                               .at_hand = {}},
+                               .controls = controls_},
                               time_);
     }
     /// Ctrl + click at a height of the window, and text that is typed then and entered.
@@ -76,6 +72,7 @@ class TypedNumbers : public testing::Test {
     index::IndexStats stats_;
     ExplorerState asked_;
     FrameReport report_;
+    std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
 };
 

@@ -29,6 +29,7 @@ const std::map<std::string, std::string> kReasons{
      "replay takes no less than what was recorded"},
     {"tests/app/commands/explore_window_test.cpp", "--seconds ends what hangs"},
     {"tests/app/commands/explore_faults_test.cpp", "--seconds: one frame is enough"},
+    {"tests/app/commands/output_ways.h", "--seconds: one frame is enough"},
     {"tests/app/commands/power_loss_test.cpp", "--seconds: one frame is enough"},
     {"tests/app/commands/headset_program_test.cpp", "--seconds: one frame is enough"},
     {"tests/app/commands/soak_test.cpp", "plays longer where ISOCHRON_SOAK_SECONDS says so"},

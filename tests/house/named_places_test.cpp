@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -99,6 +100,17 @@ bool is_name_of_code(const std::string& word) {
            std::ranges::any_of(word, [](unsigned char c) { return c == '_' || std::isupper(c); });
 }
 
+bool has_word(const std::string& text, const std::string& word) {
+    const auto continues = [&](std::size_t at) {
+        return at < text.size() &&
+               (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+    };
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        if (!(at > 0 && continues(at - 1)) && !continues(at + word.size()))
+            return true;
+    return false;
+}
+
 /// Names that are nowhere, or not in the files that their item names, as `page: name: item`.
 Found misplaced_names(const fs::path& root, const std::vector<std::string>& pages) {
     static const std::regex kCode("`([^`]+)`");
@@ -129,7 +141,7 @@ Found misplaced_names(const fs::path& root, const std::vector<std::string>& page
                     if (path.ends_with(".h") || path.ends_with(".cpp"))
                         texts += text;
             for (const std::string& name : names)
-                if (!std::regex_search(texts, std::regex("\\b" + name + "\\b")))
+                if (!has_word(texts, name))
                     found.push_back(page + ": " + name + " is not in the files named beside it");
         }
     return found;

@@ -5,7 +5,7 @@ foreach(path IN LISTS SHADERS)
   get_filename_component(name "${path}" NAME)
   file(RELATIVE_PATH below "${CMAKE_CURRENT_LIST_DIR}/shaders" "${path}")
   file(READ "${path}" text)
-  string(APPEND table "    {\"${name}\", \"${below}\", R\"glsl(${text})glsl\"},\n")
+  string(APPEND table "    {\"${name}\", R\"glsl(${text})glsl\", \"${below}\"},\n")
 endforeach()
 file(WRITE "${OUT}.new" "// Written by embed_shaders.cmake from render/shaders.
 #include \"render/gl/shader.h\"

@@ -15,8 +15,9 @@ namespace isochron::render {
 
 struct ShaderSource {
     std::string_view name; ///< file name; the extension (.vert, .frag, .comp) says the stage
-    std::string_view path; ///< the file below render/shaders: `cells/cell.vert`
     std::string_view text; ///< GLSL 4.50 core
+    /// The file below render/shaders, as `cells/cell.vert`; empty if the text is of no file.
+    std::string_view path = {};
 };
 
 /// Every shader file, in the order of their names.

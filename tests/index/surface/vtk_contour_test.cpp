@@ -34,7 +34,7 @@ TEST(Rectilinear, SurfacesHaveThePlacesOfVtksContour) {
     constexpr double kIsovalue = 0.3;
     const test_support::TestFolder folder;
     const std::string command = fmt::format(
-        "PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 {}/tests/index/extraction/contour_of_vtk.py {} "
+        "PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 {}/tests/index/surface/contour_of_vtk.py {} "
         "{}",
         test_support::source_root(), folder.path().string(), kIsovalue);
     ASSERT_EQ(std::system(command.c_str()), 0);

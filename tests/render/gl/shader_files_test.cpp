@@ -14,12 +14,16 @@ namespace {
 
 TEST(ShaderFiles, EveryFileInTheFolderIsEmbeddedAsItIs) {
     std::size_t files = 0;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(test_support::source_root() + "/render/shaders")) {
+    const std::filesystem::path folder(test_support::source_root() + "/render/shaders");
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file())
+            continue;
         ++files;
         std::ifstream file(entry.path(), std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};
-        EXPECT_EQ(shader_file(entry.path().filename().string()).text, text) << entry.path();
+        const ShaderSource& embedded = shader_file(entry.path().filename().string());
+        EXPECT_EQ(embedded.text, text) << entry.path();
+        EXPECT_EQ(embedded.path, std::filesystem::relative(entry.path(), folder).string());
     }
     EXPECT_EQ(files, shader_files().size());
 }

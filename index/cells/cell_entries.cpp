@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace isochron::index::HWY_NAMESPACE {
 
-using Extremes = ChunkRanks::Extremes;
+using Extremes = StretchRanks::Extremes;
 
 constexpr std::size_t kWordBits = 64;
 using Bytes = hn::CappedTag<std::uint8_t, kWordBits>;
@@ -181,34 +181,35 @@ HWY_EXPORT(find_changes);
 HWY_EXPORT(select_cells);
 HWY_EXPORT(select_differences);
 
-static_assert(ChunkRanks::kSlack >= 63);
+static_assert(StretchRanks::kSlack >= 63);
 
 CellEntries::CellEntries() {
     constexpr std::size_t kVector = 32; // entries that may be written after the last
     for (List& list : lists) {
-        list.keys.resize(Chunking::kMaxCells + kVector);
-        list.ids.resize(Chunking::kMaxCells + kVector);
+        list.keys.resize(Stretches::kMaxCells + kVector);
+        list.ids.resize(Stretches::kMaxCells + kVector);
     }
 }
 
-std::size_t join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
-                       CellBits& right, CellBits& joined) {
+std::size_t join_spans(const StretchRanks::Extremes& a, const StretchRanks::Extremes& b,
+                       CellBits& left, CellBits& right, CellBits& joined) {
     return HWY_DYNAMIC_DISPATCH(join_spans)(a, b, left.data(), right.data(), joined.data(),
                                             joined.size());
 }
 
-void find_changes(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& changed) {
+void find_changes(const StretchRanks::Extremes& a, const StretchRanks::Extremes& b,
+                  CellBits& changed) {
     HWY_DYNAMIC_DISPATCH(find_changes)(a, b, changed.data(), changed.size());
     if (const std::size_t past = a.low.size() % 64)
         changed.back() &= (std::uint64_t{1} << past) - 1;
 }
 
-void select_cells(const ChunkRanks::Extremes& extremes, const CellBits& chosen, bool lossless,
+void select_cells(const StretchRanks::Extremes& extremes, const CellBits& chosen, bool lossless,
                   CellEntries& out) {
     HWY_DYNAMIC_DISPATCH(select_cells)(extremes, chosen.data(), chosen.size(), lossless, out);
 }
 
-void select_differences(const ChunkRanks::Extremes& from, const ChunkRanks::Extremes& to,
+void select_differences(const StretchRanks::Extremes& from, const StretchRanks::Extremes& to,
                         const CellBits& chosen, CellEntries& out) {
     HWY_DYNAMIC_DISPATCH(select_differences)(from, to, chosen.data(), chosen.size(), out);
 }

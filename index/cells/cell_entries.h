@@ -2,7 +2,7 @@
 // SIMD target.
 #pragma once
 
-#include "index/cells/chunk_ranks.h"
+#include "index/cells/stretch_ranks.h"
 
 #include <array>
 #include <cstddef>
@@ -41,21 +41,22 @@ using CellBits = std::vector<std::uint64_t>;
 /// `joined`.
 /// @param a, b extremes at any step of the two spans @return number of joined cells that are active
 ///        at any isovalue
-std::size_t join_spans(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& left,
-                       CellBits& right, CellBits& joined);
+std::size_t join_spans(const StretchRanks::Extremes& a, const StretchRanks::Extremes& b,
+                       CellBits& left, CellBits& right, CellBits& joined);
 
 /// Sets the bits of the cells whose extremes differ.
-void find_changes(const ChunkRanks::Extremes& a, const ChunkRanks::Extremes& b, CellBits& changed);
+void find_changes(const StretchRanks::Extremes& a, const StretchRanks::Extremes& b,
+                  CellBits& changed);
 
 /// Makes entries of the chosen cells that are active at any isovalue, with levels as in CellUnit
 /// (cell_unit.h).
-void select_cells(const ChunkRanks::Extremes& extremes, const CellBits& chosen, bool lossless,
+void select_cells(const StretchRanks::Extremes& extremes, const CellBits& chosen, bool lossless,
                   CellEntries& out);
 
 /// Makes entries of the levels that the intervals of the chosen cells have in `to` but not in
 /// `from`: one list for the parts below the interval in `from`, one for the parts above it. The
 /// ranks are of a lossless map.
-void select_differences(const ChunkRanks::Extremes& from, const ChunkRanks::Extremes& to,
+void select_differences(const StretchRanks::Extremes& from, const StretchRanks::Extremes& to,
                         const CellBits& chosen, CellEntries& out);
 
 } // namespace isochron::index

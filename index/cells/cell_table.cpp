@@ -1,4 +1,4 @@
-// Searches and checks the table of one chunk's cells.
+// Searches and checks the table of one stretch's cells.
 #include "index/cells/cell_table.h"
 
 #include "index/cells/cell_table_directory.h"

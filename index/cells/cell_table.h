@@ -1,4 +1,4 @@
-// Cells of one chunk sorted in span space, so that those of any isovalue are a few contiguous runs.
+// Cells of one stretch sorted in span space, so that those of any isovalue are a few contiguous runs.
 #pragma once
 
 #include "index/cells/cell_table_head.h"
@@ -33,7 +33,7 @@ class CellTable {
     /// Whether the table lies within these bytes and a search in it stays inside; does not read the
     /// ids.
     static bool check(std::span<const std::byte> bytes);
-    /// Whether all ids are below `cells`, the number of a chunk's cells; reads all ids.
+    /// Whether all ids are below `cells`, the number of a stretch's cells; reads all ids.
     bool has_ids_below(std::uint32_t cells) const;
 
     /// Bytes of the whole table.

@@ -2,7 +2,7 @@
 #include "index/cells/cell_table_builder.h"
 
 #include "index/cells/cell_table_layout.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 
 #include <algorithm>
 #include <bitset>

@@ -1,4 +1,4 @@
-// Searches the chunks of an epoch, and checks every table at its first use.
+// Searches the stretches of an epoch, and checks every table at its first use.
 #include "index/cells/cell_tier.h"
 
 #include "index/error.h"
@@ -17,28 +17,28 @@ constexpr std::uint32_t kEpoch = TimePath::kMaxSteps;
 
 template <class Unit>
 std::vector<Unit> views(std::string_view kind, const CellTier::Units& units,
-                        const Chunking& chunking, std::size_t expected) {
+                        const Stretches& stretches, std::size_t expected) {
     if (units.size() != expected)
         throw Error(fmt::format("{}: {} units, {} expected", kind, units.size(), expected));
     std::vector<Unit> all;
     for (std::size_t i = 0; i < units.size(); ++i)
         all.emplace_back(units[i],
-                         chunking.first_cell(static_cast<std::uint32_t>(i % chunking.count())));
+                         stretches.first_cell(static_cast<std::uint32_t>(i % stretches.count())));
     return all;
 }
 
-[[noreturn]] void refuse(std::string_view kind, std::uint32_t epoch, std::uint32_t chunk) {
-    throw Error(fmt::format("{} of chunk {} in epoch {}: damaged", kind, chunk, epoch));
+[[noreturn]] void refuse(std::string_view kind, std::uint32_t epoch, std::uint32_t stretch) {
+    throw Error(fmt::format("{} of chunk {} in epoch {}: damaged", kind, stretch, epoch));
 }
 
 } // namespace
 
-CellTier::CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells,
+CellTier::CellTier(const Stretches& stretches, std::uint32_t steps, const Units& cells,
                    const Units& deltas, const Pages* pages, std::uint64_t budget)
-    : chunking_(chunking), steps_(steps),
-      cells_(views<CellUnit>("cells", cells, chunking,
-                             std::size_t{chunking.count()} * epoch_count(steps))),
-      deltas_(views<DeltaUnit>("deltas", deltas, chunking, deltas.empty() ? 0 : cells.size())),
+    : stretches_(stretches), steps_(steps),
+      cells_(views<CellUnit>("cells", cells, stretches,
+                             std::size_t{stretches.count()} * epoch_count(steps))),
+      deltas_(views<DeltaUnit>("deltas", deltas, stretches, deltas.empty() ? 0 : cells.size())),
       sound_steps_(cells.size() * kEpoch), sound_tables_(cells.size() * 2 * kEpoch),
       sound_transitions_(deltas.size() * kEpoch), pages_(pages), budget_(budget) {}
 
@@ -70,65 +70,65 @@ TimePath CellTier::path_to(std::uint32_t step) const {
 }
 
 /// Checks what a search at a step needs of a unit, if it has not been checked for other steps.
-void CellTier::check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
-    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
+void CellTier::check_cells(std::uint32_t epoch, std::uint32_t stretch, std::uint32_t step) const {
+    const std::size_t i = std::size_t{epoch} * stretches_.count() + stretch;
     const CellUnit& unit = cells_[i];
     need(epoch, unit.head_bytes(epoch_steps(epoch)));
-    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
-        refuse("cells", epoch, chunk);
+    if (!unit.check_head(epoch_steps(epoch), stretches_.cells(stretch)))
+        refuse("cells", epoch, stretch);
     for (const std::uint32_t node : path_to(step)) {
         const std::size_t mark = i * 2 * kEpoch + node;
         if (sound_tables_[mark])
             continue;
         need(epoch, unit.table_bytes(node));
         if (!unit.check_table(node))
-            refuse("cells", epoch, chunk);
+            refuse("cells", epoch, stretch);
         sound_tables_.set(mark);
     }
     sound_steps_.set(i * kEpoch + step % kEpoch);
 }
 
-void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const {
-    const std::size_t i = std::size_t{epoch} * chunking_.count() + chunk;
+void CellTier::check_deltas(std::uint32_t epoch, std::uint32_t stretch, std::uint32_t step) const {
+    const std::size_t i = std::size_t{epoch} * stretches_.count() + stretch;
     const DeltaUnit& unit = deltas_[i];
     need(epoch, unit.head_bytes(epoch_steps(epoch)));
-    if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
-        refuse("deltas", epoch, chunk);
+    if (!unit.check_head(epoch_steps(epoch), stretches_.cells(stretch)))
+        refuse("deltas", epoch, stretch);
     need(epoch, unit.table_bytes(2 * (step % kEpoch)));
     need(epoch, unit.table_bytes(2 * (step % kEpoch) + 1));
     if (!unit.check_transition(step % kEpoch))
-        refuse("deltas", epoch, chunk);
+        refuse("deltas", epoch, stretch);
     sound_transitions_.set(i * kEpoch + step % kEpoch);
 }
 
 /// Announces the heads that a first search at a step needs, so that the disk works on all of them.
 void CellTier::expect_cells(std::uint32_t step) const {
-    const std::size_t begin = std::size_t{step / kEpoch} * chunking_.count();
-    for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk)
-        if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
+    const std::size_t begin = std::size_t{step / kEpoch} * stretches_.count();
+    for (std::uint32_t stretch = 0; stretch < stretches_.count(); ++stretch)
+        if (!sound_steps_[(begin + stretch) * kEpoch + step % kEpoch])
             (*pages_)[step / kEpoch]->expect(
-                cells_[begin + chunk].head_bytes(epoch_steps(step / kEpoch)));
+                cells_[begin + stretch].head_bytes(epoch_steps(step / kEpoch)));
 }
 
-/// Calls `f` with the cells of every chunk, checked as far as the step needs them, while the
-/// references of the chunk after the next and the next one's tables are prefetched.
+/// Calls `f` with the cells of every stretch, checked as far as the step needs them, while the
+/// references of the stretch after the next and the next one's tables are prefetched.
 template <class F>
 void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
     assert(step < steps_);
-    const std::uint32_t epoch = step / kEpoch, chunks = chunking_.count();
+    const std::uint32_t epoch = step / kEpoch, stretches = stretches_.count();
     const TimePath path = path_to(step);
-    const std::size_t begin = std::size_t{epoch} * chunks;
+    const std::size_t begin = std::size_t{epoch} * stretches;
     if (pages_ && !sound_steps_[begin * kEpoch + step % kEpoch])
         expect_cells(step);
-    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
-        if (chunk + 2 < chunks)
-            cells_[begin + chunk + 2].prefetch(path);
+    for (std::uint32_t stretch = 0; stretch < stretches; ++stretch) {
+        if (stretch + 2 < stretches)
+            cells_[begin + stretch + 2].prefetch(path);
         // Bytes that have not been checked may be being read from the file right now.
-        if (chunk + 1 < chunks && sound_steps_[(begin + chunk + 1) * kEpoch + step % kEpoch])
-            cells_[begin + chunk + 1].prefetch_tables(path);
-        if (!sound_steps_[(begin + chunk) * kEpoch + step % kEpoch])
-            check_cells(epoch, chunk, step);
-        f(cells_[begin + chunk]);
+        if (stretch + 1 < stretches && sound_steps_[(begin + stretch + 1) * kEpoch + step % kEpoch])
+            cells_[begin + stretch + 1].prefetch_tables(path);
+        if (!sound_steps_[(begin + stretch) * kEpoch + step % kEpoch])
+            check_cells(epoch, stretch, step);
+        f(cells_[begin + stretch]);
     }
 }
 
@@ -144,23 +144,23 @@ std::uint64_t CellTier::missing_bytes(std::uint32_t step) const {
     constexpr std::uint32_t kSampled = 8;
     if (!pages_)
         return 0;
-    const std::uint32_t epoch = step / kEpoch, chunks = chunking_.count();
+    const std::uint32_t epoch = step / kEpoch, stretches = stretches_.count();
     const LazyPart& pages = *(*pages_)[epoch];
-    const std::uint32_t sampled = std::min(kSampled, chunks);
+    const std::uint32_t sampled = std::min(kSampled, stretches);
     std::uint64_t missing = 0;
     for (std::uint32_t i = 0; i < sampled; ++i) {
-        const auto chunk =
-            static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) * chunks / (2 * sampled));
-        const CellUnit& unit = cells_[std::size_t{epoch} * chunks + chunk];
+        const auto stretch =
+            static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) * stretches / (2 * sampled));
+        const CellUnit& unit = cells_[std::size_t{epoch} * stretches + stretch];
         const auto head = unit.head_bytes(epoch_steps(epoch));
         missing += pages.missing(head);
         pages.need(head);
-        if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
+        if (!unit.check_head(epoch_steps(epoch), stretches_.cells(stretch)))
             return 0;
         for (const std::uint32_t node : path_to(step))
             missing += pages.missing(unit.table_bytes(node));
     }
-    return missing * chunks / sampled;
+    return missing * stretches / sampled;
 }
 
 void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
@@ -169,15 +169,15 @@ void CellTier::change(std::uint32_t from, std::uint32_t to, LevelMap::Cut cut,
     if (from > to)
         return change(to, from, cut, removed, added);
     assert(to < steps_);
-    const std::uint32_t epoch = to / kEpoch, chunks = chunking_.count(), into = to % kEpoch;
-    const std::size_t begin = std::size_t{epoch} * chunks;
+    const std::uint32_t epoch = to / kEpoch, stretches = stretches_.count(), into = to % kEpoch;
+    const std::size_t begin = std::size_t{epoch} * stretches;
     RunBuffer added_runs(added), removed_runs(removed);
-    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
-        if (chunk + 1 < chunks)
-            deltas_[begin + chunk + 1].prefetch(into);
-        if (!sound_transitions_[(begin + chunk) * kEpoch + into])
-            check_deltas(epoch, chunk, to);
-        deltas_[begin + chunk].change(into, cut, added_runs, removed_runs);
+    for (std::uint32_t stretch = 0; stretch < stretches; ++stretch) {
+        if (stretch + 1 < stretches)
+            deltas_[begin + stretch + 1].prefetch(into);
+        if (!sound_transitions_[(begin + stretch) * kEpoch + into])
+            check_deltas(epoch, stretch, to);
+        deltas_[begin + stretch].change(into, cut, added_runs, removed_runs);
     }
 }
 
@@ -217,24 +217,24 @@ void CellTier::verify() const {
 }
 
 void CellTier::verify_unit(std::size_t unit) const {
-    const auto epoch = static_cast<std::uint32_t>(unit / chunking_.count());
-    const auto chunk = static_cast<std::uint32_t>(unit % chunking_.count());
-    const std::uint32_t steps = epoch_steps(epoch), cells = chunking_.cells(chunk);
+    const auto epoch = static_cast<std::uint32_t>(unit / stretches_.count());
+    const auto stretch = static_cast<std::uint32_t>(unit % stretches_.count());
+    const std::uint32_t steps = epoch_steps(epoch), cells = stretches_.cells(stretch);
     if (!cells_[unit].check(steps, cells))
-        refuse("cells", epoch, chunk);
+        refuse("cells", epoch, stretch);
     if (has_deltas() && !deltas_[unit].check(steps, cells))
-        refuse("deltas", epoch, chunk);
+        refuse("deltas", epoch, stretch);
 }
 
 std::vector<TimeNodeCells> CellTier::nodes() const {
     std::vector<TimeNodeCells> all;
     for (std::uint32_t epoch = 0; epoch < epoch_count(steps_); ++epoch) {
         std::vector<std::uint64_t> cells(TimeNode::count(epoch_steps(epoch)));
-        for (std::uint32_t chunk = 0; chunk < chunking_.count(); ++chunk) {
-            const CellUnit& unit = cells_[std::size_t{epoch} * chunking_.count() + chunk];
+        for (std::uint32_t stretch = 0; stretch < stretches_.count(); ++stretch) {
+            const CellUnit& unit = cells_[std::size_t{epoch} * stretches_.count() + stretch];
             need(epoch, unit.head_bytes(epoch_steps(epoch)));
-            if (!unit.check_head(epoch_steps(epoch), chunking_.cells(chunk)))
-                refuse("cells", epoch, chunk);
+            if (!unit.check_head(epoch_steps(epoch), stretches_.cells(stretch)))
+                refuse("cells", epoch, stretch);
             for (std::uint32_t node = 0; node < cells.size(); ++node)
                 if (const auto table = unit.table_bytes(node); !table.empty())
                     need(epoch, table.first(sizeof(CellTableHead)));

@@ -3,7 +3,7 @@
 
 #include "index/cells/cell_unit.h"
 #include "index/system/lazy_part.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 
 #include <atomic>
 #include <cstddef>
@@ -19,13 +19,13 @@ namespace isochron::index {
 /// before; that throws Error if its bytes are damaged or cannot be read. Any number of threads may
 /// search at once; a search allocates memory for its results only.
 ///
-///     index::CellTier cells(Chunking(grid), steps, cell_bytes, delta_bytes);
+///     index::CellTier cells(Stretches(grid), steps, cell_bytes, delta_bytes);
 ///     const auto held = cells.hold();
 ///     cells.search(t, cut, certain, ambiguous);
 ///     index::assign_ids(certain, ids);
 class CellTier {
   public:
-    /// One unit for each chunk of each epoch: [epoch][chunk], epochs of TimePath::kMaxSteps steps.
+    /// One unit for each stretch of each epoch: [epoch][stretch], epochs of TimePath::kMaxSteps steps.
     using Units = std::vector<std::span<const std::byte>>;
 
     /// The memory of each epoch's units, if they are read from a file when they are needed.
@@ -34,8 +34,8 @@ class CellTier {
     /// @param deltas may be empty
     /// @param pages one for each epoch, or none at all; outlives this
     /// @param budget bytes of the pages to keep
-    CellTier(const Chunking& chunking, std::uint32_t steps, const Units& cells, const Units& deltas,
-             const Pages* pages = nullptr, std::uint64_t budget = 0);
+    CellTier(const Stretches& stretches, std::uint32_t steps, const Units& cells,
+             const Units& deltas, const Pages* pages = nullptr, std::uint64_t budget = 0);
 
     /// Number of the series' first steps that it holds.
     std::uint32_t steps() const { return steps_; }
@@ -66,15 +66,15 @@ class CellTier {
     void level_difference(std::uint32_t step, LevelMap::Cut from, LevelMap::Cut to,
                           std::vector<IdRun>& added, std::vector<IdRun>& removed) const;
 
-    /// About how many bytes `search` would read of the file, from a few chunks: reads their heads.
+    /// About how many bytes `search` would read of the file, from a few stretches: reads their heads.
     /// 0 if it would read none, or if one of these is damaged. Call it while a lock is held.
     std::uint64_t missing_bytes(std::uint32_t step) const;
 
-    /// Entries of every time node of every epoch, over all chunks, in depth-first order.
+    /// Entries of every time node of every epoch, over all stretches, in depth-first order.
     std::vector<TimeNodeCells> nodes() const;
     /// Checks everything, even what no search has needed yet. @throws Error when damaged
     void verify() const;
-    /// Checks one unit, all of which must have been read. @param unit by epoch and chunk, chunks
+    /// Checks one unit, all of which must have been read. @param unit by epoch and stretch, stretches
     ///        faster @throws Error when damaged
     void verify_unit(std::size_t unit) const;
 
@@ -104,8 +104,8 @@ class CellTier {
     template <class F>
     void for_each_cells(std::uint32_t step, F&& f) const;
     void expect_cells(std::uint32_t step) const;
-    void check_cells(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
-    void check_deltas(std::uint32_t epoch, std::uint32_t chunk, std::uint32_t step) const;
+    void check_cells(std::uint32_t epoch, std::uint32_t stretch, std::uint32_t step) const;
+    void check_deltas(std::uint32_t epoch, std::uint32_t stretch, std::uint32_t step) const;
     void need(std::uint32_t epoch, std::span<const std::byte> bytes) const {
         if (pages_)
             (*pages_)[epoch]->need(bytes);
@@ -114,7 +114,7 @@ class CellTier {
     std::uint32_t epoch_steps(std::uint32_t epoch) const;
     TimePath path_to(std::uint32_t step) const;
 
-    Chunking chunking_;
+    Stretches stretches_;
     std::uint32_t steps_;
     std::vector<CellUnit> cells_;
     std::vector<DeltaUnit> deltas_;

@@ -1,4 +1,4 @@
-// Searches the cells and the deltas of one chunk in one epoch.
+// Searches the cells and the deltas of one stretch in one epoch.
 #include "index/cells/cell_unit.h"
 
 #include <xxhash.h>

@@ -1,4 +1,4 @@
-// The cells of one chunk in one epoch, as tables by time node; its deltas, as tables by transition.
+// The cells of one stretch in one epoch, as tables by time node; its deltas, as tables by transition.
 #pragma once
 
 #include "index/cells/cell_table.h"
@@ -22,7 +22,7 @@ struct CellUnitHead {
     std::uint32_t magic;
     std::uint32_t tables;
     std::uint32_t steps; ///< of the epoch
-    std::uint32_t cells; ///< of the chunk
+    std::uint32_t cells; ///< of the stretch
     std::uint32_t lossless;
     std::uint32_t checksum; ///< of the rest of the head and the references
     std::uint64_t bytes;    ///< of the unit, a multiple of 8
@@ -140,7 +140,7 @@ constexpr std::uint32_t epoch_count(std::size_t steps) {
     return static_cast<std::uint32_t>((steps + TimePath::kMaxSteps - 1) / TimePath::kMaxSteps);
 }
 
-/// The cells of one chunk at the steps of one epoch, which are counted from 0 here. A cell is an
+/// The cells of one stretch at the steps of one epoch, which are counted from 0 here. A cell is an
 /// entry of the highest time nodes over whose span its extremes are constant. Nodes with only a few
 /// of these cells have no entries; the cells are entries of the nodes below instead.
 ///
@@ -151,7 +151,7 @@ class CellUnit {
   public:
     static constexpr std::uint32_t kMagic = 0x4c4c4543; // "CELL"
 
-    /// @param bytes aligned to 8, not read here @param first the chunk's first cell
+    /// @param bytes aligned to 8, not read here @param first the stretch's first cell
     CellUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
 
     /// Whether the head is intact and has these numbers of steps and cells.
@@ -195,14 +195,14 @@ class CellUnit {
     CellId first_;
 };
 
-/// The changes in one chunk from each step to the next, as intervals of levels of a lossless map.
+/// The changes in one stretch from each step to the next, as intervals of levels of a lossless map.
 /// The first transition is from the step before the epoch into its first step; it is empty in the
 /// first epoch.
 class DeltaUnit {
   public:
     static constexpr std::uint32_t kMagic = 0x544c4544; // "DELT"
 
-    /// @param bytes aligned to 8, not read here @param first the chunk's first cell
+    /// @param bytes aligned to 8, not read here @param first the stretch's first cell
     DeltaUnit(std::span<const std::byte> bytes, CellId first) : tables_(bytes), first_(first) {}
 
     /// Whether the head is intact and has these numbers of steps and cells.

@@ -12,7 +12,7 @@
 namespace isochron::index {
 namespace {
 
-using Extremes = ChunkRanks::Extremes;
+using Extremes = StretchRanks::Extremes;
 
 /// Fewest cells that get their own table. The directory of a smaller table takes about as many
 /// bytes as storing its cells twice, and every search in its span must go through it.
@@ -59,7 +59,7 @@ class UnitUnderWay {
 
 /// The cells of one unit, from the leaves of the time tree up.
 struct CellUnitBuilder::Cells {
-    const ChunkRanks& ranks;
+    const StretchRanks& ranks;
     std::uint32_t first; ///< step among those of the ranks
     bool lossless;
     CellTableBuilder& table;
@@ -102,7 +102,7 @@ struct CellUnitBuilder::Cells {
     }
 };
 
-void CellUnitBuilder::build_cells(const ChunkRanks& ranks, std::uint32_t first, bool lossless,
+void CellUnitBuilder::build_cells(const StretchRanks& ranks, std::uint32_t first, bool lossless,
                                   std::vector<std::byte>& out) {
     assert(first < ranks.steps());
     const std::uint32_t steps = ranks.steps() - first;
@@ -121,7 +121,7 @@ void CellUnitBuilder::build_cells(const ChunkRanks& ranks, std::uint32_t first, 
     unit.finish();
 }
 
-void CellUnitBuilder::build_deltas(const ChunkRanks& ranks, std::uint32_t first,
+void CellUnitBuilder::build_deltas(const StretchRanks& ranks, std::uint32_t first,
                                    std::vector<std::byte>& out) {
     assert(first <= 1 && first < ranks.steps());
     const std::uint32_t steps = ranks.steps() - first;

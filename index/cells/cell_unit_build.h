@@ -1,8 +1,8 @@
-// Builds the cells and the deltas of one chunk in one epoch.
+// Builds the cells and the deltas of one stretch in one epoch.
 #pragma once
 
 #include "index/cells/cell_table_builder.h"
-#include "index/cells/chunk_ranks.h"
+#include "index/cells/stretch_ranks.h"
 
 #include <array>
 #include <cstddef>
@@ -17,11 +17,11 @@ class CellUnitBuilder {
   public:
     /// @param lossless whether the level map is @param first the epoch's first step among those of
     ///   `ranks`, whose last step is the epoch's last
-    void build_cells(const ChunkRanks& ranks, std::uint32_t first, bool lossless,
+    void build_cells(const StretchRanks& ranks, std::uint32_t first, bool lossless,
                      std::vector<std::byte>& out);
     /// The level map must be lossless.
     /// @param first the epoch's first step in `ranks`: 1 if they begin with the step before, else 0
-    void build_deltas(const ChunkRanks& ranks, std::uint32_t first, std::vector<std::byte>& out);
+    void build_deltas(const StretchRanks& ranks, std::uint32_t first, std::vector<std::byte>& out);
 
   private:
     struct Cells;

@@ -11,7 +11,7 @@
 
 namespace isochron::index {
 
-/// The cells `first + ids[0]`, ..., `first + ids[count - 1]` of one chunk. Up to kSlack ids after
+/// The cells `first + ids[0]`, ..., `first + ids[count - 1]` of one stretch. Up to kSlack ids after
 /// the run can be read too (they have no meaning), so that it can be copied in whole vectors.
 struct IdRun {
     static constexpr std::size_t kSlack = 32;

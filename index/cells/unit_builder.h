@@ -1,8 +1,8 @@
-// Builds the units of a series: cells and deltas of one chunk in one epoch.
+// Builds the units of a series: cells and deltas of one stretch in one epoch.
 #pragma once
 
 #include "index/cells/cell_unit_build.h"
-#include "index/cells/chunk_ranks.h"
+#include "index/cells/stretch_ranks.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,13 +20,13 @@ class UnitBuilder {
   public:
     UnitBuilder(const StepValues& values, const LevelMap& levels);
 
-    /// Builds one chunk in one epoch. @param out replaced; its memory is used again
-    void build(std::uint32_t chunk, std::uint32_t epoch, bool deltas, UnitBytes& out);
+    /// Builds one stretch in one epoch. @param out replaced; its memory is used again
+    void build(std::uint32_t stretch, std::uint32_t epoch, bool deltas, UnitBytes& out);
 
   private:
     std::uint32_t steps_;
     bool lossless_;
-    ChunkRanks ranks_;
+    StretchRanks ranks_;
     CellUnitBuilder builder_;
 };
 

@@ -6,7 +6,7 @@
 #include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 
 #include <fmt/format.h>
 
@@ -118,7 +118,7 @@ std::vector<T> IndexFile::section(SectionKind kind) const {
 
 std::span<const std::byte> IndexFile::part(std::size_t unit, std::uint64_t offset,
                                            std::uint64_t bytes) const {
-    const std::size_t epoch = unit / Chunking(metadata_.info.grid).count();
+    const std::size_t epoch = unit / Stretches(metadata_.info.grid).count();
     return units_[epoch]->bytes().subspan(offset - epoch_begins_[epoch], bytes);
 }
 
@@ -218,18 +218,18 @@ void IndexFile::set_cells() {
         return;
     }
     const Grid& grid = metadata_.info.grid;
-    if (grid.cells()[0] > Chunking::kMaxCells || has_wide_ids(grid))
+    if (grid.cells()[0] > Stretches::kMaxCells || has_wide_ids(grid))
         throw damaged(fmt::format("cells in rows of {}", grid.cells()[0]));
-    const std::uint32_t held = metadata_.cell_steps, chunks = Chunking(grid).count();
+    const std::uint32_t held = metadata_.cell_steps, stretches = Stretches(grid).count();
     if (held < 1 || held > steps() || !metadata_.levels)
         throw damaged(fmt::format("cells of {} steps, the volume has {}", held, steps()));
-    const std::uint64_t expected = chunks * std::uint64_t{epoch_count(held)};
+    const std::uint64_t expected = stretches * std::uint64_t{epoch_count(held)};
     if (directory_.size() != expected)
         throw damaged(
             fmt::format("directory of {} units, expected {}", directory_.size(), expected));
-    for (std::size_t first = 0; first < directory_.size(); first += chunks) {
+    for (std::size_t first = 0; first < directory_.size(); first += stretches) {
         std::uint64_t begin = header_.file_bytes, end = kDataBegin;
-        for (const UnitEntry& unit : std::span(directory_).subspan(first, chunks))
+        for (const UnitEntry& unit : std::span(directory_).subspan(first, stretches))
             for (const auto& [offset, length] :
                  {std::pair{unit.cells_offset, unit.cells_bytes},
                   std::pair{unit.deltas_offset, unit.deltas_bytes}}) {
@@ -255,7 +255,7 @@ void IndexFile::set_cells() {
     }
     // Cells, of all arrays, and values share the budget.
     const std::uint64_t of_cells = cache_bytes_ / 2;
-    cells_.emplace(Chunking(grid), held, cells, deltas, &units_,
+    cells_.emplace(Stretches(grid), held, cells, deltas, &units_,
                    of_cells / (first().metadata_.further.size() + 1));
     cache_->limit(cache_bytes_ - of_cells);
 }
@@ -349,7 +349,7 @@ std::span<const std::byte> IndexFile::read_unit(std::size_t unit, bool deltas) c
     const UnitEntry& entry = directory_[unit];
     const auto bytes = deltas ? part(unit, entry.deltas_offset, entry.deltas_bytes)
                               : part(unit, entry.cells_offset, entry.cells_bytes);
-    units_[unit / Chunking(metadata_.info.grid).count()]->need(bytes);
+    units_[unit / Stretches(metadata_.info.grid).count()]->need(bytes);
     return bytes;
 }
 

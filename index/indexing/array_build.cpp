@@ -10,7 +10,7 @@
 #include "index/system/mapped_file.h"
 #include "index/system/parallel.h"
 #include "index/thi/thi_tree.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 
 #include <algorithm>
 #include <optional>
@@ -176,7 +176,7 @@ class ArrayBuild::Work {
         steps_.first_epoch = known / TimePath::kMaxSteps;
         const std::size_t kept = steps_.covered == known
                                      ? held_->directory().size()
-                                     : steps_.first_epoch * Chunking(metadata_.info.grid).count();
+                                     : steps_.first_epoch * Stretches(metadata_.info.grid).count();
         append_to(tables_.directory, held_->directory().first(kept));
         append_to(tables_.unit_checksums, held_->checksums().subspan(steps_.fresh, 2 * kept));
         if (steps_.covered == known)

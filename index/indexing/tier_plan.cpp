@@ -1,10 +1,10 @@
 // Chooses the tiers for a series.
 #include "index/indexing/tier_plan.h"
 
-#include "index/cells/chunk_ranks.h"
+#include "index/cells/stretch_ranks.h"
 #include "index/cells/unit_builder.h"
 #include "index/error.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::uint32_t kSampledChunks = 4, kSampledSteps = 17;
+constexpr std::uint32_t kSampledStretches = 4, kSampledSteps = 17;
 /// Up to this many bytes of values, cells are small compared with a machine's memory and always
 /// pay.
 constexpr std::uint64_t kSmallSeries = 32 << 20;
@@ -44,20 +44,20 @@ std::uint32_t difference(std::uint8_t a_low, std::uint8_t a_high, std::uint8_t b
 } // namespace
 
 double churn(const StepValues& values, const LevelMap& levels) {
-    const Chunking chunking(values.grid);
-    const std::uint32_t chunks = std::min(kSampledChunks, chunking.count());
+    const Stretches stretches(values.grid);
+    const std::uint32_t sampled = std::min(kSampledStretches, stretches.count());
     const auto steps =
         static_cast<std::uint32_t>(std::min<std::size_t>(kSampledSteps, values.steps));
     // From the middle of the series, since often little moves at the beginning.
     const auto first = static_cast<std::uint32_t>((values.steps - steps) / 2);
-    ChunkRanks ranks(values, levels);
+    StretchRanks ranks(values, levels);
     std::uint64_t changed = 0, active = 0;
-    for (std::uint32_t i = 0; i < chunks; ++i) {
-        const std::uint32_t chunk = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
-                                                               chunking.count() / (2 * chunks));
-        ranks.compute(chunk, first, steps);
+    for (std::uint32_t i = 0; i < sampled; ++i) {
+        const std::uint32_t stretch = static_cast<std::uint32_t>(
+            (std::uint64_t{2} * i + 1) * stretches.count() / (2 * sampled));
+        ranks.compute(stretch, first, steps);
         for (std::uint32_t t = 0; t + 1 < steps; ++t) {
-            const ChunkRanks::Extremes now = ranks.at(t), next = ranks.at(t + 1);
+            const StretchRanks::Extremes now = ranks.at(t), next = ranks.at(t + 1);
             for (std::uint32_t cell = 0; cell < ranks.cells(); ++cell) {
                 const std::uint8_t low = now.low[cell], high = now.high[cell];
                 changed += difference(low, high, next.low[cell], next.high[cell]);
@@ -72,22 +72,22 @@ double churn(const StepValues& values, const LevelMap& levels) {
 }
 
 CellCost cost_of_cells(const StepValues& values, const LevelMap& levels) {
-    const Chunking chunking(values.grid);
-    const std::uint32_t chunks = std::min(kSampledChunks, chunking.count());
+    const Stretches stretches(values.grid);
+    const std::uint32_t sampled = std::min(kSampledStretches, stretches.count());
     StepValues window = values;
     window.steps = std::min<std::size_t>(kMergedSteps, values.steps);
     window.first += (values.steps - window.steps) / 2 * values.stride;
     UnitBuilder builder(window, levels);
     UnitBytes unit;
     std::uint64_t entries = 0, cell_bytes = 0, delta_bytes = 0, cell_steps = 0;
-    for (std::uint32_t i = 0; i < chunks; ++i) {
-        const auto chunk = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
-                                                      chunking.count() / (2 * chunks));
-        builder.build(chunk, 0, true, unit);
+    for (std::uint32_t i = 0; i < sampled; ++i) {
+        const auto stretch = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
+                                                        stretches.count() / (2 * sampled));
+        builder.build(stretch, 0, true, unit);
         entries += unit.entries;
         cell_bytes += unit.cells.size();
         delta_bytes += unit.deltas.size();
-        cell_steps += chunking.cells(chunk) * window.steps;
+        cell_steps += stretches.cells(stretch) * window.steps;
     }
     const auto of = static_cast<double>(cell_steps);
     const double value_bytes = of * static_cast<double>(size_of(values.type));
@@ -96,13 +96,13 @@ CellCost cost_of_cells(const StepValues& values, const LevelMap& levels) {
 }
 
 bool cells_may_pay(const SeriesInfo& info) {
-    return info.step_bytes() <= kLargestStep && info.grid.cells()[0] <= Chunking::kMaxCells;
+    return info.step_bytes() <= kLargestStep && info.grid.cells()[0] <= Stretches::kMaxCells;
 }
 
 void check_tiers(const Grid& grid, const TierSet& asked) {
-    if (asked.has(Tier::cells) && grid.cells()[0] > Chunking::kMaxCells)
+    if (asked.has(Tier::cells) && grid.cells()[0] > Stretches::kMaxCells)
         throw Error(fmt::format("rows of {} cells, expected at most {} for the tier cells",
-                                grid.cells()[0], Chunking::kMaxCells));
+                                grid.cells()[0], Stretches::kMaxCells));
     if (has_wide_ids(grid) && (asked.has(Tier::cells) || asked.has(Tier::tree)))
         throw Error(fmt::format("{} cells, expected fewer than 2^32 for the tiers cells and tree",
                                 grid.cell_count()));
@@ -112,7 +112,7 @@ void check_tiers(const Grid& grid, const TierSet& asked) {
 
 TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                     const std::optional<TierSet>& asked) {
-    const bool fits = values.grid.cells()[0] <= Chunking::kMaxCells;
+    const bool fits = values.grid.cells()[0] <= Stretches::kMaxCells;
     if (asked) {
         check_tiers(values.grid, *asked);
         if (asked->has(Tier::deltas) && !levels.lossless())
@@ -135,7 +135,7 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
     }
     if (!fits) {
         leave_out("cells", fmt::format("rows of {} cells, at most {} can be indexed",
-                                       values.grid.cells()[0], Chunking::kMaxCells));
+                                       values.grid.cells()[0], Stretches::kMaxCells));
         return plan;
     }
     const std::uint64_t step_bytes = values.grid.vertex_count() * size_of(values.type);

@@ -1,10 +1,10 @@
-// The pass of a build that makes the cells and deltas of every chunk.
+// The pass of a build that makes the cells and deltas of every stretch.
 #include "index/indexing/unit_pass.h"
 
 #include "index/cells/unit_builder.h"
 #include "index/indexing/part_writer.h"
 #include "index/system/parallel.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 
 #include <algorithm>
 #include <optional>
@@ -15,9 +15,9 @@ UnitFindings write_units(const StepValues& values, std::uint32_t first_epoch,
                          const MappedFile& volume, const LevelMap& levels, bool deltas,
                          ByteSink& file, std::uint64_t& end, const std::filesystem::path& spill,
                          unsigned threads, Team& team, const Progress& progress) {
-    const Chunking chunking(values.grid);
+    const Stretches stretches(values.grid);
     const std::size_t units =
-        std::size_t{epoch_count(values.steps) - first_epoch} * chunking.count();
+        std::size_t{epoch_count(values.steps) - first_epoch} * stretches.count();
     const auto [first, last] = team.share(units);
     std::vector<UnitEntry> directory;
     std::vector<std::uint64_t> checksums;
@@ -33,11 +33,11 @@ UnitFindings write_units(const StepValues& values, std::uint32_t first_epoch,
                          static_cast<double>(at - first) / static_cast<double>(last - first));
             parallel_for(count, threads,
                          [&](std::size_t item, unsigned worker) {
-                             const auto chunk =
-                                 static_cast<std::uint32_t>((at + item) % chunking.count());
+                             const auto stretch =
+                                 static_cast<std::uint32_t>((at + item) % stretches.count());
                              const auto epoch = first_epoch + static_cast<std::uint32_t>(
-                                                                  (at + item) / chunking.count());
-                             builders[worker].build(chunk, epoch, deltas, batch[item]);
+                                                                  (at + item) / stretches.count());
+                             builders[worker].build(stretch, epoch, deltas, batch[item]);
                          },
                          {});
             volume.let_go(volume.bytes());

@@ -1,4 +1,4 @@
-// The pass of a build that makes the cells and deltas of every chunk.
+// The pass of a build that makes the cells and deltas of every stretch.
 #pragma once
 
 #include "index/cells/cell_tier.h"
@@ -16,7 +16,7 @@ namespace isochron::index {
 
 /// The offsets, sizes and checksums of the units that were written.
 struct UnitFindings {
-    std::vector<UnitEntry> directory;     ///< epochs, chunks faster
+    std::vector<UnitEntry> directory;     ///< epochs, stretches faster
     std::vector<std::uint64_t> checksums; ///< of cells and deltas of every unit
 };
 

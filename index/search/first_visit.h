@@ -8,7 +8,7 @@
 
 namespace isochron::index {
 
-/// Bytes that are not in memory yet. For cells an estimate from a few chunks of cells; for bricks
+/// Bytes that are not in memory yet. For cells an estimate from a few stretches; for bricks
 /// exact, but without the chunks next to the candidates.
 struct MissingBytes {
     std::uint64_t cells = 0, bricks = 0;

@@ -5,11 +5,11 @@
 // with the higher sequence number; a new index has only the first. The parts begin at 8192:
 // - for each array and step: the step's chunks, their tables and the levels of their bricks
 //   (chunk_table.h, step_levels.h), at a multiple of 64
-// - units: cells and deltas of a chunk of cells in an epoch (cell_unit.h), each at a multiple of
+// - units: cells and deltas of a stretch in an epoch (cell_unit.h), each at a multiple of
 //   64; the units of an epoch lie one after the other
 // - the sections, at multiples of 64. tree: the THI tree's block (thi_tree.h). steps: a StepEntry
 //   for each step, array after array: the volume and its levels of detail, then the array to color
-//   by and its levels. directory: a UnitEntry for each epoch and chunk, chunks faster. checksums:
+//   by and its levels. directory: a UnitEntry for each epoch and stretch, stretches faster. checksums:
 //   XXH3, 64 bits, of the stored values of every step of the volume, of cells and deltas of every
 //   unit, and of the stored values of every step of the array to color by; then for each step the
 //   state of its source (VolumeSeries::state), which shows whether it has changed, 0 if unknown.

@@ -3,7 +3,7 @@
 #include "index/file/sections/tiers.h"
 #include "index/scan/bricks.h"
 #include "index/search/cell_change.h"
-#include "index/volume/chunking.h"
+#include "index/volume/stretches.h"
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/structures.h"
 
@@ -41,18 +41,18 @@ double seconds_for_bricks(const IndexFile& file) {
     return watch.seconds();
 }
 
-/// The same for the cells of all chunks and epochs, and their deltas.
+/// The same for the cells of all stretches and epochs, and their deltas.
 double seconds_for_cells(const IndexFile& file, bool deltas, const index::Progress& progress) {
     const StepValues& values = file.values();
-    const std::uint32_t chunks = index::Chunking(values.grid).count();
+    const std::uint32_t stretches = index::Stretches(values.grid).count();
     index::UnitBuilder builder(values, file.levels());
     index::UnitBytes unit;
     const Stopwatch watch;
     for (std::uint32_t epoch = 0; epoch < index::epoch_count(values.steps); ++epoch)
-        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        for (std::uint32_t stretch = 0; stretch < stretches; ++stretch) {
             if (progress)
-                progress("building", static_cast<double>(chunk) / chunks);
-            builder.build(chunk, epoch, deltas, unit);
+                progress("building", static_cast<double>(stretch) / stretches);
+            builder.build(stretch, epoch, deltas, unit);
         }
     return watch.seconds();
 }

@@ -173,7 +173,7 @@ TEST(CellDamage, IsRefusedWhereverTheBytesEnd) {
     std::mt19937 random(test_seed());
     const TestField field = test_field(random);
     const CellSeries series = sound_series(field);
-    const std::uint32_t cells = Chunking(field.view().grid).cells(0);
+    const std::uint32_t cells = Stretches(field.view().grid).cells(0);
     refuses_every_truncation<CellUnit>(series.cells.front(), cells);
     refuses_every_truncation<DeltaUnit>(series.deltas.front(), cells);
 }
@@ -182,7 +182,7 @@ TEST(CellDamage, NeverLeadsOutOfTheBytes) {
     std::mt19937 random(test_seed());
     const TestField field = test_field(random);
     const CellSeries series = sound_series(field);
-    const std::uint32_t cells = Chunking(field.view().grid).cells(0);
+    const std::uint32_t cells = Stretches(field.view().grid).cells(0);
     never_leaves<CellUnit>(series.cells.front(), cells);
     never_leaves<DeltaUnit>(series.deltas.front(), cells);
 }

@@ -66,7 +66,7 @@ TEST(CellDeltas, CrossTheBorderOfEpochs) {
 }
 
 TEST(CellDeltas, HoldACellTwiceWhereItsIntervalGrowsOnBothSides) {
-    // Every cell of a full chunk goes from (100, 150] to (90, 160] and back.
+    // Every cell of a full stretch goes from (100, 150] to (90, 160] and back.
     const TestField field({258, 256, 2}, 3, ValueType::u8, [](double, double, double z, double t) {
         const double grown = t == 1 ? 10 : 0;
         return z == 0 ? 100 - grown : 150 + grown;

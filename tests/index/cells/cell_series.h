@@ -17,14 +17,14 @@ namespace isochron::index {
 class CellSeries {
   public:
     CellSeries(const StepValues& series, LevelMap levels) : values(series), map(std::move(levels)) {
-        const Chunking chunking(values.grid);
+        const Stretches stretches(values.grid);
         const auto steps = static_cast<std::uint32_t>(values.steps);
-        ChunkRanks ranks(values, map);
+        StretchRanks ranks(values, map);
         CellUnitBuilder builder;
         for (std::uint32_t first = 0; first < steps; first += TimePath::kMaxSteps)
-            for (std::uint32_t chunk = 0; chunk < chunking.count(); ++chunk) {
+            for (std::uint32_t stretch = 0; stretch < stretches.count(); ++stretch) {
                 const std::uint32_t before = first > 0 ? 1 : 0;
-                ranks.compute(chunk, first - before,
+                ranks.compute(stretch, first - before,
                               std::min(TimePath::kMaxSteps, steps - first) + before);
                 builder.build_cells(ranks, before, map.lossless(), cells.emplace_back());
                 if (map.lossless())
@@ -33,7 +33,7 @@ class CellSeries {
     }
 
     CellTier tier() const {
-        return CellTier(Chunking(values.grid), static_cast<std::uint32_t>(values.steps),
+        return CellTier(Stretches(values.grid), static_cast<std::uint32_t>(values.steps),
                         spans(cells), spans(deltas));
     }
     std::optional<LevelMap::Cut> cut(double isovalue) const {

@@ -16,10 +16,10 @@ namespace {
 /// Entries of every time node, by the definition: cell by cell, from the steps up. A node at which
 /// fewer than 512 would be entries leaves them to those below.
 struct ExpectedEntries {
-    const ChunkRanks& ranks;
+    const StretchRanks& ranks;
     std::vector<std::uint32_t> counts;
 
-    explicit ExpectedEntries(const ChunkRanks& of)
+    explicit ExpectedEntries(const StretchRanks& of)
         : ranks(of), counts(TimeNode::count(of.steps())) {
         count(TimeNode::root(ranks.steps()), visit(TimeNode::root(ranks.steps())));
     }
@@ -69,15 +69,15 @@ TEST(CellUnit, StoresACellAtTheHighestNodesOverWhichItAndEnoughOthersAreConstant
         const TestField field({45, 40, 41}, steps, ValueType::u8, moving_sphere);
         const LevelMap levels = LevelMap::of_type(ValueType::u8);
         const CellSeries series(field.view(), levels);
-        ChunkRanks ranks(field.view(), levels);
-        for (std::uint32_t chunk = 0; chunk < Chunking(field.view().grid).count(); ++chunk) {
-            ranks.compute(chunk, 0, static_cast<std::uint32_t>(steps));
-            EXPECT_EQ(CellUnit(series.cells[chunk], 0).entries(), ExpectedEntries(ranks).counts);
+        StretchRanks ranks(field.view(), levels);
+        for (std::uint32_t stretch = 0; stretch < Stretches(field.view().grid).count(); ++stretch) {
+            ranks.compute(stretch, 0, static_cast<std::uint32_t>(steps));
+            EXPECT_EQ(CellUnit(series.cells[stretch], 0).entries(), ExpectedEntries(ranks).counts);
         }
     }
 }
 
-TEST(ChunkRanks, AreTheRanksOfTheExtremes) {
+TEST(StretchRanks, AreTheRanksOfTheExtremes) {
     std::mt19937 random(test_seed());
     const TestField field({130, 60, 19}, 3, ValueType::i16, scaled(turbulence(random), 90, 0));
     const StepValues values = field.view();
@@ -85,17 +85,17 @@ TEST(ChunkRanks, AreTheRanksOfTheExtremes) {
     for (std::uint64_t k = 0; k < 180; k += 3)
         thresholds.push_back(32768 - 90 + k);
     const LevelMap levels = LevelMap::of_thresholds(ValueType::i16, thresholds);
-    const Chunking chunking(values.grid);
-    ASSERT_GE(chunking.count(), 3u);
-    ChunkRanks ranks(values, levels);
-    for (std::uint32_t chunk = 0; chunk < chunking.count(); ++chunk) {
-        ranks.compute(chunk, 1, 2);
-        ASSERT_EQ(ranks.cells(), chunking.cells(chunk));
+    const Stretches stretches(values.grid);
+    ASSERT_GE(stretches.count(), 3u);
+    StretchRanks ranks(values, levels);
+    for (std::uint32_t stretch = 0; stretch < stretches.count(); ++stretch) {
+        ranks.compute(stretch, 1, 2);
+        ASSERT_EQ(ranks.cells(), stretches.cells(stretch));
         for (std::uint32_t step = 0; step < 2; ++step) {
             std::vector<std::uint8_t> of_vertices(values.grid.vertex_count());
             levels.ranks(std::as_bytes(values.step<std::int16_t>(step + 1)), of_vertices);
             for (std::uint32_t cell = 0; cell < ranks.cells(); ++cell) {
-                const auto [x, y, z] = values.grid.cell_of(chunking.first_cell(chunk) + cell);
+                const auto [x, y, z] = values.grid.cell_of(stretches.first_cell(stretch) + cell);
                 std::uint8_t low = 255, high = 0;
                 for (std::size_t corner = 0; corner < 8; ++corner) {
                     const std::uint8_t rank =
@@ -118,15 +118,15 @@ TEST(CellUnit, HasTheSameBytesEveryTime) {
     EXPECT_EQ(series.cells, again.cells);
     EXPECT_EQ(series.deltas, again.deltas);
     // Nor does it matter what was built before with the same work space.
-    ChunkRanks ranks(field.view(), levels);
+    StretchRanks ranks(field.view(), levels);
     CellUnitBuilder builder;
     std::vector<std::byte> bytes(100, std::byte{1});
-    for (std::uint32_t chunk = Chunking(field.view().grid).count(); chunk-- > 0;) {
-        ranks.compute(chunk, 0, 12);
+    for (std::uint32_t stretch = Stretches(field.view().grid).count(); stretch-- > 0;) {
+        ranks.compute(stretch, 0, 12);
         builder.build_deltas(ranks, 0, bytes);
-        EXPECT_EQ(bytes, series.deltas[chunk]);
+        EXPECT_EQ(bytes, series.deltas[stretch]);
         builder.build_cells(ranks, 0, true, bytes);
-        EXPECT_EQ(bytes, series.cells[chunk]);
+        EXPECT_EQ(bytes, series.cells[stretch]);
     }
 }
 

@@ -176,22 +176,22 @@ TEST(CellTier, WorksOnThinGrids) {
         expect_exact(TestField(vertices, 5, ValueType::u8, function));
 }
 
-TEST(CellTier, WorksOnManyChunks) {
+TEST(CellTier, WorksOnManyStretches) {
     std::mt19937 random(test_seed());
     const TestField field({301, 61, 12}, 3, ValueType::u8, scaled(turbulence(random), 250, 127));
-    ASSERT_GE(Chunking(field.view().grid).count(), 4u);
+    ASSERT_GE(Stretches(field.view().grid).count(), 4u);
     expect_exact(field, 6);
-    // Rows of as many cells as a chunk may have.
+    // Rows of as many cells as a stretch may have.
     const TestField rows({65536, 3, 2}, 2, ValueType::u8, scaled(turbulence(random), 250, 127));
-    ASSERT_EQ(Chunking(rows.view().grid).count(), 2u);
+    ASSERT_EQ(Stretches(rows.view().grid).count(), 2u);
     expect_exact(rows, 6);
 }
 
-TEST(CellTier, WorksWhereAllCellsOfAChunkAreAlike) {
-    // 257 x 255 cells are 65,535: as many as a chunk may have, all of them active.
+TEST(CellTier, WorksWhereAllCellsOfAStretchAreAlike) {
+    // 257 x 255 cells are 65,535: as many as a stretch may have, all of them active.
     const auto slope = [](double, double, double z, double) { return 100 + 50 * z; };
     const TestField field({258, 256, 2}, 3, ValueType::u8, slope);
-    ASSERT_EQ(Chunking(field.view().grid).cells(0), 65535u);
+    ASSERT_EQ(Stretches(field.view().grid).cells(0), 65535u);
     const CellSeries series(field.view(), LevelMap::of_type(ValueType::u8));
     EXPECT_EQ(search(series.tier(), series, 1, 120).size(), 65535u);
     expect_exact(series, 4);

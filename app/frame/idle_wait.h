@@ -34,6 +34,8 @@ class IdleWait {
     /// Called once a frame. @param now session time
     /// @return how long to wait before the next frame, 0 or more; empty: not at all
     std::optional<interaction::Seconds> after(const FrameOutlook& frame, interaction::Seconds now);
+    /// Something ended a wait before its time: that counts as a change.
+    void woken() { quiet_since_.reset(); }
 
   private:
     int quiet_ = 0; ///< frames without a change

@@ -225,7 +225,10 @@ bool LiveLoop::wait(const FrameOutlook& next, const stereo::Windows& windows) {
     const auto longest = idle_.after(next, clock_());
     if (!longest || waited_)
         return false;
+    const Seconds end = clock_() + *longest;
     windows.wait(*wake_, *longest);
+    if (clock_() < end)
+        idle_.woken();
     return true;
 }
 

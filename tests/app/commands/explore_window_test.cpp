@@ -153,12 +153,12 @@ TEST_F(ExploreWindow, ComesToRestAndIsWokenByAKeyAndBySignals) {
 }
 
 TEST_F(ExploreWindow, ShowsAgainWhatTheServerHasLost) {
-    const auto program = explore({"--size", "1000", "800", "--record", file("walk.jsonl")});
-    ASSERT_TRUE(test_support::eventually([&] { return is_title(300); }));
+    const auto program = explore({});
+    ASSERT_TRUE(test_support::eventually([&] { return is_title(200); }));
     screen_.xdotool({"search", "--name", "Isochron", "windowunmap", "--sync"});
-    ASSERT_TRUE(test_support::eventually([&] { return !is_title(300); }));
+    ASSERT_TRUE(test_support::eventually([&] { return !is_title(200); }));
     screen_.xdotool({"search", "--name", "Isochron", "windowmap", "--sync"});
-    EXPECT_TRUE(test_support::eventually([&] { return is_title(300); }));
+    EXPECT_TRUE(test_support::eventually([&] { return is_title(200); }));
     program->signal(SIGTERM);
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
 }

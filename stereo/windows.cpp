@@ -57,6 +57,17 @@ std::vector<interaction::WindowEvent> Windows::poll_events() const {
     return events;
 }
 
+bool Windows::take_damage() const {
+    bool damaged = false;
+    const auto look = [&damaged](GlContext* window) {
+        damaged = (window && window->take_damage()) || damaged;
+    };
+    std::ranges::for_each(windows_, look);
+    look(room_);
+    look(console_);
+    return damaged;
+}
+
 Windows open_windows(ContextKind kind, const Installation& installation,
                      const WindowOptions& options) {
     Windows opened;

@@ -41,6 +41,10 @@ class Windows {
     void keep_open() const;    ///< takes back the wish to close, for all windows
     /// Events of all windows. Mouse positions are fractions of the window under the mouse.
     std::vector<interaction::WindowEvent> poll_events() const;
+    /// Waits until any window, the console included, has something to poll; see `GlContext::wait`.
+    void wait(const Wake& wake, interaction::Seconds longest) const { first().wait(wake, longest); }
+    /// Whether the window system has lost what some window showed since the last call.
+    bool take_damage() const;
 
   private:
     Windows() = default;

@@ -2,6 +2,8 @@
 #include "app/command_line/cancel.h"
 
 #include <array>
+#include <atomic>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -9,13 +11,21 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
+std::atomic<const stereo::Wake*> woken_by_signals = nullptr;
+static_assert(std::atomic<const stereo::Wake*>::is_always_lock_free);
+
+void note_signal(int signal) {
+    came = signal;
+    if (const stereo::Wake* wake = woken_by_signals)
+        (*wake)();
+}
 
 } // namespace
 
 CancelOnSignal::CancelOnSignal() {
     came = 0;
     struct sigaction action {};
-    action.sa_handler = [](int signal) { came = signal; };
+    action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
         sigaction(kSignals[i], nullptr, &previous_[i]);
@@ -36,6 +46,14 @@ void CancelOnSignal::check() const {
 
 int CancelOnSignal::received() {
     return came;
+}
+
+WakeOnSignal::WakeOnSignal(std::shared_ptr<const stereo::Wake> wake) : wake_(std::move(wake)) {
+    woken_by_signals = wake_.get();
+}
+
+WakeOnSignal::~WakeOnSignal() {
+    woken_by_signals = nullptr;
 }
 
 } // namespace isochron::app

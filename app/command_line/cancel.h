@@ -1,6 +1,9 @@
 // Ctrl-C ends long work at its next report of progress, so that the work can clean up.
 #pragma once
 
+#include "stereo/context/wake.h"
+
+#include <memory>
 #include <stdexcept>
 
 #include <csignal>
@@ -30,6 +33,18 @@ class CancelOnSignal {
 
   private:
     struct sigaction previous_[3];
+};
+
+/// While it lives, a signal that is noted also wakes whoever waits. Only one may live at a time.
+class WakeOnSignal {
+  public:
+    explicit WakeOnSignal(std::shared_ptr<const stereo::Wake> wake);
+    ~WakeOnSignal();
+    WakeOnSignal(const WakeOnSignal&) = delete;
+    WakeOnSignal& operator=(const WakeOnSignal&) = delete;
+
+  private:
+    std::shared_ptr<const stereo::Wake> wake_;
 };
 
 } // namespace isochron::app

@@ -156,6 +156,7 @@ std::optional<std::string> Exploration::run() {
     BackgroundWork remembering; // no frame waits for that disk
     LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
                   session_->outputs().headset());
+    const WakeOnSignal ends(live.wake());
     session_->set_clock(live.clock());
     if (job_.leads())
         lead(live);

@@ -14,6 +14,11 @@ BackgroundWork::~BackgroundWork() {
     worker_.join();
 }
 
+void BackgroundWork::set_wake(std::function<void()> wake) {
+    const std::scoped_lock lock(mutex_);
+    wake_ = std::move(wake);
+}
+
 void BackgroundWork::post(Task task) {
     const std::scoped_lock lock(mutex_);
     tasks_.push_back(std::move(task));
@@ -56,8 +61,11 @@ void BackgroundWork::work(const std::stop_token& stop) {
         working_ = false;
         if (first_failure_.empty())
             first_failure_ = failure;
-        if (!message.empty())
+        if (!message.empty()) {
             messages_.push_back(std::move(message));
+            if (wake_)
+                wake_();
+        }
         changed_.notify_all();
     }
 }

@@ -19,6 +19,9 @@ class BackgroundWork {
     BackgroundWork();
     ~BackgroundWork(); ///< completes the tasks that still wait
 
+    /// Sets the function that is called, on the worker's thread, when there is a message.
+    void set_wake(std::function<void()> wake);
+
     /// Adds a task and returns at once. Tasks run one after another, in order.
     void post(Task task);
 
@@ -40,7 +43,8 @@ class BackgroundWork {
     bool working_ = false;
     std::vector<std::string> messages_;
     std::string first_failure_;
-    std::jthread worker_; ///< last member: starts after, and joins before, all the others
+    std::function<void()> wake_; ///< may be null
+    std::jthread worker_;        ///< last member: starts after, and joins before, all the others
 };
 
 } // namespace isochron::app

@@ -98,6 +98,9 @@ void FrameLog::add(const FrameReport& frame) {
         ++dropped_;
     }
     frames_.push_back(frame);
+    constexpr std::size_t kShown = 120;
+    if (frame.redrawn)
+        speed_ = {stage(&FrameReport::total, kShown), frames_per_second(kShown)};
 }
 
 void FrameLog::set_gpu(std::uint64_t frame, Milliseconds time) {
@@ -175,11 +178,16 @@ TimeSummary FrameLog::stage(Stage stage, std::size_t count) const {
 }
 
 double FrameLog::frames_per_second(std::size_t count) const {
-    const std::size_t frames = std::min(count, frames_.size());
-    if (frames < 2)
-        return 0;
-    const auto span = frames_.back().time - frames_[frames_.size() - frames].time;
-    return span.count() > 0 ? static_cast<double>(frames - 1) / span.count() : 0;
+    interaction::Seconds span{0};
+    std::size_t intervals = 0;
+    for (std::size_t i = frames_.size() - std::min(count, frames_.size()); i + 1 < frames_.size();
+         ++i) {
+        if (frames_[i + 1].after_wait)
+            continue;
+        span += frames_[i + 1].time - frames_[i].time;
+        ++intervals;
+    }
+    return span.count() > 0 ? static_cast<double>(intervals) / span.count() : 0;
 }
 
 void FrameLog::write(const std::filesystem::path& path, const std::string& context,
@@ -222,6 +230,7 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                            {"budget_ms", frame.budget.count()},
                            {"expected_ms", time_json(frame.expected)},
                            {"missed", frame.missed},
+                           {"after_wait", frame.after_wait},
                            {"redrawn", frame.redrawn},
                            {"cells", frame.cells},
                            {"candidates", frame.candidates},

@@ -20,6 +20,12 @@ struct TimeSummary {
 };
 TimeSummary summarize(std::vector<double> milliseconds);
 
+/// How fast the newest frames came, for people.
+struct FrameSpeed {
+    TimeSummary times;
+    double per_second = 0;
+};
+
 /// Keeps the newest frames only, an hour at 60 frames per second, as a session may last for days.
 class FrameLog {
   public:
@@ -60,8 +66,13 @@ class FrameLog {
     };
     Late late() const;
 
-    /// Rate of the newest `count` frames, by their session times; 0 before the second frame.
+    /// Rate of the newest `count` frames, by their session times without the waits; 0 before the
+    /// second frame.
     double frames_per_second(std::size_t count) const;
+
+    /// The speed of the newest 120 frames when a picture was drawn anew last. It stays the same while
+    /// frames show the same: it would be all that changes.
+    const FrameSpeed& speed() const { return speed_; }
 
     /// Writes JSON with a summary per stage and a row per frame; the file appears when complete.
     /// @param context description of the GL context, for the reader
@@ -79,6 +90,7 @@ class FrameLog {
   private:
     std::deque<FrameReport> frames_;
     std::uint64_t dropped_ = 0; ///< frames before those kept
+    FrameSpeed speed_;
 };
 
 } // namespace isochron::app

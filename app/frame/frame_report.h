@@ -22,8 +22,10 @@ struct FrameDrawing {
     interaction::Pace pace = interaction::Pace::moving;
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving; ///< for the footprint
-    bool final = false;                   ///< the picture is as good as it gets for these cells
-    Milliseconds budget{0};               ///< for drawing
+    bool final = false;      ///< the picture is as good as it gets for these cells
+    bool retries = false;    ///< a better footprint that did not fit is tried again soon
+    bool after_wait = false; ///< nothing was to be done since the frame before
+    Milliseconds budget{0};  ///< for drawing
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
     std::optional<render::Footprint> in_slices; ///< of the picture at rest in slices, if any

@@ -100,6 +100,7 @@ void Outputs::draw_window(stereo::Display& display, const Scene& scene, const Ov
 
 DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& overlay) {
     drawn_ = {audience, std::move(scene)};
+    lacks_overlay_ = false;
     DrawLoad of_cell;
     const Scene counted = [&](const ScenePlace& place, std::span<const render::View> views) {
         for (const render::View& view : views) {
@@ -150,6 +151,7 @@ bool Outputs::draw_slice_at(SlicePlace& place, const SliceScene& scene) {
 }
 
 void Outputs::show_slices(const Overlay& overlay) {
+    lacks_overlay_ = false;
     if (!drawn_.audience.eyes.empty())
         headset_display_->show_slices();
     end_headset_frame(false);
@@ -161,6 +163,7 @@ void Outputs::show_slices(const Overlay& overlay) {
 
 void Outputs::draw_again(const Audience& audience, const Overlay& overlay) {
     drawn_.audience = audience;
+    lacks_overlay_ = false;
     end_headset_frame(true);
     if (!shows_windows())
         return headset_display_->mirror(overlay);
@@ -193,6 +196,7 @@ void Outputs::present() {
 }
 
 KeptPictures Outputs::kept_pictures() {
+    lacks_overlay_ = true;
     const auto draw = [this](stereo::Display& display) {
         draw_window(display, drawn_.scene, {}, true);
     };

@@ -121,6 +121,11 @@ class Outputs {
     bool draw_slice(SlicePlace& place, const SliceScene& scene);
     /// Shows the picture that was drawn in slices.
     void show_slices(const Overlay& overlay);
+    /// Whether the windows hold what they showed last, with the overlay. Pictures to keep have none.
+    bool can_stay() const { return !headset_ && !room_ && !lacks_overlay_; }
+    /// Keeps the windows as they are, instead of the other calls, where `can_stay` and nothing has
+    /// changed. The frame need not be presented.
+    void stay(const Audience& audience) { drawn_.audience = audience; }
     /// Keeps each eye's last picture, and draws a new overlay.
     void draw_again(const Audience& audience, const Overlay& overlay);
     /// Draws the emulated room around these pictures, if there is one, and the overlay over it.
@@ -173,6 +178,7 @@ class Outputs {
     const std::vector<std::string> stereo_modes_;
     Drawn drawn_;
     BackgroundWork pictures_;
+    bool lacks_overlay_ = false; ///< pictures to keep were made of what the windows show
     std::filesystem::path screenshot_folder_;
     int screenshots_taken_ = 0;
 };

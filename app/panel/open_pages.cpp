@@ -50,16 +50,20 @@ void OpenPages::lay_out_files() {
         chosen_ = std::move(file);
 }
 
+Seconds OpenPages::introduction_ends() const {
+    constexpr Seconds kLeast{6.0}; // long enough to be read
+    return newcomer_ && begun_ && introduced_at_ ? *introduced_at_ + kLeast : Seconds(0);
+}
+
 void OpenPages::lay_out(const PanelModel& model, const PanelArea& panel, Seconds time) {
     if (help_ && model.place != PanelPlace::in_room)
         help_ = help_window(model);
     lay_out_files();
     if (!newcomer_ || any() || model.place != PanelPlace::over)
         return;
-    constexpr Seconds kLeast{6.0}; // long enough to be read
     if (!introduced_at_)
         introduced_at_ = time;
-    if (begun_ && time - *introduced_at_ >= kLeast) {
+    if (begun_ && time >= introduction_ends()) {
         newcomer_ = false;
         introduced_ = true;
         return;

@@ -34,6 +34,9 @@ class OpenPages {
     /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
+    /// When those lines may go, as the user has begun; else a time that has passed.
+    interaction::Seconds introduction_ends() const;
+
     void open_help() { help_ = true; }
 
     /// A page lies over the picture, which Escape closes.

@@ -24,18 +24,23 @@ OperatorPanel::feed(std::span<const interaction::WindowEvent> events, bool shown
     return all;
 }
 
+interaction::Commands OperatorPanel::lay_out_over(glm::ivec2 picture, glm::ivec2 places,
+                                                  const Model& model, interaction::Seconds time) {
+    // The right buffer of a quad-buffered window shows the layout that was made for the left one.
+    if (!first_.has_window() || console_ || std::exchange(laid_out_, true))
+        return {};
+    const glm::ivec2 part = picture / places;
+    over_.repeat(places);
+    over_.set_scale(panel_scale(first_, font_scale_, part.x));
+    return over_.lay_out(part, model(PanelPlace::over), time);
+}
+
 interaction::Commands OperatorPanel::draw_over(glm::ivec2 picture, glm::ivec2 places,
                                                const Model& model, interaction::Seconds time) {
     if (!first_.has_window() || console_)
         return {};
-    // The right buffer of a quad-buffered window shows the layout that was made for the left one.
-    interaction::Commands commands;
+    interaction::Commands commands = lay_out_over(picture, places, model, time);
     const glm::ivec2 part = picture / places;
-    over_.repeat(places);
-    if (!std::exchange(laid_out_, true)) {
-        over_.set_scale(panel_scale(first_, font_scale_, part.x));
-        commands = over_.lay_out(part, model(PanelPlace::over), time);
-    }
     for (int y = 0; y < places.y; ++y)
         for (int x = 0; x < places.x; ++x)
             over_.draw(part, glm::ivec2(x, y) * (picture - part));
@@ -59,10 +64,10 @@ bool OperatorPanel::covers(const interaction::MouseMoveEvent& cursor) const {
     return !console_ && cursor.window == 0 && over_.covers({cursor.x, cursor.y});
 }
 
-void OperatorPanel::present() {
+void OperatorPanel::present(bool again) {
     laid_out_ = false;
     if (console_)
-        console_->present();
+        console_->present(again);
 }
 
 } // namespace isochron::app

@@ -39,18 +39,26 @@ class OperatorPanel {
     std::vector<interaction::WindowEvent> feed(std::span<const interaction::WindowEvent> events,
                                                bool shown);
 
-    /// Draws the panel over the first window's picture, which is bound; lays it out once a frame.
+    /// Lays out the panel over the first window's picture, unless this frame has done so.
     /// Does nothing if the panel has its own window, or there is no first window.
     /// @param picture its size, pixels @param time of the session
     /// @param places number of eyes side by side (x) and above each other (y) that each have a part
     /// of the picture: the panel appears in every part
     /// @return commands of the operator
+    interaction::Commands lay_out_over(glm::ivec2 picture, glm::ivec2 places, const Model& model,
+                                       interaction::Seconds time);
+    /// A hash of all that `draw_over` would draw; 0: nothing.
+    std::size_t looks() const { return laid_out_ ? over_.digest() : 0; }
+    /// Lays it out likewise and draws it over that picture, which is bound.
     interaction::Commands draw_over(glm::ivec2 picture, glm::ivec2 places, const Model& model,
                                     interaction::Seconds time);
     /// Draws it in its own window, if it has one. @return commands of the operator
     interaction::Commands draw_alone(const Model& model, interaction::Seconds time);
     /// Shows its own window, if it has one, and ends the frame.
-    void present();
+    /// @param again even if it looks the same, as the window system has lost it
+    void present(bool again);
+    /// What the last frame tells about the next one.
+    FrameOutlook outlook() const { return console_ ? console_->outlook() : over_.outlook(); }
     /// Width in pixels that the panel covers at the left of the picture; 0 if the panel is folded,
     /// or would cover more than half. @param width of the part of the picture that one eye has
     int covered(int width) const;

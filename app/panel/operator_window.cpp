@@ -2,6 +2,7 @@
 #include "app/panel/operator_window.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 namespace isochron::app {
@@ -35,17 +36,23 @@ std::vector<interaction::WindowEvent> Console::take_events() {
 }
 
 interaction::Commands Console::draw(const PanelModel& model, interaction::Seconds time) {
-    picture_.resize(drawable(window_.framebuffer_size()));
+    const glm::ivec2 size = drawable(window_.framebuffer_size());
+    layer_.set_scale(panel_scale(window_, font_scale_, size.x));
+    interaction::Commands commands = layer_.lay_out(size, model, time);
+    if (size == picture_.size() && layer_.digest() == drawn_)
+        return commands;
+    picture_.resize(size);
     picture_.clear({0, 0, 0, 1});
     picture_.bind();
-    layer_.set_scale(panel_scale(window_, font_scale_, picture_.size().x));
-    interaction::Commands commands = layer_.lay_out(picture_.size(), model, time);
-    layer_.draw(picture_.size());
+    layer_.draw(size);
+    drawn_ = layer_.digest();
+    fresh_ = true;
     return commands;
 }
 
-void Console::present() {
-    presenter_.present(picture_, nullptr);
+void Console::present(bool again) {
+    if (std::exchange(fresh_, false) || again)
+        presenter_.present(picture_, nullptr);
 }
 
 } // namespace isochron::app

@@ -28,9 +28,12 @@ class Console {
 
     std::optional<MovieWish> take_wanted_movie() { return layer_.take_wanted_movie(); }
 
-    /// Lays out and draws the panel over the whole window. @return commands of the operator
+    /// Lays out the panel over the whole window, and draws it if it looks different.
+    /// @return commands of the operator
     interaction::Commands draw(const PanelModel& model, interaction::Seconds time);
-    void present();
+    /// Shows what was drawn. @param again even if that is shown already
+    void present(bool again = false);
+    FrameOutlook outlook() const { return layer_.outlook(); } ///< see PanelLayer
 
     render::Image read() const { return picture_.read(); } ///< as drawn last
 
@@ -39,6 +42,8 @@ class Console {
     const float font_scale_;
     PanelLayer layer_;
     render::RenderTarget picture_;
+    std::optional<std::size_t> drawn_; ///< digest of what the picture shows
+    bool fresh_ = false;               ///< the window does not show it yet
     stereo::Presenter presenter_;
 };
 

@@ -78,6 +78,14 @@ void PanelInRoom::lay_out(const PanelModel& model, Seconds time) {
     }
 }
 
+FrameOutlook PanelInRoom::outlook() const {
+    FrameOutlook next{.final = true};
+    if (laid_out_)
+        next = layer_.outlook();
+    next.changed |= pending_ != Commands{}; // which the next frame obeys
+    return next;
+}
+
 std::optional<ShownPanel> PanelInRoom::shown(const RoomPanel& panel) const {
     if (!panel.shown)
         return std::nullopt;

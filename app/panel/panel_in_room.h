@@ -41,6 +41,9 @@ class PanelInRoom {
     void lay_out(const PanelModel& model, interaction::Seconds time);
     void leave_out();
 
+    /// What the last frame tells about the next one.
+    FrameOutlook outlook() const;
+
     /// Whether the wand's ray ended on the panel in the last `update`.
     bool touched() const { return pointer_.touch().hit.has_value(); }
 

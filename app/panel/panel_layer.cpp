@@ -24,6 +24,8 @@ namespace {
 
 using namespace interaction;
 
+constexpr Seconds kMessageShown{4.0};
+
 /// Keys that ImGui's text fields and sliders understand, and our names of them.
 constexpr std::pair<int, Key> kKeys[]{
     {ImGuiKey_Tab, Key::tab},
@@ -231,6 +233,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                 .closes_popup = closes_popup_,
                 .numbers = numbers_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
+    fed_ = !waiting_.empty();
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
@@ -288,6 +291,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     pages_.lay_out(model, area_, time);
+    const Seconds said_before = said_;
     if (std::exchange(messages_, model.notes.messages) != model.notes.messages) {
         said_ = time;
         complaint_.clear();
@@ -296,27 +300,31 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         said_ = time;
         complaint_ = std::move(complaint);
     }
+    const bool stands_else = std::exchange(standing_, model.notes.standing) != standing_;
+    const bool fresh = time < said_ + kMessageShown;
     if (model.place == PanelPlace::over)
-        message_window(model.notes.standing,
-                       complaint_.empty() ? model.notes.message : complaint_, time - said_);
+        message_window(standing_, !fresh               ? std::string()
+                                  : complaint_.empty() ? model.notes.message
+                                                       : complaint_);
     else if (model.place == PanelPlace::whole)
-        message_window({}, complaint_, time - said_);
-    ImGui::Render();
+        message_window({}, fresh ? complaint_ : std::string());
+    end_frame();
+    changed_ |= said_ != said_before || stands_else; // ImGui shows a new window a frame late
     return commands;
 }
 
 void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint, Seconds time) {
     begin_frame(picture, time);
     pages_.lay_out_files();
-    message_window(complaint, {}, Seconds(0));
-    ImGui::Render();
+    message_window(complaint, {});
+    end_frame();
 }
 
 void PanelLayer::lay_out_progress(glm::ivec2 picture, const std::string& name,
                                   const std::string& line, float fraction, Seconds time) {
     begin_frame(picture, time);
     progress_window(name, line, fraction);
-    ImGui::Render();
+    end_frame();
 }
 
 bool PanelLayer::has_popup() const {
@@ -337,10 +345,30 @@ std::uint32_t PanelLayer::held() const {
     return imgui_->ActiveId;
 }
 
-std::size_t PanelLayer::digest() const {
-    ImGui::SetCurrentContext(imgui_);
+void PanelLayer::end_frame() {
+    ImGui::Render();
+    changed_ = std::exchange(digest_, hash_of_layout()) != digest_;
+}
+
+FrameOutlook PanelLayer::outlook() const {
+    constexpr Seconds kCaretBlinks{0.1}; // and moves by no more in one layout
+    const ImGuiIO& io = imgui_->IO;
+    const auto is_down = [](bool down) { return down; };
+    FrameOutlook next{.changed = changed_ || fed_, .final = true};
+    next.busy = late_releases_ != 0 || !waiting_.empty() || closes_popup_ ||
+                std::ranges::any_of(io.MouseDown, is_down) ||
+                std::ranges::any_of(io.KeysDown, is_down);
+    if (io.WantTextInput)
+        next.until = laid_out_ + kCaretBlinks;
+    for (const Seconds moment : {said_ + kMessageShown, pages_.introduction_ends()})
+        if (moment > laid_out_)
+            next.until = std::min(next.until, moment);
+    return next;
+}
+
+std::size_t PanelLayer::hash_of_layout() const {
     const ImDrawData& data = *ImGui::GetDrawData();
-    std::size_t digest = 0;
+    std::size_t digest = std::hash<float>()(scale_);
     const auto add = [&](const void* bytes, int size) {
         const std::string_view text(static_cast<const char*>(bytes),
                                     static_cast<std::size_t>(size));

@@ -1,6 +1,7 @@
 // Runs Dear ImGui inside the program: feeds it events and draws its triangles.
 #pragma once
 
+#include "app/frame/idle_wait.h"
 #include "app/panel/number_entry.h"
 #include "app/panel/open_pages.h"
 #include "app/panel/panel.h"
@@ -81,7 +82,9 @@ class PanelLayer {
     void repeat(glm::ivec2 places) { places_ = places; }
 
     /// A hash of all that `draw` would draw: panels that look the same have the same one.
-    std::size_t digest() const;
+    std::size_t digest() const { return digest_; }
+    /// What the last layout tells about the next one.
+    FrameOutlook outlook() const;
     const PanelArea& area() const { return area_; } ///< panel pixels
     /// Whether the panel, or a page that it has opened, covers a place.
     /// @param at fractions of the picture from the top left
@@ -92,6 +95,8 @@ class PanelLayer {
 
   private:
     void make_font_texture();
+    void end_frame();
+    std::size_t hash_of_layout() const;
     bool has_popup() const;
     void begin_frame(glm::ivec2 picture, interaction::Seconds time);
 
@@ -104,8 +109,12 @@ class PanelLayer {
     std::optional<glm::vec2> cursor_;  ///< in the panel's picture, fractions from the top left
     std::deque<interaction::WindowEvent> waiting_; ///< for the next frame, see `feed`
     glm::ivec2 places_{1};
+    std::size_t digest_ = 0;          ///< of the last layout
+    bool changed_ = false;            ///< it looks different from the one before
+    bool fed_ = false;                ///< events came for it
     std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
+    std::string standing_;            ///< in the last layout
     NumberEntry numbers_;
     std::string complaint_;     ///< of `numbers_`, if nothing was said since
     bool closes_popup_ = false; ///< Escape was pressed

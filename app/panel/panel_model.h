@@ -56,8 +56,7 @@ struct PanelColors {
 
 /// How the search and the frames go.
 struct PanelWork {
-    TimeSummary frame_times{}; ///< of the last frames
-    double frames_per_second = 0;
+    FrameSpeed frames{};
     index::ReadUse reading{};                   ///< of the index, since it was opened
     std::vector<std::uint32_t> at_hand_steps{}; ///< steps that can be shown without a search
     bool searching = false;                     ///< the worker has not answered yet

@@ -44,8 +44,8 @@ void measurements(const PanelModel& model) {
                      human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),
          kDim);
     note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms",
-                     model.work.frames_per_second, model.work.frame_times.median,
-                     model.work.frame_times.p99),
+                     model.work.frames.per_second, model.work.frames.times.median,
+                     model.work.frames.times.p99),
          kDim);
     for (const DeviceTracking& device : frame.tracking)
         note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);

@@ -132,11 +132,8 @@ std::optional<MovieWish> movie_section(const PanelModel& model) {
     return wish;
 }
 
-void message_window(const std::string& standing, const std::string& message,
-                    interaction::Seconds age) {
-    constexpr interaction::Seconds kShown{4.0};
-    const bool fresh = !message.empty() && age <= kShown;
-    if (standing.empty() && !fresh)
+void message_window(const std::string& standing, const std::string& message) {
+    if (standing.empty() && message.empty())
         return;
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y - 12.0f}, ImGuiCond_Always, {0.5f, 1.0f});
@@ -146,7 +143,7 @@ void message_window(const std::string& standing, const std::string& message,
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
     ImGui::PushTextWrapPos(0.9f * picture.x);
-    for (const std::string& line : {standing, fresh ? message : std::string()})
+    for (const std::string& line : {standing, message})
         if (!line.empty())
             ImGui::TextUnformatted(line.c_str());
     ImGui::PopTextWrapPos();

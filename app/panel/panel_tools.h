@@ -20,10 +20,8 @@ void mark_steps_at_hand(const PanelModel& model, int last);
 /// Buttons that start movies, and the progress of the movie that is being made.
 /// @return what the user wants
 std::optional<MovieWish> movie_section(const PanelModel& model);
-/// At the bottom of the picture: the standing note, and the newest message for a while.
-/// @param age of the message
-void message_window(const std::string& standing, const std::string& message,
-                    interaction::Seconds age);
+/// At the bottom of the picture: the standing note, and the newest message. Empty ones are left out.
+void message_window(const std::string& standing, const std::string& message);
 /// The progress of something that the user waits for, in the middle of the picture.
 /// @param fraction 0 to 1
 void progress_window(const std::string& name, const std::string& line, float fraction);

@@ -106,6 +106,7 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     const bool slices_come = plan.holds_finer && report.time - swayed_since_ < kNeverStill;
     plan.final =
         choice.final && with_all.final && choice.footprint == with_all.footprint && !slices_come;
+    report.retries = choice.retries;
     report.budget = controller.budget();
     report.expected = choice.cost;
     report.better = choice.better_cost;

@@ -319,6 +319,9 @@ QualityChoice QualityController::describe(const QualityInput& input) const {
         if (!decided(better, input) &&
             (bearable(better, input) || !of(Footprint::quad).cost.predict(input.load)))
             choice.final = false;
+        const Candidate& candidate = of(better);
+        choice.retries |= candidate.failed && bearable(better, input) &&
+                          std::max(candidate.wait, kShortestWait) <= candidate.age + kSoon;
         if (!choice.better_cost)
             choice.better_cost =
                 of(better).failed ? of(better).failed_cost : of(better).cost.predict(input.load);
@@ -327,7 +330,7 @@ QualityChoice QualityController::describe(const QualityInput& input) const {
         choice.reason = QualityReason::trial;
     if (input.pace == Pace::moving) {
         choice.reason = QualityReason::moving;
-        choice.final = choice.measure = false;
+        choice.final = choice.measure = choice.retries = false;
     }
     return choice;
 }

@@ -44,7 +44,8 @@ struct QualityChoice {
     bool measure = false;
     std::optional<Milliseconds> cost; ///< expected, of `footprint` at this load
     std::optional<Milliseconds>
-        better_cost; ///< expected, of the next better footprint, if it does not fit
+        better_cost;      ///< expected, of the next better footprint, if it does not fit
+    bool retries = false; ///< a better one that did not fit is tried again within a few frames
 };
 
 /// Modes: `fast` draws quads. `auto` draws the best footprint within the budget; while the picture
@@ -71,6 +72,7 @@ struct QualityChoice {
 class QualityController {
   public:
     static constexpr unsigned kShortestWait = 16, kLongestWait = 2048, kProven = 256; ///< frames
+    static constexpr unsigned kSoon = 128;                                            ///< frames
     /// Longest expected time of a frame that is drawn to measure a footprint; the budget if that is
     /// longer.
     static constexpr Milliseconds kDearestTrial{400};

@@ -14,6 +14,7 @@
 #include "index/extraction/extractor.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,6 +33,7 @@ class CellSupply {
     /// Continues with the same data that have more steps.
     void set_file(std::shared_ptr<const index::IndexFile> file);
     const index::Extractor& extractor() const { return extractor_; }
+    void set_wake(const std::function<void()>& wake) { extractor_.set_wake(wake); }
 
     void request(const Frame& frame);
     /// Uploads what has been found, and chooses the set to draw.

@@ -24,15 +24,26 @@ bool is_pressed(interaction::Key key, std::span<const interaction::WindowEvent> 
     });
 }
 
+bool is_held(const InputState& input) {
+    return std::ranges::any_of(input.devices, [](const interaction::DeviceState& device) {
+        return device.buttons != 0 ||
+               std::ranges::any_of(device.valuators, [](float value) { return value != 0.0f; });
+    });
+}
+
 } // namespace
 
 LiveLoop::LiveLoop(const Config& config, interaction::CompositeInput trackers,
                    const LiveOptions& options, stereo::Headset* headset)
     : config_(config), options_(options), trackers_(std::move(trackers)),
       emulation_(emulation_for(config)), camera_(config.installation), headset_(headset),
-      clock_([start = std::chrono::steady_clock::now()] {
+      clock_(options.clock ? options.clock : [start = std::chrono::steady_clock::now()] {
           return Seconds(std::chrono::steady_clock::now() - start);
       }) {}
+
+std::function<void()> LiveLoop::waker() const {
+    return [wake = wake_] { (*wake)(); };
+}
 
 std::function<Seconds()> LiveLoop::clock() const {
     return clock_;
@@ -41,16 +52,18 @@ std::function<Seconds()> LiveLoop::clock() const {
 void LiveLoop::record(const std::filesystem::path& path,
                       const interaction::RecordingHeader& header) {
     recorder_ = std::make_shared<interaction::RecordingWriter>(path, header);
+    recording_.set_wake(waker());
 }
 
 void LiveLoop::keep_session(const std::filesystem::path& path, const SavedSession& start,
                             bool resumed) {
     keeper_.emplace(path, start, resumed);
+    keeper_->set_wake(waker());
 }
 
 void LiveLoop::watch(const std::filesystem::path& path,
                      std::shared_ptr<const index::IndexFile> file) {
-    watch_.emplace(path, std::move(file));
+    watch_.emplace(path, std::move(file), waker());
 }
 
 /// Reports new steps as commands, so that recordings and all processes of a cluster get them.
@@ -169,8 +182,59 @@ bool LiveLoop::closes(const Session& session, Commands& asked) const {
     return false;
 }
 
+/// Whether nothing but windows, mouse and keyboard can bring something new.
+bool LiveLoop::may_wait(const FrameSharing& frames, const stereo::Headset* headset) const {
+    return frames.alone() && !headset && trackers_.empty();
+}
+
+/// The windows' events since the last frame. The first frame after a wait gets none: it ends the
+/// time in which nothing happened, so that what is new begins a moment before the frame that gets
+/// it, and not when the wait began.
+std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows& windows) {
+    acted_ = false;
+    if (waited_)
+        return {};
+    std::vector<interaction::WindowEvent> events = windows.poll_events();
+    // What a gamepad's sticks do is seen in the devices; at rest they tremble.
+    acted_ = std::ranges::any_of(events, [](const interaction::WindowEvent& event) {
+        return !std::holds_alternative<interaction::GamepadEvent>(event);
+    });
+    return events;
+}
+
+/// What the devices, and work that goes on beside the frames, tell about the next frame.
+FrameOutlook LiveLoop::outlook(const InputState& input) const {
+    constexpr Seconds kLookForWords{0.1}; // of another process or of a thread that ends
+    constexpr Seconds kLookForProgress{0.25};
+    FrameOutlook next{.busy = is_held(input), .changed = acted_, .final = true};
+    const auto look = [&](Seconds at) { next.until = std::min(next.until, at); };
+    if (keeper_)
+        look(keeper_->due());
+    if (options_.length)
+        look(*options_.length);
+    if (opening_ || (movies_ && movies_->busy()))
+        look(input.time + kLookForWords);
+    if (options_.standing && !options_.standing().empty())
+        look(input.time + kLookForProgress);
+    return next;
+}
+
+/// Waits until something happens, if nothing does. @return whether it has waited
+bool LiveLoop::wait(const FrameOutlook& next, const stereo::Windows& windows) {
+    // Events that ended the last wait are still there, and get their frame first.
+    const auto longest = idle_.after(next, clock_());
+    if (!longest || waited_)
+        return false;
+    const Seconds end = clock_() + *longest;
+    windows.wait(*wake_, *longest);
+    if (clock_() < end)
+        idle_.woken();
+    return true;
+}
+
 void LiveLoop::run(Session& session) {
     session.warm_up();
+    session.set_wake(waker());
     const Latch latch = [this] { return trackers_.latch(clock_()); };
     Pacer pacer(config_.rendering.frame_rate_limit);
     emulation_.set_eye(
@@ -182,7 +246,7 @@ void LiveLoop::run(Session& session) {
         Commands asked;
         if (closes(session, asked))
             break;
-        const auto events = session.panel_events(session.outputs().windows().poll_events());
+        const auto events = session.panel_events(new_events(session.outputs().windows()));
         if (is_pressed(interaction::Key::f11, events))
             session.outputs().windows().first().toggle_fullscreen();
         if (config_.devices.empty() &&
@@ -211,8 +275,12 @@ void LiveLoop::run(Session& session) {
             session.set_standing(options_.standing());
         take_next_data(session);
         running = goes_on(commands, input) && !next_data_;
-        if (!paced_)
+        if (!paced_ && !waited_)
             pacer.wait();
+        waited_ = running && may_wait(session.frames(), session.outputs().headset()) &&
+                  wait(both(session.outlook(), outlook(input)), session.outputs().windows());
+        if (waited_)
+            session.has_waited();
     }
     headset_.leave();
 }
@@ -222,11 +290,14 @@ void LiveLoop::run(PatternShow& show) {
     Pacer pacer(config_.rendering.frame_rate_limit);
     trackers_.begin();
     for (bool running = true; running && !show.should_close();) {
-        const InputState input = poll(show.outputs().windows().poll_events());
+        const InputState input = poll(new_events(show.outputs().windows()));
         const Commands commands = show.commands_from(input);
         show.frame(input, commands, latch);
         running = goes_on(commands, input);
-        pacer.wait();
+        if (!waited_)
+            pacer.wait();
+        waited_ = running && may_wait(show.frames(), show.outputs().headset()) &&
+                  wait(outlook(input), show.outputs().windows());
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/config/config.h"
 #include "app/frame/background_work.h"
+#include "app/frame/idle_wait.h"
 #include "app/frame/late_latch.h"
 #include "app/output/room_camera.h"
 #include "app/session/headset_loop.h"
@@ -45,6 +46,8 @@ struct LiveOptions {
     std::function<std::string(const std::filesystem::path&)> why_not_open;
     /// Returns a note that the picture shows as long as it is returned. Each frame; may be null.
     std::function<std::string()> standing = {};
+    /// Returns the session time, for tests; null: the time since the loop was constructed.
+    std::function<interaction::Seconds()> clock = {};
 };
 
 /// Session time starts at 0 when the loop is constructed.
@@ -56,6 +59,8 @@ class LiveLoop {
     LiveLoop(const Config& config, interaction::CompositeInput trackers, const LiveOptions& options,
              stereo::Headset* headset = nullptr);
 
+    /// Ends the loop's wait for something to do. Outlives the loop where others keep it.
+    std::shared_ptr<const stereo::Wake> wake() const { return wake_; }
     /// A function that returns the session time.
     std::function<interaction::Seconds()> clock() const;
 
@@ -99,6 +104,11 @@ class LiveLoop {
     void make_movies(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
     bool closes(const Session& session, interaction::Commands& asked) const;
+    std::function<void()> waker() const;
+    bool may_wait(const FrameSharing& frames, const stereo::Headset* headset) const;
+    std::vector<interaction::WindowEvent> new_events(const stereo::Windows& windows);
+    FrameOutlook outlook(const interaction::InputState& input) const;
+    bool wait(const FrameOutlook& next, const stereo::Windows& windows);
 
     const Config& config_;
     const LiveOptions options_;
@@ -107,6 +117,10 @@ class LiveLoop {
     RoomCamera camera_;
     HeadsetLoop headset_;
     bool paced_ = false; ///< the headset paces this frame
+    const std::shared_ptr<const stereo::Wake> wake_ = std::make_shared<stereo::Wake>();
+    IdleWait idle_;
+    bool waited_ = false; ///< before this frame
+    bool acted_ = false;  ///< the user did something before this frame
     std::optional<SessionKeeper> keeper_;
     std::optional<index::IndexWatch> watch_;
     std::optional<std::filesystem::path> next_data_;

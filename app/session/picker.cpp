@@ -54,6 +54,11 @@ std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
 
 Picker::Picker(std::shared_ptr<const index::IndexFile> file) : file_(std::move(file)) {}
 
+void Picker::set_wake(const std::function<void()>& wake) {
+    wake_ = wake;
+    reading_.set_wake(wake);
+}
+
 std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
                                       const index::ExtractionPtr& shown) const {
     if (!shown)
@@ -90,10 +95,13 @@ std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const E
 }
 
 void Picker::read_at(const glm::dvec3& at, const ExplorerState& state) {
-    reading_.post([file = file_, slot = read_, at, step = state.step] {
+    reading_.post([file = file_, slot = read_, wake = wake_, at, step = state.step] {
         const auto value = index::value_in(*file, step, at);
-        const std::lock_guard lock(slot->mutex);
-        slot->mark = value ? Mark{MarkedPoint{at, step, *value}} : Mark{};
+        {
+            const std::lock_guard lock(slot->mutex);
+            slot->mark = value ? Mark{MarkedPoint{at, step, *value}} : Mark{};
+        }
+        wake();
         return std::string(value ? "" : "no data there");
     });
 }

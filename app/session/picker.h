@@ -9,6 +9,7 @@
 #include "interaction/input/tracked_input.h"
 #include "interaction/pointed.h"
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,6 +24,9 @@ namespace isochron::app {
 class Picker {
   public:
     explicit Picker(std::shared_ptr<const index::IndexFile> file);
+
+    /// Sets the function that is called, on the reading thread, when data have been read.
+    void set_wake(const std::function<void()>& wake);
 
     /// Continues with the same data that have more steps.
     void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
@@ -66,6 +70,7 @@ class Picker {
     interaction::ButtonLevels before_;
     interaction::Commands found_;
     std::vector<std::string> notes_;
+    std::function<void()> wake_ = [] {};
     BackgroundWork reading_;
 };
 

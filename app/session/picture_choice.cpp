@@ -69,7 +69,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     learn_costs(frame);
     if (supply_.choose_set(frame, now))
         pictures_.show_cells(now, frame.state);
-    if (frame.is_live() && !log_.frames().empty())
+    if (frame.is_live() && !log_.frames().empty() && !report.after_wait)
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool finer = only_gets_finer(frame, now);
     const Options options = this->options(frame, now != frame.drawn && !finer);

@@ -16,9 +16,6 @@ namespace {
 
 using interaction::Commands;
 
-/// Frames over which the panel summarizes frame times.
-constexpr std::size_t kShownFrames = 120;
-
 } // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
@@ -174,8 +171,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
                        .color = color_array(state_, *arrays_.file())},
             .colors = {.range = scale ? scale->range : std::array{0.0, 0.0},
                        .own_maps = config_.color_maps},
-            .work = {.frame_times = log_.stage(&FrameReport::total, kShownFrames),
-                     .frames_per_second = log_.frames_per_second(kShownFrames),
+            .work = {.frames = log_.speed(),
                      .reading = reading(),
                      .at_hand_steps = supply_.extractor().at_hand(),
                      .searching = supply_.extractor().busy()},
@@ -228,7 +224,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
             frame.report.footprint = drawn_->footprint;
             frame.report.redrawn = true;
         } else {
-            outputs_.draw_again(now.audience, overlay);
+            show_again(frame, now, overlay, facts);
         }
     } else {
         if (!plan_.holds_finer)
@@ -236,7 +232,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
         if (frame.report.redrawn)
             draw_anew(frame, now, overlay);
         else
-            outputs_.draw_again(now.audience, overlay);
+            show_again(frame, now, overlay, facts);
     }
     outputs_.draw_room(input, overlay);
 }
@@ -258,6 +254,18 @@ void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::O
     };
     const DrawLoad of_cell = outputs_.draw(now.audience, scene, overlay);
     choice_.quality().end(frame.report, of_cell, frame.report.upload + watch.lap());
+}
+
+/// Keeps the last picture. It is composed anew only if something else lies over it.
+void Session::show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
+                         const SessionPanel::Facts& facts) {
+    const bool can_stay = frames_->alone() && outputs_.can_stay();
+    if (can_stay)
+        panel_.lay_out_over(state_, facts, frame.report.time);
+    if (can_stay && contents_.stay(panel_.overlay(pictures_.over())))
+        outputs_.stay(now.audience);
+    else
+        outputs_.draw_again(now.audience, overlay);
 }
 
 /// Over the last picture, which lacks them.
@@ -320,6 +328,23 @@ void Session::obey(const Commands& commands, const interaction::InputState& inpu
         captures_.ask();
 }
 
+void Session::set_wake(const std::function<void()>& wake) {
+    supply_.set_wake(wake);
+    picker_.set_wake(wake);
+    outputs_.pictures().set_wake(wake);
+}
+
+FrameOutlook Session::outlook() const {
+    const FrameReport& last = log_.frames().back();
+    const FrameOutlook picture{
+        .busy = state_.playback.playing || last.extracting || sliced_.are_made() ||
+                captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
+        .changed = contents_.changed() || last.uploaded != render::UploadCount{},
+        .final = last.final && !last.retries && scene_.cells().is_complete() &&
+                 !supply_.set_comes()};
+    return both(picture, panel_.outlook());
+}
+
 const FrameReport& Session::frame(const interaction::InputState& input, const Commands& commands,
                                   Waiting waiting, const Latch& latch) {
     StopWatch whole, since_input;
@@ -327,6 +352,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     const Latch heads = frames_->begin(input, commands, waiting, latch, config_.installation);
     FrameReport report;
     report.time = input.time;
+    report.after_wait = std::exchange(waited_, false);
     report.tracking = tracking_of(input);
     take_panel_commands(); // nobody takes them in a replay
     show_messages(controls_.take_notes());
@@ -354,13 +380,17 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     choice_.choose(frame, now);
 
     StopWatch stages;
+    contents_.begin_frame();
     draw_eyes(frame, now, input, facts);
     panel_.draw_alone(facts, report.time);
     report.draw = stages.lap();
     frames_->swap_barrier([this] { return answer(); });
     report.barrier = stages.lap();
-    outputs_.present();
-    panel_.present();
+    contents_.end_frame(panel_.overlay(pictures_.over()), report.redrawn);
+    const bool damaged = outputs_.windows().take_damage();
+    if (contents_.composed() || damaged)
+        outputs_.present();
+    panel_.present(damaged);
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     sliced_.measure_unseen(frame, now, whole);

@@ -13,6 +13,7 @@
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "app/frame/history.h"
+#include "app/frame/idle_wait.h"
 #include "app/frame/late_latch.h"
 #include "app/output/outputs.h"
 #include "app/quality/capture_wait.h"
@@ -26,6 +27,7 @@
 #include "app/session/session_panel.h"
 #include "app/session/shown_arrays.h"
 #include "app/session/sliced_pictures.h"
+#include "app/session/window_contents.h"
 #include "index/extraction/extractor.h"
 #include "interaction/controls/controls.h"
 
@@ -116,6 +118,14 @@ class Session {
     /// Sets the time between two pictures of a headset that paces the frames; empty: none does.
     void set_headset_period(std::optional<interaction::Seconds> period);
 
+    /// Sets the function that is called, on any thread, when the next frame may have something new.
+    void set_wake(const std::function<void()>& wake);
+    /// What the last frame tells about the next one.
+    FrameOutlook outlook() const;
+    /// Tells that nothing was to be done since the last frame, so that the time until the next one
+    /// says nothing about either.
+    void has_waited() { waited_ = true; }
+
     /// Shows the last of these messages on the panel until there is a newer one.
     void show_messages(std::vector<std::string> messages) {
         panel_.show_messages(std::move(messages));
@@ -159,6 +169,8 @@ class Session {
     void draw_eyes(const Frame& frame, const Picture& now, const interaction::InputState& input,
                    const SessionPanel::Facts& facts);
     void draw_anew(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay);
+    void show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
+                    const SessionPanel::Facts& facts);
     void draw_aids();
     PanelModel panel_model(const FrameReport& report) const;
     std::vector<interaction::DeviceKind> devices_at_hand() const;
@@ -186,6 +198,8 @@ class Session {
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< of the last frame
     std::optional<Picture> drawn_; ///< last picture
+    WindowContents contents_;
+    bool waited_ = false; ///< see `has_waited`
     CaptureWait captures_;
     std::function<interaction::Seconds()> clock_;
     PictureNote note_; ///< of the last frame: the data's names and the devices

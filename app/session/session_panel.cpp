@@ -60,6 +60,23 @@ void SessionPanel::draw_over(glm::ivec2 size, const ExplorerState& state, const 
         add(over_.draw_over(size, places(state), models(facts), time));
 }
 
+void SessionPanel::lay_out_over(const ExplorerState& state, const Facts& facts,
+                                interaction::Seconds time) {
+    const glm::ivec2 size = outputs_.windows().first().framebuffer_size();
+    if (size.x > 0 && size.y > 0) // a minimized window has none
+        add(over_.lay_out_over(size, places(state), models(facts), time));
+}
+
+PictureOverlay SessionPanel::overlay(const Aids& aids) const {
+    return {aids, over_.looks(), outputs_.windows().first().framebuffer_size()};
+}
+
+FrameOutlook SessionPanel::outlook() const {
+    FrameOutlook next = both(over_.outlook(), in_room_.outlook());
+    next.changed |= commands_ != interaction::Commands{}; // which the next frame obeys
+    return next;
+}
+
 void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
     add(over_.draw_alone(models(facts), time));
 }

@@ -7,6 +7,7 @@
 #include "app/output/outputs.h"
 #include "app/panel/operator_panel.h"
 #include "app/panel/panel_in_room.h"
+#include "app/session/window_contents.h"
 
 #include <functional>
 #include <optional>
@@ -47,12 +48,19 @@ class SessionPanel {
 
     /// Lays the panel in the room out, if it is shown.
     void lay_out_room(const ExplorerState& state, const Facts& facts, interaction::Seconds time);
-    /// Draws the panel over the first window. @param size of the window, pixels
+    /// Lays the panel over the first window out, unless this frame has done so.
+    void lay_out_over(const ExplorerState& state, const Facts& facts, interaction::Seconds time);
+    /// Lays it out likewise and draws it. @param size of the window, pixels
     void draw_over(glm::ivec2 size, const ExplorerState& state, const Facts& facts,
                    interaction::Seconds time);
     /// Draws it in its own window, if it has one.
     void draw_alone(const Facts& facts, interaction::Seconds time);
-    void present() { over_.present(); }
+    /// @param again even if they look the same, as the window system has lost what it showed
+    void present(bool again) { over_.present(again); }
+    /// What lies over the last picture. @param aids beside the panel
+    PictureOverlay overlay(const Aids& aids) const;
+    /// What the last frame tells about the next one.
+    FrameOutlook outlook() const;
 
     /// The panel over the window is shown: the panel in the room replaces it.
     static bool is_flat(const ExplorerState& state) {

@@ -47,6 +47,7 @@ struct Extractor::State {
     void work(const std::stop_token& stop);
     Outcome run(const Job& job);
     void finish(const Job& job, const Outcome& outcome);
+    void tell(std::unique_lock<std::mutex>& lock) const;
 
     const Extract extract;
     mutable std::mutex mutex; ///< for the members below; held for a few assignments only
@@ -61,6 +62,7 @@ struct Extractor::State {
     RecentExtractions recent;
     ExtractionPtr shown;
     std::optional<std::string> failure;
+    std::function<void()> wake; ///< may be null
     std::jthread worker; ///< last, so that it starts after and ends before everything it uses
 };
 
@@ -77,8 +79,8 @@ void Extractor::State::work(const std::stop_token& stop) {
             failure.reset();
             shown.swap(known);
             changed.notify_all();
-            lock.unlock(); // what was shown may be freed here
-            known.reset();
+            tell(lock);
+            known.reset(); // what was shown may be freed here
             lock.lock();
             continue;
         }
@@ -88,6 +90,14 @@ void Extractor::State::work(const std::stop_token& stop) {
         finish(job, run(job));
         lock.lock();
     }
+}
+
+/// Gives up the lock and wakes who waits for a picture.
+void Extractor::State::tell(std::unique_lock<std::mutex>& lock) const {
+    const std::function<void()> told = wake;
+    lock.unlock();
+    if (told)
+        told();
 }
 
 Extractor::State::Outcome Extractor::State::run(const Job& job) {
@@ -107,7 +117,7 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
     ExtractionPtr replaced = outcome.extraction; // freed after the lock
     RecentExtractions::Dropped dropped;
     {
-        const std::scoped_lock lock(mutex);
+        std::unique_lock lock(mutex);
         running.reset();
         const bool stopped = job.stop.stop_requested();
         const bool is_answer = answers(job.query, wanted->query) && !answered;
@@ -137,8 +147,9 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
                                 : same_but_for_step(job.query, wanted->query);
         if (!job.prefetch)
             abandoned = !outcome.extraction && stopped;
+        changed.notify_all();
+        tell(lock);
     }
-    changed.notify_all();
 }
 
 Extractor::Extractor(Extract extract, std::uint64_t room)
@@ -157,6 +168,11 @@ Extractor::~Extractor() {
     state_->worker.request_stop();
     if (stop)
         stop->request_stop();
+}
+
+void Extractor::set_wake(std::function<void()> wake) {
+    const std::scoped_lock lock(state_->mutex);
+    state_->wake = std::move(wake);
 }
 
 void Extractor::request(const Request& request) {

@@ -11,6 +11,7 @@
 #include "index/extraction/recent_extractions.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,9 @@ class Extractor {
     ~Extractor(); ///< stops and joins the worker
     Extractor(const Extractor&) = delete;
     Extractor& operator=(const Extractor&) = delete;
+
+    /// Sets the function that the worker calls, on its thread, whenever a search has ended.
+    void set_wake(std::function<void()> wake);
 
     /// Replaces the request before; work on an older query is abandoned at its next check. Does
     /// nothing if the request is the same. A kept extraction is the newest at once. Never waits for

@@ -34,8 +34,9 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
     }
 }
 
-IndexWatch::IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known)
-    : path_(std::move(path)), known_(std::move(known)),
+IndexWatch::IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known,
+                       std::function<void()> wake)
+    : path_(std::move(path)), wake_(std::move(wake)), known_(std::move(known)),
       worker_([this](const std::stop_token& stop) { watch(stop); }) {}
 
 IndexWatch::~IndexWatch() = default;
@@ -52,8 +53,11 @@ void IndexWatch::watch(const std::stop_token& stop) {
         lock.unlock();
         auto found = grown(path_, *known);
         lock.lock();
-        if (found)
-            known_ = newer_ = std::move(found);
+        if (!found)
+            continue;
+        known_ = newer_ = std::move(found);
+        if (wake_)
+            wake_();
     }
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -21,7 +22,9 @@ class IndexWatch {
   public:
     static constexpr std::chrono::milliseconds kPeriod{250};
 
-    IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known);
+    /// @param wake called on its thread when the index has grown; may be null
+    IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known,
+               std::function<void()> wake = {});
     ~IndexWatch();
 
     /// The grown index, returned once; else null. Never waits.
@@ -31,6 +34,7 @@ class IndexWatch {
     void watch(const std::stop_token& stop);
 
     std::filesystem::path path_;
+    std::function<void()> wake_;
     std::mutex mutex_;
     std::condition_variable_any changed_;
     std::shared_ptr<const IndexFile> known_, newer_;

@@ -18,6 +18,7 @@ DeviceState merged(const DeviceState& first, const DeviceState& second);
 class CompositeInput final : public TrackedInput {
   public:
     void add(std::unique_ptr<TrackedInput> source) { sources_.push_back(std::move(source)); }
+    bool empty() const { return sources_.empty(); }
     InputState poll(Seconds now) override;
     InputState latch(Seconds now) override;
     void begin() override;

@@ -103,6 +103,11 @@ std::unique_ptr<GlContext> make_context(ContextKind kind, const ContextOptions& 
     throw render::Error("context of an unknown kind");
 }
 
+void GlContext::wait(const Wake& wake, interaction::Seconds longest) {
+    wake.wait(-1, longest);
+    wake.take();
+}
+
 std::unique_ptr<GlContext> offscreen_beside(GlContext& drawing, glm::ivec2 size) {
     return std::make_unique<BesideContext>(drawing, size);
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "interaction/input/window_event.h"
+#include "interaction/pose.h"
 #include "render/gl/gl.h"
 #include "stereo/context/native_gl.h"
+#include "stereo/context/wake.h"
 
 #include <glm/vec2.hpp>
 
@@ -55,6 +57,11 @@ class GlContext {
     /// Makes the window cover its monitor, or returns it to its place before.
     virtual void toggle_fullscreen() {}
     virtual std::vector<interaction::WindowEvent> poll_events() = 0;
+    /// Waits until there is something to poll (in any window), somebody wakes, or the time is over.
+    /// It may return early. A gamepad is looked at 30 times a second.
+    virtual void wait(const Wake& wake, interaction::Seconds longest);
+    /// Whether the window system has lost what the window showed since the last call.
+    virtual bool take_damage() { return false; }
     /// Files that were dropped onto the window since the last call.
     virtual std::vector<std::filesystem::path> take_dropped() { return {}; }
     /// The window system's handles of the context.

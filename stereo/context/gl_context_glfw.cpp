@@ -2,6 +2,7 @@
 #include "stereo/context/display_loss.h"
 #include "stereo/context/gl_context_backends.h"
 #include "stereo/context/gl_context_glfw_native.h"
+#include "stereo/context/window_events.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -118,6 +121,20 @@ bool same(const GamepadEvent& a, const GamepadEvent& b) {
            std::equal(std::begin(a.axes), std::end(a.axes), b.axes);
 }
 
+/// Whether the axes differ by no more than sticks tremble while nobody touches them.
+bool about_the_same(const GamepadEvent& a, const GamepadEvent& b) {
+    constexpr float kTremble = 0.05f;
+    return a.present == b.present && a.buttons == b.buttons &&
+           std::equal(std::begin(a.axes), std::end(a.axes), b.axes,
+                      [](float one, float other) { return std::abs(one - other) <= kTremble; });
+}
+
+/// Counts what GLFW tells of any window; static as in `glfw_complaint`.
+unsigned& glfw_events() {
+    static unsigned count = 0;
+    return count;
+}
+
 /// The place of a window before it covered its monitor, in screen units.
 struct WindowedPlace {
     glm::ivec2 corner{100}, size{1280, 720};
@@ -222,6 +239,26 @@ class GlfwContext final : public GlContext {
             events_.push_back(gamepad_ = gamepad);
         return std::exchange(events_, {});
     }
+    void wait(const Wake& wake, Seconds longest) override {
+        using Clock = std::chrono::steady_clock;
+        constexpr Seconds kLook{1.0 / 30};
+        constexpr Seconds kLookForNew{1}; // GLFW finds them only when it is asked for events
+        const auto begun = Clock::now();
+        const unsigned before = glfw_events();
+        for (;;) {
+            const GamepadEvent gamepad = first_gamepad();
+            const Seconds left = longest - (Clock::now() - begun);
+            if (!about_the_same(gamepad, gamepad_) || left <= Seconds(0))
+                return;
+            const Seconds look = gamepad.present ? kLook : kLookForNew;
+            if (wait_for_window_events(wake, std::min(left, look)))
+                return;
+            glfwPollEvents();
+            if (glfw_events() != before)
+                return;
+        }
+    }
+    bool take_damage() override { return std::exchange(damaged_, false); }
     std::vector<std::filesystem::path> take_dropped() override {
         return std::exchange(dropped_, {});
     }
@@ -262,6 +299,7 @@ class GlfwContext final : public GlContext {
         return *static_cast<GlfwContext*>(glfwGetWindowUserPointer(window));
     }
     static void push(GLFWwindow* window, const WindowEvent& event) {
+        ++glfw_events();
         context_of(window).events_.push_back(event);
     }
 
@@ -294,11 +332,21 @@ class GlfwContext final : public GlContext {
             push(window, ScrollEvent{static_cast<float>(dx), static_cast<float>(dy)});
         });
         glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+            ++glfw_events();
             GlfwContext& context = context_of(window);
             context.dropped_.insert(context.dropped_.end(), paths, paths + count);
         });
         glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
             push(window, FocusEvent{focused == GLFW_TRUE});
+        });
+        glfwSetWindowCloseCallback(window_, [](GLFWwindow*) { ++glfw_events(); });
+        glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) {
+            ++glfw_events();
+            context_of(window).damaged_ = true;
+        });
+        glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
+            ++glfw_events();
+            context_of(window).damaged_ = true;
         });
     }
 
@@ -309,7 +357,8 @@ class GlfwContext final : public GlContext {
     GamepadEvent gamepad_{};
     WindowedPlace before_;
     bool stereo_buffers_ = false;
-    bool super_ = false; ///< is held with the last key
+    bool super_ = false;   ///< is held with the last key
+    bool damaged_ = false; ///< what it showed is lost
 };
 
 } // namespace

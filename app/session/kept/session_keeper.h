@@ -6,6 +6,7 @@
 #include "interaction/pose.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ class SessionKeeper {
 
     /// Whether `update` would look at the session now.
     bool is_due(interaction::Seconds now) const { return now >= next_; }
+    interaction::Seconds due() const { return next_; } ///< when it will be
+    /// Sets the function that is called, on another thread, when there is a message.
+    void set_wake(std::function<void()> wake) { writing_.set_wake(std::move(wake)); }
     /// Saves the session if a save is due and it has changed. Called once a frame.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
                 interaction::Seconds now, const Arrays& arrays = {});

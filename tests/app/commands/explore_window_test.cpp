@@ -132,6 +132,37 @@ TEST_F(ExploreWindow, OpensFilesOfValuesThatAreDroppedOntoIt) {
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
 }
 
+TEST_F(ExploreWindow, ComesToRestAndIsWokenByAKeyAndBySignals) {
+    const auto program = explore({"--record", file("walk.jsonl")});
+    // A loop that goes on adds a frame to the recording each time. The test's limit ends a hang.
+    const auto rests = [this] {
+        for (std::string before = "none", now; now != before;) {
+            before = std::exchange(now, folder_.read("walk.jsonl.part"));
+            std::this_thread::sleep_for(std::chrono::seconds(2));
+            now = folder_.read("walk.jsonl.part");
+        }
+    };
+    rests();
+    screen_.xdotool({"key", "2"});
+    while (folder_.read("walk.jsonl.part").find("\"fast\"") == std::string::npos)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    rests();
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
+    EXPECT_FALSE(read_recording(file("walk.jsonl")).frames.empty());
+}
+
+TEST_F(ExploreWindow, ShowsAgainWhatTheServerHasLost) {
+    const auto program = explore({});
+    ASSERT_TRUE(test_support::eventually([&] { return is_title(200); }));
+    screen_.xdotool({"search", "--name", "Isochron", "windowunmap", "--sync"});
+    ASSERT_TRUE(test_support::eventually([&] { return !is_title(200); }));
+    screen_.xdotool({"search", "--name", "Isochron", "windowmap", "--sync"});
+    EXPECT_TRUE(test_support::eventually([&] { return is_title(200); }));
+    program->signal(SIGTERM);
+    EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
+}
+
 TEST_F(ExploreWindow, EndsWithItsDisplayAndKeepsTheRecording) {
     const auto program = explore({"--record", file("walk.jsonl")});
     screen_.xdotool({"key", "2"});

@@ -46,6 +46,18 @@ TEST(BackgroundWork, AFailureIsToldAndDoesNotStopTheRest) {
     EXPECT_THAT(work.messages(), ElementsAre("disk full", "saved"));
 }
 
+TEST(BackgroundWork, WakesForAMessageAndNotForEveryTask) {
+    int wakes = 0; // by the worker alone, until it has finished
+    BackgroundWork work;
+    work.set_wake([&wakes] { ++wakes; });
+    for (int i = 0; i < 5; ++i)
+        work.post([] { return std::string(); });
+    work.post([] { return std::string("saved"); });
+    work.post([]() -> std::string { throw std::runtime_error("disk full"); });
+    EXPECT_THROW(work.finish(), index::Error);
+    EXPECT_EQ(wakes, 2);
+}
+
 TEST(BackgroundWork, LeavingDoesWhatWasPosted) {
     int done = 0;
     {

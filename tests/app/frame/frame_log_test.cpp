@@ -39,6 +39,20 @@ TEST(FrameLog, GpuTimesReachTheirFramesLater) {
     EXPECT_EQ(log.known(&FrameReport::gpu).worst, 8);
 }
 
+TEST(FrameLog, TimeInWhichNothingWasToBeDoneIsNoFramesTime) {
+    FrameLog log;
+    double time = 0;
+    for (int i = 0; i < 10; ++i) {
+        FrameReport frame = frame_with(Footprint::quad, QualityReason::fits);
+        frame.after_wait = i == 5;
+        frame.time = interaction::Seconds(time += frame.after_wait ? 3600 : 0.02);
+        log.add(frame);
+    }
+    EXPECT_NEAR(log.frames_per_second(0), 0, 1e-9);
+    EXPECT_NEAR(log.frames_per_second(10), 50, 1e-6);
+    EXPECT_NEAR(log.frames_per_second(5), 50, 1e-6);
+}
+
 TEST(FrameLog, SaysHowOftenTheSurfaceItselfWasShownInMotionAndHowSoonAtRest) {
     FrameLog log;
     const auto add = [&](double time, Footprint footprint, QualityReason reason,

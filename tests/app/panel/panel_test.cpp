@@ -104,7 +104,7 @@ TEST_F(PanelTest, MeasurementsAreSaidInWords) {
                      .stats = stats_,
                      .asked = asked_,
                      .frame = frame_,
-                     .work = {.frames_per_second = 59.6,
+                     .work = {.frames = {.times = {}, .per_second = 59.6},
                               .reading = {.bytes = 1 << 21, .held = 1 << 20, .budget = 1 << 30}},
                      .notes = {.failure = "the disk is gone", .message = "written to a.png"},
                      .controls = controls_};

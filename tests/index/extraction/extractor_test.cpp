@@ -20,6 +20,26 @@ namespace {
 
 using test_support::eventually;
 
+TEST(Extractor, WakesWhenASearchHasEndedOneWayOrTheOther) {
+    std::counting_semaphore<> woken{0};
+    HeldExtraction held;
+    Extractor extractor(
+        [extract = held.extract()](const SurfacesQuery& query, std::stop_token stop) {
+            ExtractionPtr made = extract(query, std::move(stop));
+            if (query.step == 2)
+                throw Error("unreadable");
+            return made;
+        });
+    extractor.set_wake([&woken] { woken.release(); });
+    for (const std::uint32_t step : {1u, 2u}) {
+        extractor.request({{step, {0.5}}, {}});
+        held.let_go();
+        woken.acquire(); // the test's limit ends a hang
+        EXPECT_FALSE(extractor.busy()) << "there is something to take by then";
+    }
+    EXPECT_TRUE(extractor.failure());
+}
+
 TEST(Extractor, AnswersWhatIsAsked) {
     Extractor extractor(
         [](const SurfacesQuery& query, std::stop_token) { return empty_extraction(query); });

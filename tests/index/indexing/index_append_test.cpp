@@ -295,10 +295,11 @@ TEST_F(IndexAppendTest, WhoHasTheIndexOpenGoesOnWithIt) {
     EXPECT_EQ(grown(path, *old)->info().steps(), 6u);
     EXPECT_FALSE(grown(path, *now)) << "it is the same";
     EXPECT_FALSE(grown(folder.path() / "none", *old));
-    IndexWatch watch(path, old);
-    std::shared_ptr<const IndexFile> newer;
-    while (!newer) // within some periods of the watch
-        newer = watch.take();
+    std::promise<void> woken;
+    IndexWatch watch(path, old, [&woken] { woken.set_value(); });
+    woken.get_future().wait(); // the test's limit ends a hang
+    const auto newer = watch.take();
+    ASSERT_TRUE(newer);
     EXPECT_EQ(newer->info().steps(), 6u);
     EXPECT_FALSE(watch.take()) << "once";
     const TestField other({20, 19, 18}, 7, ValueType::u8,

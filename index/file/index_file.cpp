@@ -2,7 +2,6 @@
 #include "index/file/index_file.h"
 
 #include "index/file/detail_levels.h"
-#include "index/file/index_states.h"
 #include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"

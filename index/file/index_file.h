@@ -193,6 +193,11 @@ inline std::shared_ptr<const IndexFile> array_of(const std::shared_ptr<const Ind
     return {file, &file->array(number)};
 }
 
+/// Opens the newest state. If the file grows meanwhile, so that the parts that were read belong to
+/// different states, starts again. @throws Error as `IndexFile::open` does
+using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
+std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open, std::uint64_t cache_bytes = 0);
+
 /// Checks every checksum of all arrays: reads the whole file, and the sources that it refers to. What
 /// `IndexFile::verify` does.
 /// @throws Error naming the damaged section

@@ -2,21 +2,13 @@
 #pragma once
 
 #include "index/file/index_file.h"
-#include "index/system/byte_source.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 
 namespace isochron::index {
-
-/// Opens the newest state. If the file grows meanwhile, so that the parts that were read belong to
-/// different states, starts again. @throws Error as `IndexFile::open` does
-using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
-std::shared_ptr<const IndexFile> open_newest(const OpenBytes& open, std::uint64_t cache_bytes = 0);
 
 /// Whether this is the hash of the data, or was when the series had fewer steps. Knows every state
 /// from which the index has grown, and any number of first steps up to 16,384.

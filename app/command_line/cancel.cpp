@@ -11,16 +11,16 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
-std::atomic<const stereo::Wake*> woken_by_signals = nullptr;
-static_assert(std::atomic<const stereo::Wake*>::is_always_lock_free);
+std::atomic<const WakeOnSignal*> woken_by_signals = nullptr;
+static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
+
+} // namespace
 
 void note_signal(int signal) {
     came = signal;
-    if (const stereo::Wake* wake = woken_by_signals)
-        (*wake)();
+    if (const WakeOnSignal* const woken = woken_by_signals)
+        woken->wake_(woken->who_.get());
 }
-
-} // namespace
 
 CancelOnSignal::CancelOnSignal() {
     came = 0;
@@ -48,8 +48,9 @@ int CancelOnSignal::received() {
     return came;
 }
 
-WakeOnSignal::WakeOnSignal(std::shared_ptr<const stereo::Wake> wake) : wake_(std::move(wake)) {
-    woken_by_signals = wake_.get();
+WakeOnSignal::WakeOnSignal(std::shared_ptr<const void> who, void (*wake)(const void* who))
+    : who_(std::move(who)), wake_(wake) {
+    woken_by_signals = this;
 }
 
 WakeOnSignal::~WakeOnSignal() {

@@ -1,8 +1,6 @@
 // Ctrl-C ends long work at its next report of progress, so that the work can clean up.
 #pragma once
 
-#include "stereo/context/wake.h"
-
 #include <memory>
 #include <stdexcept>
 
@@ -35,16 +33,22 @@ class CancelOnSignal {
     struct sigaction previous_[3];
 };
 
+void note_signal(int signal); ///< the handler
+
 /// While it lives, a signal that is noted also wakes whoever waits. Only one may live at a time.
 class WakeOnSignal {
   public:
-    explicit WakeOnSignal(std::shared_ptr<const stereo::Wake> wake);
+    /// @param who is woken, and lives as long as this
+    /// @param wake is called with `who` in the signal handler, so it must be safe there
+    WakeOnSignal(std::shared_ptr<const void> who, void (*wake)(const void* who));
     ~WakeOnSignal();
     WakeOnSignal(const WakeOnSignal&) = delete;
     WakeOnSignal& operator=(const WakeOnSignal&) = delete;
 
   private:
-    std::shared_ptr<const stereo::Wake> wake_;
+    friend void note_signal(int signal);
+    std::shared_ptr<const void> who_;
+    void (*wake_)(const void* who);
 };
 
 } // namespace isochron::app

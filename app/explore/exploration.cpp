@@ -15,6 +15,7 @@
 #include "index/system/new_file.h"
 #include "interaction/recording/recording.h"
 #include "stereo/context/display_loss.h"
+#include "stereo/context/wake.h"
 #include "stereo/loading_picture.h"
 
 #include <fmt/format.h>
@@ -156,7 +157,7 @@ std::optional<std::string> Exploration::run() {
     BackgroundWork remembering; // no frame waits for that disk
     LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
                   session_->outputs().headset());
-    const WakeOnSignal ends(live.wake());
+    const WakeOnSignal ends(live.wake(), stereo::Wake::call);
     session_->set_clock(live.clock());
     if (job_.leads())
         lead(live);

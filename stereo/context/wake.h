@@ -20,6 +20,8 @@ class Wake {
 
     /// Ends the wait that goes on, or else the next one. Safe in a signal handler.
     void operator()() const noexcept;
+    /// The same for what knows it by its address alone, as signal handlers do.
+    static void call(const void* wake) noexcept { (*static_cast<const Wake*>(wake))(); }
     /// Whether somebody has called it since the last time.
     bool take() const noexcept;
     /// Readable while `take` would return true.

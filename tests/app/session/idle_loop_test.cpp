@@ -185,7 +185,7 @@ TEST_F(IdleLoop, AMessageFromTheBackgroundWakesAndGoesWhenItsTimeIsOver) {
 TEST_F(IdleLoop, ASignalEndsTheWait) {
     const CancelOnSignal signals;
     std::optional<WakeOnSignal> ends;
-    prepare_ = [&](LiveLoop& live) { ends.emplace(live.wake()); };
+    prepare_ = [&](LiveLoop& live) { ends.emplace(live.wake(), stereo::Wake::call); };
     each_frame_ = [] { return CancelOnSignal::received() != 0; };
     bool again = false;
     run({[&](const stereo::Wake& wake, Seconds) {

@@ -3,9 +3,9 @@
 // test says.
 #include "tests/support/session_fixture.h"
 
-#include "app/commands/cancel.h"
+#include "app/command_line/cancel.h"
 #include "app/session/live_loop.h"
-#include "index/build/appended_series.h"
+#include "index/indexing/appended_series.h"
 #include "index/system/growing_file.h"
 #include "index/system/team.h"
 #include "tests/support/memory_series.h"

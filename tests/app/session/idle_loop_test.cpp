@@ -61,7 +61,7 @@ class IdleLoop : public testing::Test {
     IdleLoop() : file_(build_sphere(folder_.path())) {
         config_ = read_config(test_support::source_root() + "/configs/desktop.toml");
         config_.installation.windows.front().size = window_.framebuffer_size();
-        config_.frame_rate_limit = 1000;
+        config_.rendering.frame_rate_limit = 1000;
     }
 
     /// Runs the loop: the happenings come one after another, each in a wait of the loop; then it ends.
@@ -235,7 +235,7 @@ TEST_F(IdleLoop, TimePlaysOnFromWhenItWasAskedForAndNotFromWhenTheWaitBegan) {
             missed = std::max(missed, last().missed);
         return --left == 0;
     };
-    config_.frame_budget_ms = 1000 * kFrame.count();
+    config_.quality.frame_budget_ms = 1000 * kFrame.count();
     const std::uint32_t steps = static_cast<std::uint32_t>(file_->info().steps());
     run({[&](auto&, Seconds) {
         now_ += Seconds(3600);

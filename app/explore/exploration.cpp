@@ -49,13 +49,16 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
         throw UsageError("file is required: an index made by `isochron build`");
     config.openxr.enabled = false; // nobody chooses a file in a headset
     const stereo::Windows windows = open_windows(options, config, job, nullptr);
+    const auto wake = std::make_shared<stereo::Wake>();
+    const WakeOnSignal ends(wake, stereo::Wake::call);
     const auto chosen =
         choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
                               .window = {.ended = [] { return CancelOnSignal::received() != 0; },
                                          .background = config.rendering.background,
                                          .frame_rate_limit = config.rendering.frame_rate_limit,
-                                         .font_scale = config.panel.font_scale}});
+                                         .font_scale = config.panel.font_scale,
+                                         .wake = wake}});
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
 }

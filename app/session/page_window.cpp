@@ -24,11 +24,19 @@ PageWindow::PageWindow(const stereo::Windows& windows, PageWindowOptions options
 
 std::vector<interaction::WindowEvent>
 PageWindow::frame(const std::function<void(glm::ivec2 size, interaction::Seconds time)>& lay_out) {
+    const auto longest = idle_.after(layer_.outlook(), now());
+    if (longest && options_.wake)
+        windows_.wait(*options_.wake, *longest);
     auto rest = layer_.feed(windows_.poll_events(), true);
+    if (windows_.take_damage())
+        shown_.reset();
     const glm::ivec2 size = window_.framebuffer_size();
     if (size.x > 0 && size.y > 0) { // a minimized window has none
         layer_.set_scale(panel_scale(window_, options_.font_scale, size.x));
-        lay_out(size, std::chrono::steady_clock::now() - start_);
+        lay_out(size, now());
+    }
+    if (size.x > 0 && size.y > 0 && (size != picture_.size() || layer_.digest() != shown_)) {
+        shown_ = layer_.digest();
         picture_.resize(size);
         picture_.clear(glm::vec4(options_.background, 1));
         picture_.bind();

@@ -1,6 +1,7 @@
 // A window with nothing but one page of the panel, before there are data to show.
 #pragma once
 
+#include "app/frame/idle_wait.h"
 #include "app/frame/pacer.h"
 #include "app/panel/operator_window.h"
 #include "render/gl/gl.h"
@@ -14,6 +15,8 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace isochron::app {
@@ -24,6 +27,9 @@ struct PageWindowOptions {
     glm::vec3 background{0.0f};   ///< sRGB
     double frame_rate_limit = 60; ///< [Hz]
     float font_scale = 1;         ///< times what the desktop asks for
+    /// Ends the wait of a page on which only the user changes something. Null: the page may change
+    /// at any time, so it never waits.
+    std::shared_ptr<const stereo::Wake> wake = nullptr;
 };
 
 /// Draws in the first of the windows, whose context is current from then on.
@@ -33,7 +39,8 @@ class PageWindow {
     PageWindow(const stereo::Windows& windows, PageWindowOptions options);
 
     PanelLayer& layer() { return layer_; }
-    /// Passes events to the page and makes one frame, at the window's pace.
+    /// Passes events to the page and makes one frame, at the window's pace, or once something
+    /// happens. It is presented if it looks different.
     /// @param lay_out lays out the page in a picture of this size, at this time since the start
     /// @return the other events: those that the page does not use
     std::vector<interaction::WindowEvent>
@@ -51,6 +58,10 @@ class PageWindow {
     render::RenderTarget picture_;
     stereo::Presenter presenter_;
     Pacer pacer_;
+    IdleWait idle_;
+    std::optional<std::size_t> shown_; ///< digest of the layout that the window shows
+    interaction::Seconds now() const { return std::chrono::steady_clock::now() - start_; }
+
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

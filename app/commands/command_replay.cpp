@@ -108,7 +108,7 @@ void guard_files(const Options& options, const interaction::Recording& recording
         for (const auto& entry : fs::directory_iterator(folder, none)) {
             const fs::path& path = entry.path();
             const std::string name = path.stem().string();
-            if (path.extension() == "." + options.format &&
+            if (entry.is_regular_file(none) && path.extension() == "." + options.format &&
                 std::ranges::any_of(suffixes, [&](const std::string& suffix) {
                     return name.ends_with(suffix) &&
                            stems.contains(name.substr(0, name.size() - suffix.size()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/image.h"
+#include "stereo/image_module/picture_format.h"
 
 #include <cstddef>
 #include <span>
@@ -9,8 +10,6 @@
 #include <vector>
 
 namespace isochron::stereo::image_module {
-
-enum class PictureFormat { png, exr, tiff, jpeg };
 
 /// @param note stored unchanged in the file; empty: none
 /// @param bytes takes the whole file

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/gl/image.h"
-#include "stereo/image_module/image_module.h"
+#include "stereo/image_module/picture_format.h"
 
 #include <cstddef>
 #include <span>

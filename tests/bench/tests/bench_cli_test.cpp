@@ -76,7 +76,7 @@ TEST_F(BenchCommand, MeasuresAGivenIndex) {
                "--lattice", "16,32", "--max-variation", "1", "--json", "a.json"});
     ASSERT_EQ(result.status, 0) << result.err;
     const auto j = nlohmann::json::parse(folder.read("a.json"));
-    ASSERT_EQ(j.at("rows").size(), 14u);
+    ASSERT_EQ(j.at("rows").size(), 13u);
     for (const auto& row : j.at("rows")) {
         EXPECT_EQ(row.at("data"), "balls");
         EXPECT_EQ(row.at("type"), "f32");

@@ -61,9 +61,9 @@ void StepSlab::fit(const StepView& step) {
     step_ = &step;
     chunks_ = &step.chunk_grid();
     plane_cells_ = step.grid().cells()[0] * step.grid().cells()[1];
-    if (const std::uint64_t needed = bytes(step.grid(), step.type()); needed > room_) {
-        values_ = large_memory(needed);
-        room_ = needed;
+    if (const std::uint64_t wanted = bytes(step.grid(), step.type()); wanted > room_) {
+        values_ = large_memory(wanted);
+        room_ = wanted;
     }
 }
 

@@ -23,7 +23,7 @@ namespace isochron::index {
 struct MeshWishes {
     bool normals = false;
     /// Number of the array to color by (ColorSource) whose values are wanted.
-    std::optional<std::size_t> values;
+    std::optional<std::size_t> values = std::nullopt;
 };
 
 /// Every cut edge of the grid has one point; CellMesh (index/surface/cell_mesh.h) says more. The

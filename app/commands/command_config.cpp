@@ -70,7 +70,7 @@ void import(ImportOptions options) {
         fmt::print(stderr, "note: {}\n", note);
     for (const ConfigProblem& problem : problems_of(config))
         if (asks_for_tracker(problem))
-            fmt::print(stderr, "note: {}: {}: its table is to be added (docs/TRACKERS.md)\n",
+            fmt::print(stderr, "note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
                        config.name, problem.text);
         else
             fmt::print(stderr, "{}\n", line_of(problem, config));

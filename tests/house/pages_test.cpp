@@ -183,6 +183,16 @@ TEST(Pages, OptionsThatNothingHasAreFound) {
               (Findings{"README.md: --loud", "README.md: --in"}));
 }
 
+TEST(Pages, OfTheGuideAreAllInItsContentsAndInTheSite) {
+    const std::string contents = text_of_page(checkout() / "docs/README.md");
+    const std::string site = text_of_page(checkout() / "packaging/mkdocs.yml");
+    for (const std::string& page : pages_of(checkout()))
+        if (const std::string name = page.substr(page.find('/') + 1); name.starts_with("guide/")) {
+            EXPECT_NE(contents.find("(" + name + ")"), std::string::npos) << name;
+            EXPECT_NE(site.find(": " + name + "\n"), std::string::npos) << name;
+        }
+}
+
 TEST(Pages, TheReadmeIsAFrontPage) {
     const std::string page = text_of_page(checkout() / "README.md");
     EXPECT_LE(std::ranges::count(page, '\n'), 150);

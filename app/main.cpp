@@ -20,9 +20,12 @@ int main(int argc, char** argv) {
     using namespace isochron::app;
     return run_program({.name = "isochron",
                         .description = "Explore time-varying volume data immersively.",
-                        .version_details = version_details},
-                       {add_build, add_query, add_change, add_info, add_verify, add_explore,
-                        add_replay, add_reproduce, add_movie, add_generate, add_config, add_manual,
+                        .version_details = version_details,
+                        .examples = {"isochron build 'run42/*.vti' -o run42.isochron",
+                                     "isochron explore run42.isochron"},
+                        .first_commands = 5},
+                       {add_info, add_build, add_explore, add_replay, add_movie, add_query,
+                        add_change, add_verify, add_reproduce, add_generate, add_config, add_manual,
                         add_completion},
                        argc, argv);
 }

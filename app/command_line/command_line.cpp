@@ -1,7 +1,8 @@
-// The command line, through CLI11; the only source that includes it.
+// The command line, through CLI11; besides command_help.cpp the only source that includes it.
 #include "app/command_line/command_line.h"
 
 #include "app/command_line/cancel.h"
+#include "app/command_line/command_help.h"
 #include "app/text.h"
 #include "app/version.h"
 
@@ -17,7 +18,6 @@
 #include <filesystem>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -166,6 +166,10 @@ Option Command::flag(const std::string& names, bool& value, const std::string& h
     return Option(*app_->add_flag(names, value, help));
 }
 
+void Command::examples(const std::vector<std::string>& lines) {
+    add_examples(*app_, lines);
+}
+
 void Command::footer(const std::string& text) {
     app_->footer(text);
 }
@@ -183,50 +187,6 @@ std::vector<std::string> Command::given() const {
             words.push_back(option->get_positional() ? value : option->get_name() + "=" + value);
     return words;
 }
-
-namespace {
-
-/// The words of "{a,b,c}" in CLI11's description of a value; empty if it lists none.
-std::vector<std::string> listed_words(const std::string& shown) {
-    std::vector<std::string> words;
-    const std::size_t begin = shown.find('{');
-    const std::size_t end = shown.find('}', begin);
-    if (begin == std::string::npos || end == std::string::npos)
-        return words;
-    std::istringstream list(shown.substr(begin + 1, end - begin - 1));
-    for (std::string word; std::getline(list, word, ',');)
-        words.push_back(word);
-    return words;
-}
-
-OptionReference reference_of(const CLI::Option& option) {
-    OptionReference reference;
-    for (const std::string& name : option.get_snames())
-        reference.names.push_back("-" + name);
-    for (const std::string& name : option.get_lnames())
-        reference.names.push_back("--" + name);
-    if (reference.names.empty())
-        reference.value = option.get_name();
-    else if (option.get_expected_max() > 0)
-        reference.value = option.get_type_name();
-    reference.words = listed_words(option.get_type_name());
-    reference.help = option.get_description();
-    reference.heading = reference.names.empty() ? "Arguments" : option.get_group();
-    reference.required = option.get_required();
-    return reference;
-}
-
-CommandReference reference_of(const CLI::App& app) {
-    CommandReference reference{app.get_name(), app.get_description(), app.get_footer(), {}, {}};
-    for (const CLI::Option* option : app.get_options())
-        if (!option->get_group().empty())
-            reference.options.push_back(reference_of(*option));
-    for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; }))
-        reference.commands.push_back(reference_of(*below));
-    return reference;
-}
-
-} // namespace
 
 CommandReference Command::reference() const {
     return reference_of(*app_);
@@ -356,9 +316,14 @@ int parse_and_run(const ProgramText& text,
                                          text.version_details ? text.version_details() : ""));
     program.require_subcommand(1);
     program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
+    show_examples(program);
+    if (!text.examples.empty())
+        add_examples(program, text.examples);
     Command root(program);
     for (const auto add : commands)
         add(root);
+    if (text.first_commands > 0)
+        begin_with_first(program, text.first_commands);
     try {
         program.parse(arguments_from(program, argc, argv));
     } catch (const CLI::Success& request) {

@@ -1,4 +1,4 @@
-// Subcommands and their options; only command_line.cpp includes the parser's library.
+// Subcommands and their options; only command_line.cpp and command_help.cpp include the parser's library.
 //
 //     void add_verify(Command& program) {
 //         auto path = std::make_shared<std::filesystem::path>();
@@ -89,6 +89,8 @@ class Command {
     template <class T>
     Option option(const std::string& names, T& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);
+    /// Commands with which the command's help begins, as a user types them.
+    void examples(const std::vector<std::string>& lines);
     /// Text below the options in the command's help.
     void footer(const std::string& text);
     void on_run(std::function<void()> run);
@@ -108,6 +110,9 @@ struct ProgramText {
     const char* description;
     std::string (
         *version_details)(); ///< what --version prints behind name and version; may be null
+    std::vector<std::string> examples{}; ///< commands with which help begins
+    /// So many commands are listed before the others, under a heading of their own.
+    std::size_t first_commands = 0;
 };
 
 /// Parses the arguments, runs the one subcommand that they name, and turns errors into one line.

@@ -20,7 +20,8 @@ struct OptionReference {
 struct CommandReference {
     std::string name; ///< its last word: `sphere` of `isochron generate sphere`
     std::string help;
-    std::string footer; ///< plain text below the options
+    std::vector<std::string> examples; ///< commands as a user types them
+    std::string footer;                ///< plain text below the options
     std::vector<OptionReference> options;
     std::vector<CommandReference> commands;
 };

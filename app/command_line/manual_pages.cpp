@@ -90,6 +90,9 @@ std::string page(const CommandPath& path, const std::string& version,
                                    roff(title), version, roff(page_name(path)),
                                    roff(command.help.substr(0, command.help.find('.'))),
                                    synopsis(path), roff(command.help));
+    if (!command.examples.empty())
+        text += fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n",
+                            roff(fmt::format("{}", fmt::join(command.examples, "\n"))));
     if (!command.commands.empty()) {
         text += ".SH COMMANDS\n";
         for (const CommandReference& below : command.commands)

@@ -185,6 +185,8 @@ void add_build(Command& program) {
     auto arguments = std::make_shared<BuildArguments>();
     Command command =
         program.subcommand("build", "Build an index of a series of volume files: one file.");
+    command.examples({"isochron build 'run42/*.vti' -o run42.isochron",
+                      "isochron build 'run42/*.vti' -o run42.isochron --append"});
     command
         .option(
             "files", arguments->files,

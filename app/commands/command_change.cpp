@@ -128,6 +128,9 @@ void add_change(Command& program) {
     Command command =
         program.subcommand("change", "List the cells that become active, and those that stop being "
                                      "active, between two steps or isovalues.");
+    command.examples({"isochron change run42.isochron --isovalue 100 --step 0 --to-step 1",
+                      "isochron change run42.isochron --isovalue 100 --step 0 --to-step 1 --added "
+                      "come.bin --removed gone.bin"});
     command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
     command.option("--array", arguments->array,
                    "Array to search, if the index has several (default: its first)");

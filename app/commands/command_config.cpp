@@ -70,7 +70,7 @@ void import(ImportOptions options) {
         fmt::print(stderr, "note: {}\n", note);
     for (const ConfigProblem& problem : problems_of(config))
         if (asks_for_tracker(problem))
-            fmt::print(stderr, "note: {}: {}: its table is to be added (docs/TRACKERS.md)\n",
+            fmt::print(stderr, "note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
                        config.name, problem.text);
         else
             fmt::print(stderr, "{}\n", line_of(problem, config));
@@ -80,10 +80,15 @@ void import(ImportOptions options) {
 
 void add_config(Command& program) {
     Command config = program.subcommand("config", "Import configurations and print their schema.");
+    config.examples({"isochron config import cave.pvx -o my-cave.toml",
+                     "isochron config schema > isochron.schema.json"});
     config.require_subcommand();
     auto options = std::make_shared<ImportOptions>();
     Command command =
         config.subcommand("import", "Convert ParaView's .pvx file to a TOML configuration.");
+    command.examples(
+        {"isochron config import cave.pvx -o my-cave.toml",
+         "isochron config import cave.pvx -o my-cave.toml --unit 0.3048 --origin 0 1.6 0"});
     command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
     command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
     command.flag("--force", options->force,
@@ -103,6 +108,7 @@ void add_config(Command& program) {
     Command schema = config.subcommand(
         "schema",
         "Print the JSON schema of configurations; editors check and complete files with it.");
+    schema.examples({"isochron config schema", "isochron config schema > isochron.schema.json"});
     schema.on_run([] { fmt::print("{}", config_schema()); });
 }
 

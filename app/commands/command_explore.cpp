@@ -35,6 +35,7 @@ void add_explore(Command& program) {
     auto options = std::make_shared<ExploreOptions>();
     Command command =
         program.subcommand("explore", "Explore an index, or files of values, in a window, live.");
+    command.examples({"isochron explore run42.isochron", "isochron explore --check-config cave4"});
     add_explore_options(command, *options);
     command.on_run([options] {
         if (!only_describes(*options))

@@ -52,6 +52,7 @@ void run_info(const InfoArguments& given) {
 void add_info(Command& program) {
     auto arguments = std::make_shared<InfoArguments>();
     Command command = program.subcommand("info", "Describe an index, or the files of a series.");
+    command.examples({"isochron info 'run42/*.vti'", "isochron info run42.isochron --json"});
     command.option("files", arguments->sources.files, "Index, or files that `build` accepts")
         .required()
         .type_name("FILES");

@@ -24,6 +24,7 @@ void add_manual(Command& program) {
     auto options = std::make_shared<Options>();
     Command command = program.subcommand(
         "manual", "Write the manual pages of the program and of each command, for man(1).");
+    command.examples({"isochron manual ~/.local/share/man/man1", "isochron manual pages --force"});
     command.option("folder", options->folder, "Folder to write them to; made where it is missing")
         .required()
         .type_name("FOLDER");
@@ -48,6 +49,7 @@ void add_completion(Command& program) {
     auto shell = std::make_shared<std::string>();
     Command command = program.subcommand(
         "completion", "Print the script by which a shell completes commands and options.");
+    command.examples({"source <(isochron completion bash)", "isochron completion zsh > _isochron"});
     command.option("shell", *shell, "Which shell's").required().one_of(completed_shells());
     command.footer("For one session of bash: source <(isochron completion bash). Installed "
                    "programs are completed without.");

@@ -214,6 +214,8 @@ void add_movie(Command& program) {
     auto options = std::make_shared<MovieOptions>();
     Command command = program.subcommand(
         "movie", "Make a movie of a recording with ffmpeg, or write its frames.");
+    command.examples({"isochron movie walk.jsonl -o walk.mp4",
+                      "isochron movie walk.jsonl -o frames/ --stereo side_by_side"});
     add_replay_source(command, *options);
     command
         .option(

@@ -205,6 +205,9 @@ void add_query(Command& program) {
     auto arguments = std::make_shared<QueryArguments>();
     Command command = program.subcommand(
         "query", "Find the active cells of an isovalue at a step: min < isovalue <= max.");
+    command.examples(
+        {"isochron query run42.isochron --isovalue 100 --step 0",
+         "isochron query run42.isochron --isovalue 100 --step 0 --ids cells.bin --json"});
     command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
     command.option("--array", arguments->array,
                    "Array to search, if the index has several (default: its first)");

@@ -271,6 +271,8 @@ void add_replay(Command& program) {
     Command command = program.subcommand(
         "replay",
         "Replay a recording: write pictures, measure times, or play it live in a window.");
+    command.examples({"isochron replay walk.jsonl --stamps --out pictures",
+                      "isochron replay walk.jsonl --every 30 --caption --out series"});
     add_replay_source(command, *options);
     command.option("-o,--out", options->out, "Folder for the pictures; created if missing");
     command.option("--every", options->every, "Write a picture every N frames").positive();

@@ -228,6 +228,9 @@ void add_reproduce(Command& program) {
     auto options = std::make_shared<ReproduceOptions>();
     Command command = program.subcommand(
         "reproduce", "Draw a saved picture again from the settings stored in it, and compare.");
+    command.examples(
+        {"isochron reproduce pictures/stamp_00012_stamp-1.png",
+         "isochron reproduce pictures/stamp_00012_stamp-1.png --data run42.isochron -o again.png"});
     command
         .option("picture", options->picture,
                 "Picture (.png, .exr, .tiff or .jpg) written by isochron")

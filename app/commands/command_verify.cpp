@@ -40,6 +40,8 @@ void add_verify(Command& program) {
     auto path = std::make_shared<std::filesystem::path>();
     Command command = program.subcommand(
         "verify", "Check every checksum of an index; this reads the whole file.");
+    command.examples(
+        {"isochron verify run42.isochron", "isochron verify run42.isochron && echo intact"});
     command.option("file", *path, "Index").required().type_name("NAME.isochron");
     command.footer(
         "If the index refers to its source files, they are read too. Exit status: 0 intact, "

@@ -26,7 +26,7 @@ std::string footer() {
     for (const std::string& line : RoomCamera::documentation())
         text += "  " + line + "\n";
     text += "\nIn a cluster (mpirun -n N isochron explore ...) each process opens the windows of "
-            "its node;\nthe first one reads the devices. See docs/INSTALLATIONS.md.\n";
+            "its node;\nthe first one reads the devices. See docs/guide/clusters.md.\n";
     text += "\nExit status: 0 done, 1 bad input, 2 bad usage.";
     return text;
 }

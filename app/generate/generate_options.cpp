@@ -20,11 +20,15 @@ struct Request {
 };
 
 /// Adds `generate NAME` with the options that every series has.
+/// @param short_one the second example of its help: a series that is made in a moment
 /// @return its subcommand and request, to which the caller adds the series' own options
 template <class Series>
 std::pair<Command, std::shared_ptr<Request<Series>>>
-add_series(Command& generate_command, const std::string& description, const Run& run) {
+add_series(Command& generate_command, const std::string& description, const std::string& short_one,
+           const Run& run) {
     Command command = generate_command.subcommand(Series::kName, description);
+    const std::string name = Series::kName;
+    command.examples({"isochron generate " + name + " --out " + name, short_one});
     auto request = std::make_shared<Request<Series>>();
     command.option("-o,--out", request->dir, "Output folder; created if missing").required();
     command.option("--type", request->type, "Stored type: f32 (default), or u8 (rounded)")
@@ -54,14 +58,19 @@ void add_cube_options(Command& command, const std::shared_ptr<Request<Series>>& 
 
 void add_generate_options(Command& program, const Run& run) {
     Command command = program.subcommand("generate", "Make a demo series as .pvd and .vti files.");
+    command.examples({"isochron generate vorticity --out flow",
+                      "isochron generate sphere --out sphere --steps 5"});
     command.require_subcommand();
-    add_series<SphereSeries>(command, "A moving sphere, 61 x 50 x 60 vertices", run);
-    auto [vorticity, flow] =
-        add_series<VorticitySeries>(command, "Vorticity magnitude of decaying turbulence", run);
+    add_series<SphereSeries>(command, "A moving sphere, 61 x 50 x 60 vertices",
+                             "isochron generate sphere --out sphere --steps 5", run);
+    auto [vorticity, flow] = add_series<VorticitySeries>(
+        command, "Vorticity magnitude of decaying turbulence",
+        "isochron generate vorticity --out small --size 16 --steps 3", run);
     add_cube_options(vorticity, flow, 256);
     auto [fourier, modes] = add_series<FourierSeries>(
         command,
-        "Vorticity magnitude of random Fourier modes: turbulence of any size, made quickly", run);
+        "Vorticity magnitude of random Fourier modes: turbulence of any size, made quickly",
+        "isochron generate fourier --out small --size 32 --steps 2 --type u8", run);
     add_cube_options(fourier, modes, 1024);
     fourier.option("--modes", modes->series.modes, "How many modes")
         .between(std::size_t{1}, std::size_t{4096})

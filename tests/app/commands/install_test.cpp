@@ -75,11 +75,11 @@ TEST_F(Installed, HasAManualPageAndCompletionsForEachCommand) {
     const fs::path share = folder.path() / "tree" / "share";
     std::istringstream help(isochron({"--help"}).out);
     std::string line;
-    while (std::getline(help, line) && line != "Subcommands:") {
+    while (std::getline(help, line) && line != "Commands to begin with:") {
     }
     std::vector<std::string> commands;
     while (std::getline(help, line))
-        if (line.size() > 2 && line[2] != ' ')
+        if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
             commands.push_back(line.substr(2, line.find(' ', 2) - 2));
     ASSERT_GE(commands.size(), 10u);
     const std::string bash = folder.read("tree/share/bash-completion/completions/isochron");

@@ -1,0 +1,122 @@
+// Help begins with examples, and each of them works as it is written.
+#include "tests/app/commands/explore_fixture.h"
+
+#include "tests/support/child_process.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+/// The program beside a stand-in for ffmpeg, in a folder with what the examples speak of: a small
+/// series, a recording and a description of ParaView's.
+class HelpExamples : public testing::Test {
+  protected:
+    HelpExamples() {
+        folder_.write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\nwc -c > \"$last\"\n");
+        std::filesystem::permissions(folder_.path() / "bin/ffmpeg",
+                                     std::filesystem::perms::owner_all);
+        folder_.write("cave.pvx", "<pvx>\n<Machine Name=\"wall\" Geometry=\"800x600+0+0\" "
+                                  "LowerLeft=\"-4 0 -3\" LowerRight=\"4 0 -3\" "
+                                  "UpperRight=\"4 6 -3\"/>\n</pvx>\n");
+        write_recording();
+        environment_ = {"HOME=" + folder_.path().string(),
+                        "PATH=" + folder_.path().string() + "/bin:" + test_support::binary_root() +
+                            ":" + std::getenv("PATH")};
+    }
+
+    /// The first frames of the shipped recording, small, up to its first stamp.
+    void write_recording() {
+        std::ifstream shipped(test_support::source_root() + "/configs/demo.jsonl");
+        std::string text, line;
+        for (int i = 0; i < 16 && std::getline(shipped, line); ++i)
+            text += line + '\n';
+        for (const auto& [from, to] : {std::pair{"vorticity.isochron", "run42.isochron"},
+                                       {"[1920, 960]", "[128, 64]"},
+                                       {"\"stamps\":[\"settled\"]", "\"stamps\":[\"stamp-1\"]"}}) {
+            ASSERT_NE(text.find(from), std::string::npos) << from;
+            for (std::size_t at; (at = text.find(from)) != std::string::npos;)
+                text.replace(at, std::string(from).size(), to);
+        }
+        folder_.write("walk.jsonl", text);
+    }
+
+    ChildResult shell(const std::string& line) {
+        return run_child("/bin/bash", {"-c", line}, folder_.path(), {.environment = environment_});
+    }
+    std::string help(const std::string& command) { return shell(command + " --help").out; }
+
+    /// The lines below `heading` up to an empty one, without the spaces before them.
+    static std::vector<std::string> lines_below(const std::string& text,
+                                                const std::string& heading) {
+        std::istringstream lines(text);
+        std::vector<std::string> found;
+        std::string line;
+        while (std::getline(lines, line) && line != heading) {
+        }
+        while (std::getline(lines, line) && !line.empty())
+            if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
+                found.push_back(line.substr(2));
+        return found;
+    }
+    /// `command` and all commands below it.
+    std::vector<std::string> commands_of(const std::string& command) {
+        const std::string text = help(command);
+        std::vector<std::string> all{command};
+        for (const char* heading : {"Commands to begin with:", "More commands:", "Subcommands:"})
+            for (const std::string& line : lines_below(text, heading))
+                for (const std::string& below :
+                     commands_of(command + " " + line.substr(0, line.find(' '))))
+                    all.push_back(below);
+        return all;
+    }
+
+    TestFolder folder_;
+    std::vector<std::string> environment_;
+};
+
+TEST_F(HelpExamples, OfTheProgramAreBeforeTheFiveCommandsToBeginWith) {
+    const std::string text = help("isochron");
+    EXPECT_EQ(lines_below(text, "Examples:").size(), 2u);
+    EXPECT_LT(text.find("Examples:"), text.find("Usage:"));
+    std::vector<std::string> first;
+    for (const std::string& line : lines_below(text, "Commands to begin with:"))
+        first.push_back(line.substr(0, line.find(' ')));
+    EXPECT_EQ(first, (std::vector<std::string>{"info", "build", "explore", "replay", "movie"}));
+}
+
+TEST_F(HelpExamples, OfEveryCommandWorkAsTheyAreWritten) {
+    test_support::VirtualDisplay screen;
+    environment_.push_back(std::string("DISPLAY=") + std::getenv("DISPLAY"));
+    ASSERT_EQ(shell("isochron generate sphere --steps 3 -o run42").status, 0);
+    const std::vector<std::string> commands = commands_of("isochron");
+    EXPECT_GT(commands.size(), 17u);
+    for (const std::string& command : commands) {
+        const std::string text = help(command);
+        const std::vector<std::string> examples = lines_below(text, "Examples:");
+        EXPECT_EQ(examples.size(), 2u) << command;
+        EXPECT_LT(text.find("Examples:"), text.find("Usage:")) << command;
+        for (std::string example : examples) {
+            // The demo series take a while in full.
+            if (example.starts_with("isochron generate") &&
+                example.find("--steps") == std::string::npos)
+                example += example.find("sphere") == std::string::npos ? " --steps 1 --size 16"
+                                                                       : " --steps 1";
+            // A window is waited for, and closed.
+            if (example.starts_with("isochron explore run42"))
+                example += " & xdotool search --sync --onlyvisible --name Isochron; "
+                           "kill -TERM $!; wait $!; [ $? = 143 ]";
+            const ChildResult result = shell(example);
+            EXPECT_EQ(result.status, 0) << example << '\n' << result.err;
+        }
+    }
+}
+
+} // namespace
+} // namespace isochron::app

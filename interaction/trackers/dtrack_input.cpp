@@ -42,7 +42,8 @@ struct DTrackInput::State {
     DeviceClock clock;
     std::uint64_t malformed = 0;
 
-    explicit State(const DTrackOptions& options) : socket(options.endpoint), senders(options.from) {
+    explicit State(const DTrackOptions& options)
+        : socket(options.endpoint, options.ages), senders(options.from) {
         for (const DTrackDevice& each : options.devices)
             devices.push_back({each.kind, each.id, TrackedDevice(each.device)});
     }

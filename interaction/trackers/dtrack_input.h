@@ -22,6 +22,7 @@ struct DTrackOptions {
     Endpoint endpoint{"127.0.0.1", 5000};
     std::optional<Endpoint> from; ///< the only allowed sender; port 0: any port of that address
     std::vector<DTrackDevice> devices;
+    DatagramAges ages = DatagramAges::measured;
 };
 
 /// A datagram whose frame counter is not newer than the newest so far is dropped. The time of a

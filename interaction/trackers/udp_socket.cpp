@@ -122,7 +122,8 @@ std::optional<Endpoint> endpoint_from(const std::string& text) {
     return endpoint_of(canonical);
 }
 
-UdpSocket::UdpSocket(const Endpoint& endpoint) : endpoint_(endpoint), buffer_(kLongest, '\0') {
+UdpSocket::UdpSocket(const Endpoint& endpoint, DatagramAges ages)
+    : endpoint_(endpoint), buffer_(kLongest, '\0') {
     const Addresses address = resolve(endpoint.address, endpoint.port);
     if (!address)
         fail(endpoint, "expected a numeric IPv4 or IPv6 address of this machine");
@@ -131,7 +132,8 @@ UdpSocket::UdpSocket(const Endpoint& endpoint) : endpoint_(endpoint), buffer_(kL
         fail(endpoint, std::strerror(errno));
     const int on = 1;
     // Without time stamps a datagram counts as just received.
-    setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+    if (ages == DatagramAges::measured)
+        setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
     // An IPv6 address stands for IPv6 alone.
     if (address->ai_family == AF_INET6)
         setsockopt(socket_, IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);

@@ -31,12 +31,16 @@ struct Datagram {
 /// Decides whether to keep a datagram of this sender, which has waited for `age`.
 using Admission = std::function<bool(const Endpoint& sender, Seconds age)>;
 
+/// Whether the ages of datagrams are measured, by the kernel and the real clock, or are all 0, for
+/// callers with a clock of their own, such as tests.
+enum class DatagramAges : std::uint8_t { measured, none };
+
 /// A socket that is bound to one address and receives the datagrams that are sent there.
 class UdpSocket {
   public:
     static constexpr std::size_t kMostTaken = 1024; ///< per call of `take`
     /// @throws Error `udp 127.0.0.1:5000: Address already in use`
-    explicit UdpSocket(const Endpoint& endpoint);
+    explicit UdpSocket(const Endpoint& endpoint, DatagramAges ages = DatagramAges::measured);
     ~UdpSocket();
     UdpSocket(const UdpSocket&) = delete;
     UdpSocket& operator=(const UdpSocket&) = delete;

@@ -28,6 +28,7 @@ glm::dvec3 hand_at(int hand, double time) {
 DTrackOptions two_hands(bool predicted) {
     DTrackOptions options;
     options.endpoint = {"127.0.0.1", 0};
+    options.ages = DatagramAges::none; // the looks have a clock of their own
     for (int hand = 0; hand < 2; ++hand) {
         DTrackDevice flystick;
         flystick.kind = DTrackKind::flystick;

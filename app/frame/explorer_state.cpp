@@ -165,6 +165,17 @@ interaction::Commands ExplorerState::commands_to(const ExplorerState& target) co
     return changes;
 }
 
+interaction::Commands ExplorerState::way_to_start(const ExplorerState& start) const {
+    interaction::Commands way = commands_to(start);
+    way.quality.reset();
+    way.stereo.reset();
+    way.views.reset();
+    way.tools.reset();
+    way.steps.reset();
+    way.follow.reset();
+    return way;
+}
+
 double quantile(const index::IndexStats& stats, double share) {
     const auto& bins = stats.histogram;
     const auto total = std::accumulate(bins.begin(), bins.end(), std::uint64_t{0});

@@ -33,6 +33,8 @@ struct ExplorerState : interaction::Settings {
 
     /// Commands that lead to `target`: they set the fields that differ and can be undone.
     interaction::Commands commands_to(const ExplorerState& target) const;
+    /// Commands that lead back to the start state, except for displays, viewpoints and tools.
+    interaction::Commands way_to_start(const ExplorerState& start) const;
 
     /// The query for the cells: step, isovalues in the order of `isosurfaces`, and coloring.
     index::SurfacesQuery surfaces() const;

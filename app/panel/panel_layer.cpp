@@ -1,6 +1,7 @@
 // Runs Dear ImGui inside the program: feeds it events and draws its triangles.
 #include "app/panel/panel_layer.h"
 
+#include "app/panel/event_taker.h"
 #include "app/panel/panel_tools.h"
 #include "app/scene/font.h"
 #include "render/gl/limits.h"
@@ -26,128 +27,6 @@ using namespace interaction;
 
 constexpr Seconds kMessageShown{4.0};
 
-/// Keys that ImGui's text fields and sliders understand, and our names of them.
-constexpr std::pair<int, Key> kKeys[]{
-    {ImGuiKey_Tab, Key::tab},
-    {ImGuiKey_LeftArrow, Key::left},
-    {ImGuiKey_RightArrow, Key::right},
-    {ImGuiKey_UpArrow, Key::up},
-    {ImGuiKey_DownArrow, Key::down},
-    {ImGuiKey_Home, Key::home},
-    {ImGuiKey_End, Key::end},
-    {ImGuiKey_Delete, Key::del},
-    {ImGuiKey_Backspace, Key::backspace},
-    {ImGuiKey_Enter, Key::enter},
-    {ImGuiKey_Escape, Key::escape},
-    {ImGuiKey_A, Key{'A'}},
-    {ImGuiKey_C, Key{'C'}},
-    {ImGuiKey_V, Key{'V'}},
-    {ImGuiKey_X, Key{'X'}},
-    {ImGuiKey_Z, Key{'Z'}},
-};
-
-bool is_read(Key key) {
-    return std::ranges::any_of(kKeys, [key](const auto& each) { return each.second == key; });
-}
-
-/// Converts a place in the window to one in the panel's part of it. A place outside the window
-/// stays outside.
-glm::vec2 folded(glm::vec2 at, glm::ivec2 places) {
-    const glm::vec2 shown = at * glm::vec2(places);
-    return shown - glm::clamp(glm::floor(shown), glm::vec2(0.0f), glm::vec2(places - 1));
-}
-
-/// Takes one event into ImGui's state. The call returns whether the panel uses the event.
-struct Taker {
-    ImGuiIO& io;
-    const PanelArea& area;
-    std::uint32_t& late_releases;
-    std::optional<glm::vec2>& cursor;
-    glm::ivec2 places;   ///< number of panels in the window, see `repeat`
-    bool popups = false; ///< a popup or page is open, which Escape closes
-    bool& closes_popup;
-    NumberEntry& numbers;
-    std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
-    bool begun = false;        ///< a key or button went down among these events
-    bool clicked = false;      ///< one of them on the panel
-    bool typed = false;        ///< characters came among these events
-    std::set<Key> changed{};   ///< keys, of those that ImGui reads, with events among these
-
-    /// Whether ImGui would misread the event together with the earlier ones of this frame.
-    bool must_wait(const WindowEvent& event) const {
-        if (const auto* key = std::get_if<KeyEvent>(&event))
-            return clicked || (io.WantTextInput && is_read(key->key) &&
-                               (changed.contains(key->key) || (typed && key->down)));
-        if (std::holds_alternative<TextEvent>(event))
-            return clicked || (io.WantTextInput && !changed.empty());
-        return false;
-    }
-
-    /// Whether the panel takes mouse events. ImGui's own answer is from the last frame, but a quick
-    /// user moves and presses within one frame.
-    bool captures_mouse() const {
-        return io.WantCaptureMouse || area.contains(io.MousePos.x, io.MousePos.y);
-    }
-    bool operator()(const KeyEvent& event) {
-        const auto code = static_cast<std::size_t>(event.key);
-        begun = begun || event.down;
-        if (event.down)
-            numbers.press(event.key);
-        if (is_read(event.key))
-            changed.insert(event.key);
-        if (code < std::size(io.KeysDown))
-            io.KeysDown[code] = event.down;
-        if (event.key == Key::left_control || event.key == Key::right_control)
-            io.KeyCtrl = event.down;
-        if (event.key == Key::left_shift || event.key == Key::right_shift)
-            io.KeyShift = event.down;
-        if (event.key == Key::escape && event.down && event.alone() && popups && !io.WantTextInput)
-            return closes_popup = true;
-        return event.down && io.WantTextInput;
-    }
-    bool operator()(const TextEvent& event) {
-        typed = true;
-        if (io.WantTextInput)
-            numbers.type(event.character);
-        return io.WantTextInput;
-    }
-    bool operator()(const MouseButtonEvent& event) {
-        const auto button = static_cast<std::size_t>(event.button);
-        const std::uint32_t bit = 1u << button;
-        // ImGui sees the state once per frame: delay the release of a click within one frame.
-        begun = begun || event.down;
-        if (event.down)
-            pressed |= bit;
-        if (!event.down && (pressed & bit))
-            late_releases |= bit;
-        else
-            io.MouseDown[button] = event.down;
-        const bool taken = event.down && captures_mouse();
-        clicked = clicked || taken;
-        return taken;
-    }
-    bool operator()(const MouseMoveEvent& event) const {
-        const glm::vec2 at = folded({event.x, event.y}, places);
-        cursor = at;
-        io.MousePos = {at.x * io.DisplaySize.x, at.y * io.DisplaySize.y};
-        return false;
-    }
-    bool operator()(const ScrollEvent& event) const {
-        if (captures_mouse())
-            io.MouseWheel += event.dy;
-        return captures_mouse();
-    }
-    bool operator()(const FocusEvent& event) const {
-        if (!event.focused) {
-            std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
-            std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-            io.KeyCtrl = io.KeyShift = false;
-        }
-        return false;
-    }
-    bool operator()(const GamepadEvent&) const { return false; }
-};
-
 void style_dark_and_round() {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
@@ -169,7 +48,7 @@ PanelLayer::PanelLayer(const render::Gl& gl, float scale)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    for (const auto& [imgui_key, key] : kKeys)
+    for (const auto& [imgui_key, key] : keys_of_imgui())
         io.KeyMap[imgui_key] = static_cast<int>(key);
     style_dark_and_round();
     make_font_texture();
@@ -224,14 +103,14 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
         if (late_releases_ & (1u << button))
             io.MouseDown[button] = false;
     late_releases_ = 0;
-    Taker taker{.io = io,
-                .area = area_,
-                .late_releases = late_releases_,
-                .cursor = cursor_,
-                .places = places_,
-                .popups = has_popup(),
-                .closes_popup = closes_popup_,
-                .numbers = numbers_};
+    EventTaker taker{.io = io,
+                     .area = area_,
+                     .late_releases = late_releases_,
+                     .cursor = cursor_,
+                     .places = places_,
+                     .popups = has_popup(),
+                     .closes_popup = closes_popup_,
+                     .numbers = numbers_};
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     fed_ = !waiting_.empty();
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {

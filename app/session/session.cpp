@@ -88,21 +88,9 @@ interaction::ControlContext Session::control_context(const interaction::Ways& wa
             }};
 }
 
-/// Commands that lead back to the start state, except for displays, viewpoints and tools.
-Commands Session::way_to_start() const {
-    Commands way = state_.commands_to(home_);
-    way.quality.reset();
-    way.stereo.reset();
-    way.views.reset();
-    way.tools.reset();
-    way.steps.reset();
-    way.follow.reset();
-    return way;
-}
-
 Commands Session::commands_from(const interaction::InputState& input) {
     const std::size_t arrays = arrays_.names().size();
-    const Commands start = way_to_start();
+    const Commands start = state_.way_to_start(home_);
     std::optional<Commands> next_array;
     if (arrays > 1)
         next_array = way_to_array((arrays_.number(state_) + 1) % arrays);
@@ -177,21 +165,11 @@ PanelModel Session::panel_model(const FrameReport& report) const {
                      .searching = supply_.extractor().busy()},
             .notes = {.failure = failure()},
             .controls = controls,
-            .at_hand = devices_at_hand(),
+            .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
             .ways = {.undo = history_.undo(), .redo = history_.redo()},
             .head = outputs_.audience().viewers.empty() ? interaction::Pose{}
                                                         : outputs_.audience().viewers.front().head,
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
-}
-
-std::vector<interaction::DeviceKind> Session::devices_at_hand() const {
-    using enum interaction::DeviceKind;
-    std::vector<interaction::DeviceKind> kinds{mouse, keyboard};
-    if (!config_.devices.empty() || outputs_.headset())
-        kinds.push_back(hands);
-    if (note_.input.find("gamepad"))
-        kinds.push_back(gamepad);
-    return kinds;
 }
 
 void Session::warm_up() {
@@ -340,8 +318,8 @@ FrameOutlook Session::outlook() const {
         .busy = state_.playback.playing || last.extracting || sliced_.are_made() ||
                 captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
-        .final = last.final && !last.retries && scene_.cells().is_complete() &&
-                 !supply_.set_comes()};
+        .final =
+            last.final && !last.retries && scene_.cells().is_complete() && !supply_.set_comes()};
     return both(picture, panel_.outlook());
 }
 

@@ -161,7 +161,6 @@ class Session {
   private:
     std::size_t steps() const { return state_.known_steps(arrays_.file()->info().steps()); }
     interaction::ControlContext control_context(const interaction::Ways& ways) const;
-    interaction::Commands way_to_start() const;
     void obey(const interaction::Commands& commands, const interaction::InputState& input);
     void grow_with(const interaction::Commands& commands);
     interaction::InputState seen(const interaction::InputState& input, const Latch& latch,
@@ -173,7 +172,6 @@ class Session {
                     const SessionPanel::Facts& facts);
     void draw_aids();
     PanelModel panel_model(const FrameReport& report) const;
-    std::vector<interaction::DeviceKind> devices_at_hand() const;
     FrameAnswer answer() const;
     bool captures(const FrameReport& report);
 

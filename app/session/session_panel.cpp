@@ -8,6 +8,17 @@
 
 namespace isochron::app {
 
+std::vector<interaction::DeviceKind> kinds_at_hand(bool hands,
+                                                   const interaction::InputState& input) {
+    using interaction::DeviceKind;
+    std::vector<DeviceKind> kinds{DeviceKind::mouse, DeviceKind::keyboard};
+    if (hands)
+        kinds.push_back(DeviceKind::hands);
+    if (input.find("gamepad"))
+        kinds.push_back(DeviceKind::gamepad);
+    return kinds;
+}
+
 SessionPanel::SessionPanel(const Config& config, const Outputs& outputs)
     : config_(config), outputs_(outputs),
       over_(outputs.gl(), outputs.windows(), config_.panel.font_scale),

@@ -16,6 +16,11 @@
 
 namespace isochron::app {
 
+/// Kinds of devices that the help names: mouse and keyboard, hands if there are any, and a gamepad
+/// that is connected.
+std::vector<interaction::DeviceKind> kinds_at_hand(bool hands,
+                                                   const interaction::InputState& input);
+
 class SessionPanel {
   public:
     /// Share of a window's width for the panel in the room, if the head is emulated.

@@ -49,6 +49,7 @@
 #include "render/passes/text_pass.h"
 #include "stereo/cluster.h"
 #include "stereo/context/gl_context.h"
+#include "stereo/context/wake.h"
 #include "stereo/display.h"
 #include "stereo/headset.h"
 #include "stereo/screen.h"
@@ -240,6 +241,14 @@ void headset_example(const std::unique_ptr<Headset>& headset, interaction::Secon
 
 void screen_example(const Screen& screen, const interaction::Pose& head) {
 #include "stereo/screen.example"
+}
+
+void wake_example(const Windows& windows) {
+    using interaction::Seconds;
+    struct {
+        void set_wake(const std::function<void()>&) {}
+    } worker;
+#include "stereo/context/wake.example"
 }
 
 void windows_example(const Installation& installation) {

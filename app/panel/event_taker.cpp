@@ -1,0 +1,126 @@
+// How ImGui's state follows events: one change of each key and button a frame.
+#include "app/panel/event_taker.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <variant>
+
+namespace isochron::app {
+namespace {
+
+using namespace interaction;
+
+/// Keys that ImGui's text fields and sliders understand, and our names of them.
+constexpr std::pair<int, Key> kKeys[]{
+    {ImGuiKey_Tab, Key::tab},
+    {ImGuiKey_LeftArrow, Key::left},
+    {ImGuiKey_RightArrow, Key::right},
+    {ImGuiKey_UpArrow, Key::up},
+    {ImGuiKey_DownArrow, Key::down},
+    {ImGuiKey_Home, Key::home},
+    {ImGuiKey_End, Key::end},
+    {ImGuiKey_Delete, Key::del},
+    {ImGuiKey_Backspace, Key::backspace},
+    {ImGuiKey_Enter, Key::enter},
+    {ImGuiKey_Escape, Key::escape},
+    {ImGuiKey_A, Key{'A'}},
+    {ImGuiKey_C, Key{'C'}},
+    {ImGuiKey_V, Key{'V'}},
+    {ImGuiKey_X, Key{'X'}},
+    {ImGuiKey_Z, Key{'Z'}},
+};
+
+bool is_read(Key key) {
+    return std::ranges::any_of(kKeys, [key](const auto& each) { return each.second == key; });
+}
+
+} // namespace
+
+std::span<const std::pair<int, Key>> keys_of_imgui() {
+    return kKeys;
+}
+
+glm::vec2 folded(glm::vec2 at, glm::ivec2 places) {
+    const glm::vec2 shown = at * glm::vec2(places);
+    return shown - glm::clamp(glm::floor(shown), glm::vec2(0.0f), glm::vec2(places - 1));
+}
+
+bool EventTaker::must_wait(const WindowEvent& event) const {
+    if (const auto* key = std::get_if<KeyEvent>(&event))
+        return clicked || (io.WantTextInput && is_read(key->key) &&
+                           (changed.contains(key->key) || (typed && key->down)));
+    if (std::holds_alternative<TextEvent>(event))
+        return clicked || (io.WantTextInput && !changed.empty());
+    return false;
+}
+
+bool EventTaker::captures_mouse() const {
+    return io.WantCaptureMouse || area.contains(io.MousePos.x, io.MousePos.y);
+}
+
+bool EventTaker::operator()(const KeyEvent& event) {
+    const auto code = static_cast<std::size_t>(event.key);
+    begun = begun || event.down;
+    if (event.down)
+        numbers.press(event.key);
+    if (is_read(event.key))
+        changed.insert(event.key);
+    if (code < std::size(io.KeysDown))
+        io.KeysDown[code] = event.down;
+    if (event.key == Key::left_control || event.key == Key::right_control)
+        io.KeyCtrl = event.down;
+    if (event.key == Key::left_shift || event.key == Key::right_shift)
+        io.KeyShift = event.down;
+    if (event.key == Key::escape && event.down && event.alone() && popups && !io.WantTextInput)
+        return closes_popup = true;
+    return event.down && io.WantTextInput;
+}
+
+bool EventTaker::operator()(const TextEvent& event) {
+    typed = true;
+    if (io.WantTextInput)
+        numbers.type(event.character);
+    return io.WantTextInput;
+}
+
+bool EventTaker::operator()(const MouseButtonEvent& event) {
+    const auto button = static_cast<std::size_t>(event.button);
+    const std::uint32_t bit = 1u << button;
+    // ImGui sees the state once per frame: delay the release of a click within one frame.
+    begun = begun || event.down;
+    if (event.down)
+        pressed |= bit;
+    if (!event.down && (pressed & bit))
+        late_releases |= bit;
+    else
+        io.MouseDown[button] = event.down;
+    const bool taken = event.down && captures_mouse();
+    clicked = clicked || taken;
+    return taken;
+}
+
+bool EventTaker::operator()(const MouseMoveEvent& event) const {
+    const glm::vec2 at = folded({event.x, event.y}, places);
+    cursor = at;
+    io.MousePos = {at.x * io.DisplaySize.x, at.y * io.DisplaySize.y};
+    return false;
+}
+
+bool EventTaker::operator()(const ScrollEvent& event) const {
+    if (captures_mouse())
+        io.MouseWheel += event.dy;
+    return captures_mouse();
+}
+
+bool EventTaker::operator()(const FocusEvent& event) const {
+    if (!event.focused) {
+        std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
+        std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+        io.KeyCtrl = io.KeyShift = false;
+    }
+    return false;
+}
+
+} // namespace isochron::app

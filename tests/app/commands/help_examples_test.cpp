@@ -11,6 +11,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -39,11 +40,12 @@ class HelpExamples : public testing::Test {
         std::string text, line;
         for (int i = 0; i < 16 && std::getline(shipped, line); ++i)
             text += line + '\n';
-        for (const auto& [from, to] :
-             {std::pair<std::string, std::string>{"vorticity.isochron", data},
-              {"[1920, 960]", "[128, 64]"},
-              {"\"step\":10", "\"step\":0"},
-              {"\"stamps\":[\"settled\"]", "\"stamps\":[\"stamp-1\"]"}}) {
+        const std::vector<std::pair<std::string, std::string>> changes{
+            {"vorticity.isochron", data},
+            {"[1920, 960]", "[128, 64]"},
+            {"\"step\":10", "\"step\":0"},
+            {"\"stamps\":[\"settled\"]", "\"stamps\":[\"stamp-1\"]"}};
+        for (const auto& [from, to] : changes) {
             ASSERT_NE(text.find(from), std::string::npos) << from;
             for (std::size_t at; (at = text.find(from)) != std::string::npos;)
                 text.replace(at, from.size(), to);

@@ -88,7 +88,7 @@ void add_config(Command& program) {
         config.subcommand("import", "Convert ParaView's .pvx file to a TOML configuration.");
     command.examples(
         {"isochron config import cave.pvx -o my-cave.toml",
-         "isochron config import cave.pvx -o my-cave.toml --unit 0.3048 --origin 0 1.6 0"});
+         "isochron config import cave.pvx -o in-feet.toml --unit 0.3048 --origin 0 1.6 0"});
     command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
     command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
     command.flag("--force", options->force,

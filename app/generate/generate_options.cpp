@@ -59,10 +59,10 @@ void add_cube_options(Command& command, const std::shared_ptr<Request<Series>>& 
 void add_generate_options(Command& program, const Run& run) {
     Command command = program.subcommand("generate", "Make a demo series as .pvd and .vti files.");
     command.examples({"isochron generate vorticity --out flow",
-                      "isochron generate sphere --out sphere --steps 5"});
+                      "isochron generate sphere --out short --steps 5"});
     command.require_subcommand();
     add_series<SphereSeries>(command, "A moving sphere, 61 x 50 x 60 vertices",
-                             "isochron generate sphere --out sphere --steps 5", run);
+                             "isochron generate sphere --out short --steps 5", run);
     auto [vorticity, flow] = add_series<VorticitySeries>(
         command, "Vorticity magnitude of decaying turbulence",
         "isochron generate vorticity --out small --size 16 --steps 3", run);

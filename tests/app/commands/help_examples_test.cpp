@@ -22,6 +22,7 @@ namespace {
 class HelpExamples : public testing::Test {
   protected:
     HelpExamples() {
+        std::filesystem::create_directory(folder_.path() / "bin");
         folder_.write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\nwc -c > \"$last\"\n");
         std::filesystem::permissions(folder_.path() / "bin/ffmpeg",
                                      std::filesystem::perms::owner_all);

@@ -317,8 +317,8 @@ int parse_and_run(const ProgramText& text,
     program.require_subcommand(1);
     program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
     show_examples(program);
-    if (!text.examples.empty())
-        add_examples(program, text.examples);
+    if (text.examples.size() > 0)
+        add_examples(program, {text.examples.begin(), text.examples.end()});
     Command root(program);
     for (const auto add : commands)
         add(root);

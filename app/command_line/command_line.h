@@ -110,7 +110,7 @@ struct ProgramText {
     const char* description;
     std::string (
         *version_details)(); ///< what --version prints behind name and version; may be null
-    std::vector<std::string> examples{}; ///< commands with which help begins
+    std::initializer_list<const char*> examples{}; ///< commands with which help begins
     /// So many commands are listed before the others, under a heading of their own.
     std::size_t first_commands = 0;
 };

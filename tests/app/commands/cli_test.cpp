@@ -201,8 +201,8 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "0"})), 2,
                    "expected a positive number, got 0");
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");
-    expect_failure(isochron({}), 2, "expected build, query");
-    expect_failure(isochron({"xyzzy"}), 2, "xyzzy: unknown, expected build, query");
+    expect_failure(isochron({}), 2, "expected info, build");
+    expect_failure(isochron({"xyzzy"}), 2, "xyzzy: unknown, expected info, build");
     for (const char* file : {"a.isochron", "walk.jsonl", "picture.png"})
         folder.write(file, "?");
     for (const auto& [arguments, message] :

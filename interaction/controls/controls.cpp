@@ -191,9 +191,9 @@ struct Controls::State {
         if (now.pressed(Action::next_stereo) && context.stereo_modes &&
             !context.stereo_modes->empty()) {
             const std::vector<std::string>& modes = *context.stereo_modes;
-            const auto found = std::ranges::find(modes, context.settings.stereo);
-            const bool wraps = found == modes.end() || found + 1 == modes.end();
-            commands.stereo = wraps ? modes.front() : *(found + 1);
+            const auto mode = std::ranges::find(modes, context.settings.stereo);
+            const bool wraps = mode == modes.end() || mode + 1 == modes.end();
+            commands.stereo = wraps ? modes.front() : *(mode + 1);
         }
         if (now.pressed(Action::orthographic))
             commands.orthographic = !context.settings.orthographic;

@@ -47,9 +47,11 @@ MeshLook mesh_look(const View& view, const Placement& placement, const AxisTable
     const bool even = largest.angle * largest.angle * appearance.shininess <= kEven &&
                       appearance.shininess >= kLeastShininess;
     const bool small = largest.pixels <= kFewPixels;
-    return {.colored = appearance.values.has_value(),
-            .near = !hides_what_is_behind(opaque, placement) || (!small && !even),
-            .small = small};
+    MeshLook look;
+    look.colored = appearance.values.has_value();
+    look.near = !hides_what_is_behind(opaque, placement) || (!small && !even);
+    look.small = small;
+    return look;
 }
 
 } // namespace isochron::render

@@ -125,8 +125,9 @@ TEST(Formats, AreKnownToTheirReaders) {
         const fs::path file = folder.write("a" + std::string(format.ends.front().end), "?");
         const std::string line = error_of([&] { open_in_format(format, file, {}); });
         EXPECT_THAT(line, HasSubstr(file.string()));
-        if (line.find("not found beside the program") == line.npos) // it needs a library
+        if (line.find("not found beside the program") == line.npos) { // it needs a library
             EXPECT_THAT(line, Not(HasSubstr("its reader"))) << line;
+        }
     }
 }
 

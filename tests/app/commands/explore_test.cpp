@@ -193,7 +193,7 @@ TEST_F(ExploreTest, TheTestPatternNeedsNoDataAndStopsAtTheKey) {
     const std::string title = "Isochron: test pattern";
     screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", title});
     screen_.xdotool({"search", "--name", title, "windowfocus", "mousemove", "--window", "%1", "200",
-                     "200", "key", "v", "key", "Escape"});
+                     "200", "key", "v", "keydown", "Escape"});
     EXPECT_EQ(program.exit_status(), 0);
     EXPECT_EQ(Program({"explore", "--test-pattern", "--record", file("walk.jsonl")}).exit_status(),
               2);

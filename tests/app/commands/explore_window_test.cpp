@@ -78,7 +78,7 @@ TEST_F(ExploreWindow, WithoutDataItLetsTheUserChooseSome) {
     EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
     const Program leaves({"explore", "--size", "640", "480"});
     wait_for_window("Isochron: open data");
-    screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "key", "Escape"});
+    screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "keydown", "Escape"});
     EXPECT_EQ(leaves.exit_status(), 0);
 }
 

@@ -75,8 +75,8 @@ std::vector<render::View> Display::views_in_target(std::size_t number,
     return views;
 }
 
-bool Display::draw_slice(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
-                         const DrawSlice& scene) {
+bool Display::draw_part(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
+                        const DrawPart& scene) {
     if (!targets_[viewport])
         return true; // the window is minimized
     const std::vector<render::View> views =
@@ -85,7 +85,7 @@ bool Display::draw_slice(std::span<const ViewerPose> viewers, std::size_t viewpo
                          views, begins, scene);
 }
 
-void Display::show_slices(const Overlay& overlay) {
+void Display::show_parts(const Overlay& overlay) {
     for (std::size_t i = 0; i < targets_.size(); ++i)
         if (next_[i])
             std::swap(targets_[i], next_[i]);

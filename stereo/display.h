@@ -72,14 +72,14 @@ class Display {
         draw(std::span(&viewer, 1), mode, scene, overlay);
     }
 
-    /// Draws a slice of a viewport's next picture while the last one stays on show, with the size
+    /// Draws a part of a viewport's next picture while the last one stays on show, with the size
     /// of the window and the stereo mode of the last frame.
-    /// @param begins this is its first slice
+    /// @param begins this is its first part
     /// @return whether it is complete, as `scene` said
-    bool draw_slice(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
-                    const DrawSlice& scene);
+    bool draw_part(std::span<const ViewerPose> viewers, std::size_t viewport, bool begins,
+                   const DrawPart& scene);
     /// Shows the next pictures of all viewports, which must be complete.
-    void show_slices(const Overlay& overlay);
+    void show_parts(const Overlay& overlay);
 
     /// Composes the last pictures of the eyes again, with a new overlay: for frames in which
     /// nothing else has changed.
@@ -154,7 +154,7 @@ class Display {
     render::RenderTarget composed_;
     std::optional<render::RenderTarget> right_buffer_; ///< while the window is quad-buffered
     std::vector<std::optional<render::RenderTarget>> targets_; ///< by viewport, from its first draw
-    std::vector<std::optional<render::RenderTarget>> next_;    ///< likewise; drawn in slices
+    std::vector<std::optional<render::RenderTarget>> next_;    ///< likewise; drawn in parts
 };
 
 } // namespace isochron::stereo

@@ -22,6 +22,6 @@ struct DisplayOptions {
 using DrawViews = std::function<void(std::span<const render::View>)>;
 /// The same, but draws a further part of the picture, over what has been drawn before.
 /// @return whether the picture is complete now
-using DrawSlice = std::function<bool(std::span<const render::View>)>;
+using DrawPart = std::function<bool(std::span<const render::View>)>;
 
 } // namespace isochron::stereo

@@ -42,8 +42,8 @@ void HeadsetDisplay::draw(std::span<const HeadsetEye> eyes, const Scene& scene) 
         gl_->Finish();
 }
 
-bool HeadsetDisplay::draw_slice(std::span<const HeadsetEye> eyes, bool begins,
-                                const DrawSlice& scene) {
+bool HeadsetDisplay::draw_part(std::span<const HeadsetEye> eyes, bool begins,
+                               const DrawPart& scene) {
     const std::vector<render::View> views = views_in_target(eyes);
     return draw_views_on(*gl_, next_, whole_, options_, views, begins, scene);
 }

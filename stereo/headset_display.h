@@ -33,12 +33,12 @@ class HeadsetDisplay {
     /// @param eyes left and right
     void draw(std::span<const HeadsetEye> eyes, const Scene& scene);
 
-    /// Draws a slice of the next picture while the last one stays on show.
-    /// @param eyes of the last picture @param begins this is the first slice
+    /// Draws a part of the next picture while the last one stays on show.
+    /// @param eyes of the last picture @param begins this is the first part
     /// @return whether the picture is complete, as `scene` said
-    bool draw_slice(std::span<const HeadsetEye> eyes, bool begins, const DrawSlice& scene);
+    bool draw_part(std::span<const HeadsetEye> eyes, bool begins, const DrawPart& scene);
     /// The next picture, which must be complete, becomes the last one.
-    void show_slices() { std::swap(target_, next_); }
+    void show_parts() { std::swap(target_, next_); }
 
     /// Gives the last pictures to the headset, if the frame has eyes, and ends the frame.
     /// @param again the pictures were drawn for an earlier frame
@@ -70,7 +70,7 @@ class HeadsetDisplay {
     Presenter presenter_;
     render::RenderTarget window_picture_;
     std::optional<render::RenderTarget> target_; ///< both eyes side by side; empty before `draw`
-    std::optional<render::RenderTarget> next_;   ///< likewise; drawn in slices
+    std::optional<render::RenderTarget> next_;   ///< likewise; drawn in parts
     glm::ivec2 whole_{0};                        ///< size of both eyes' pictures
     std::array<Part, 2> parts_;
 };

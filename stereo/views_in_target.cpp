@@ -18,7 +18,7 @@ void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& targe
 
 bool draw_views_on(const render::Gl& gl, std::optional<render::RenderTarget>& target,
                    glm::ivec2 size, const DisplayOptions& options,
-                   std::span<const render::View> views, bool begins, const DrawSlice& scene) {
+                   std::span<const render::View> views, bool begins, const DrawPart& scene) {
     if (begins) {
         if (target)
             target->resize(size);

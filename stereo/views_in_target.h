@@ -22,6 +22,6 @@ void draw_views(const render::Gl& gl, std::optional<render::RenderTarget>& targe
 /// @return what `scene` returned; if true, the target is resolved
 bool draw_views_on(const render::Gl& gl, std::optional<render::RenderTarget>& target,
                    glm::ivec2 size, const DisplayOptions& options,
-                   std::span<const render::View> views, bool begins, const DrawSlice& scene);
+                   std::span<const render::View> views, bool begins, const DrawPart& scene);
 
 } // namespace isochron::stereo

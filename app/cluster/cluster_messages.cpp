@@ -158,11 +158,11 @@ MessageBytes encoded(const FramePlan& plan) {
                {"measure", plan.measure},
                {"mesh", plan.mesh},
                {"detail", detail_json(plan.detail)},
-               {"shows_slices", plan.shows_slices},
+               {"shows_parts", plan.shows_parts},
                {"holds_finer", plan.holds_finer},
                {"all_at_rest", plan.all_at_rest}};
-    if (plan.in_slices)
-        value["in_slices"] = *plan.in_slices;
+    if (plan.in_parts)
+        value["in_parts"] = *plan.in_parts;
     if (plan.unseen)
         value["unseen"] = *plan.unseen;
     return bytes_of(value);
@@ -180,15 +180,15 @@ FramePlan decode_plan(std::span<const std::byte> bytes) {
         boolean(members.at("mesh"), "mesh"),
         detail_from(members.at("detail")),
         std::nullopt,
-        boolean(members.at("shows_slices"), "shows_slices"),
+        boolean(members.at("shows_parts"), "shows_parts"),
         boolean(members.at("holds_finer"), "holds_finer"),
         boolean(members.at("all_at_rest"), "all_at_rest")};
-    if (const json* in_slices = members.find("in_slices"))
-        plan.in_slices = footprint_from(*in_slices);
+    if (const json* in_parts = members.find("in_parts"))
+        plan.in_parts = footprint_from(*in_parts);
     if (const json* unseen = members.find("unseen"))
         plan.unseen = footprint_from(*unseen);
-    members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_slices",
-                  "shows_slices", "holds_finer", "all_at_rest", "unseen"});
+    members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
+                  "shows_parts", "holds_finer", "all_at_rest", "unseen"});
     return plan;
 }
 
@@ -201,8 +201,8 @@ MessageBytes encoded(const FrameAnswer& answer) {
                      {"failure", answer.failure},
                      {"view", load_json(answer.view)},
                      {"surface_limit", answer.surface_limit},
-                     {"slices_whole", answer.slices_whole},
-                     {"slices_took", answer.slices_took.count()},
+                     {"parts_whole", answer.parts_whole},
+                     {"parts_took", answer.parts_took.count()},
                      {"samples", std::move(samples)}});
 }
 
@@ -214,14 +214,13 @@ FrameAnswer decode_answer(std::span<const std::byte> bytes) {
                        .failure = interaction::text(members.at("failure"), "failure"),
                        .view = load_from(members.at("view")),
                        .surface_limit = count(members, "surface_limit"),
-                       .slices_whole = boolean(members.at("slices_whole"), "slices_whole"),
-                       .slices_took =
-                           Milliseconds(number(members.at("slices_took"), "slices_took")),
+                       .parts_whole = boolean(members.at("parts_whole"), "parts_whole"),
+                       .parts_took = Milliseconds(number(members.at("parts_took"), "parts_took")),
                        .samples = {}};
     for (const json& sample : interaction::list(members.at("samples"), "samples", 0, kMostSamples))
         answer.samples.push_back(sample_from(sample));
-    members.done({"cells", "close", "failure", "view", "surface_limit", "slices_whole",
-                  "slices_took", "samples"});
+    members.done({"cells", "close", "failure", "view", "surface_limit", "parts_whole", "parts_took",
+                  "samples"});
     return answer;
 }
 

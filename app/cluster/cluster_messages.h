@@ -39,8 +39,8 @@ struct FrameAnswer {
     std::string failure;             ///< why the process has no cells; empty when all is well
     DrawLoad view;                   ///< load of one cell: the number of views, and their pixels
     std::uint64_t surface_limit = 0; ///< cells that can be drawn as exact surfaces
-    bool slices_whole = false;       ///< the picture in slices is whole, or shown
-    Milliseconds slices_took{0};     ///< to draw it, while it is whole and not shown
+    bool parts_whole = false;        ///< the picture in parts is whole, or shown
+    Milliseconds parts_took{0};      ///< to draw it, while it is whole and not shown
     std::vector<DrawSample> samples; ///< earlier frames whose draw times are now known
     bool operator==(const FrameAnswer&) const = default;
 };

@@ -64,10 +64,10 @@ class FrameSharing {
     /// Most cells that all processes can draw as exact surfaces; no limit for a process alone,
     /// which knows its own.
     virtual std::uint64_t surface_limit() const = 0;
-    /// Whether a picture in slices may be shown once it is whole here: it is whole everywhere.
-    virtual bool slices_are_whole() const = 0;
+    /// Whether a picture in parts may be shown once it is whole here: it is whole everywhere.
+    virtual bool parts_are_whole() const = 0;
     /// The time of that picture in the process that took longest.
-    virtual Milliseconds slices_took(Milliseconds mine) const = 0;
+    virtual Milliseconds parts_took(Milliseconds mine) const = 0;
     /// @param mine used on rank 0 @return rank 0's plan, by which all processes draw
     virtual FramePlan agree(const FramePlan& mine) = 0;
 

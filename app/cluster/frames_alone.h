@@ -23,8 +23,8 @@ class FramesAlone : public FrameSharing {
     std::vector<DrawSample> samples(std::vector<DrawSample> mine) override { return mine; }
     DrawLoad largest(const DrawLoad& mine) const override { return mine; }
     std::uint64_t surface_limit() const override;
-    bool slices_are_whole() const override { return true; }
-    Milliseconds slices_took(Milliseconds mine) const override { return mine; }
+    bool parts_are_whole() const override { return true; }
+    Milliseconds parts_took(Milliseconds mine) const override { return mine; }
     FramePlan agree(const FramePlan& mine) override { return mine; }
     void swap_barrier(const std::function<FrameAnswer()>&) override {}
     bool close_wanted() const override { return false; }

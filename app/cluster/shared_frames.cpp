@@ -55,12 +55,12 @@ CellsInFrame SharedFrames::cells(const index::Extractor& extractor,
     return cells;
 }
 
-bool SharedFrames::slices_are_whole() const {
-    return !answers_.empty() && std::ranges::all_of(answers_, &FrameAnswer::slices_whole);
+bool SharedFrames::parts_are_whole() const {
+    return !answers_.empty() && std::ranges::all_of(answers_, &FrameAnswer::parts_whole);
 }
 
-Milliseconds SharedFrames::slices_took(Milliseconds) const {
-    return std::ranges::max(answers_, {}, &FrameAnswer::slices_took).slices_took;
+Milliseconds SharedFrames::parts_took(Milliseconds) const {
+    return std::ranges::max(answers_, {}, &FrameAnswer::parts_took).parts_took;
 }
 
 FramePlan SharedFrames::agree(const FramePlan& mine) {

@@ -44,8 +44,8 @@ class SharedFrames final : public FrameSharing {
     DrawLoad largest(const DrawLoad& mine) const override;
     std::uint64_t surface_limit() const override;
     /// By the answers to the last frame.
-    bool slices_are_whole() const override;
-    Milliseconds slices_took(Milliseconds mine) const override;
+    bool parts_are_whole() const override;
+    Milliseconds parts_took(Milliseconds mine) const override;
     FramePlan agree(const FramePlan& mine) override;
 
     /// @param mine cells and samples are filled in here

@@ -61,7 +61,7 @@ nlohmann::json upload_json(const render::UploadCount& count) {
             {"ids", count.ids},
             {"whole_ids", count.whole_ids},
             {"id_bytes", count.id_bytes},
-            {"brick_bytes", count.brick_bytes},
+            {"brick_bytes", count.block_bytes},
             {"color_bytes", count.color_bytes},
             {"mesh_bytes", count.mesh_bytes},
             {"surrounding_bytes", count.surrounding_bytes}};
@@ -307,7 +307,7 @@ std::string FrameLog::table() const {
                             ? "whole"
                             : fmt::format("with {:.1f} % of their ids",
                                           100.0 * double(sent.ids) / double(sent.whole_ids)),
-                        sent.id_bytes, sent.brick_bytes);
+                        sent.id_bytes, sent.block_bytes);
     return text;
 }
 

@@ -28,8 +28,8 @@ struct FrameDrawing {
     Milliseconds budget{0};  ///< for drawing
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
-    std::optional<render::Footprint> in_slices; ///< of the picture at rest in slices, if any
-    bool redrawn = true;                        ///< false: nothing that the eyes see had changed
+    std::optional<render::Footprint> in_parts; ///< of the picture at rest in parts, if any
+    bool redrawn = true;                       ///< false: nothing that the eyes see had changed
 };
 
 /// The cells of the frame.

@@ -12,7 +12,7 @@ namespace isochron::app {
 struct FrameOutlook {
     static constexpr interaction::Seconds kNever{std::numeric_limits<double>::infinity()};
 
-    /// The next frame is due at once: something is held, plays, is drawn in slices or extracted.
+    /// The next frame is due at once: something is held, plays, is drawn in parts or extracted.
     bool busy = false;
     bool changed = false;                ///< this frame took or showed something new
     bool final = false;                  ///< its picture will not get better by itself

@@ -12,7 +12,7 @@ const char* name_of(QualityReason reason) {
     case QualityReason::configured: return "configured";
     case QualityReason::fits: return "fits";
     case QualityReason::trial: return "trial";
-    case QualityReason::in_slices: return "in slices";
+    case QualityReason::in_parts: return "in parts";
     case QualityReason::over_budget: break;
     }
     return "over budget";

@@ -14,10 +14,10 @@ enum class QualityReason : std::uint8_t {
     configured, ///< the footprint of settled pictures is configured
     fits,       ///< the best of all fits the budget
     trial,      ///< a better one than before is being measured
-    in_slices,  ///< the exact picture at rest is made over several frames
+    in_parts,   ///< the exact picture at rest is made over several frames
     over_budget ///< a better one does not fit
 };
-/// `moving`, `fast mode`, `best mode`, `paper mode`, `configured`, `fits`, `trial`, `in slices`,
+/// `moving`, `fast mode`, `best mode`, `paper mode`, `configured`, `fits`, `trial`, `in parts`,
 /// `over budget`.
 const char* name_of(QualityReason reason);
 

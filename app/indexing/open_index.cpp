@@ -3,7 +3,7 @@
 
 #include "app/text.h"
 #include "index/error.h"
-#include "index/extraction/volume_bricks.h"
+#include "index/extraction/volume_blocks.h"
 #include "index/file/index_states.h"
 
 #include <fmt/format.h>
@@ -37,8 +37,8 @@ std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem
 }
 
 void check_can_be_shown(const index::Grid& grid, const std::string& name) {
-    constexpr std::size_t kMostBricks = std::size_t{1} << 26;
-    if (index::BrickTiling(grid).count() > kMostBricks)
+    constexpr std::size_t kMostBlocks = std::size_t{1} << 26;
+    if (index::BlockTiling(grid).count() > kMostBlocks)
         throw index::Error(fmt::format("{}: {} vertices, expected at most 2^35 to show; isochron "
                                        "query finds the active cells of an isovalue",
                                        name, grid.vertex_count()));

@@ -123,25 +123,26 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
     return of_cell;
 }
 
-bool Outputs::draw_slice(SlicePlace& place, const SliceScene& scene) {
-    const bool whole = draw_slice_at(place, scene);
-    render::expect_memory(gl(), "drawing a slice of a picture");
+bool Outputs::draw_part(PartPlace& place, const PartScene& scene) {
+    const bool whole = draw_part_at(place, scene);
+    render::expect_memory(gl(), "drawing a part of a picture");
     gl_.Finish(); // so that its time is known
     return whole;
 }
 
-bool Outputs::draw_slice_at(SlicePlace& place, const SliceScene& scene) {
+bool Outputs::draw_part_at(PartPlace& place, const PartScene& scene) {
     const std::vector<stereo::HeadsetEye>& eyes = drawn_.audience.eyes;
     const std::size_t windows = shows_windows() ? displays_.size() : 0;
     if (place.window >= windows) {
-        place.begins = headset_display_->draw_slice(
-            eyes, place.begins,
-            [&](std::span<const render::View> all) { return scene(ScenePlace{}, all); });
+        place.begins =
+            headset_display_->draw_part(eyes, place.begins, [&](std::span<const render::View> all) {
+                return scene(ScenePlace{}, all);
+            });
         return place.begins;
     }
     stereo::Display& display = displays_[place.window];
     const ScenePlace in_window{&display.window(), place.viewport, display.mode()};
-    const bool whole = display.draw_slice(
+    const bool whole = display.draw_part(
         drawn_.audience.viewers, place.viewport, place.begins,
         [&](std::span<const render::View> views) { return scene(in_window, views); });
     place.begins = whole;
@@ -150,15 +151,15 @@ bool Outputs::draw_slice_at(SlicePlace& place, const SliceScene& scene) {
     return place.window == windows && eyes.empty();
 }
 
-void Outputs::show_slices(const Overlay& overlay) {
+void Outputs::show_parts(const Overlay& overlay) {
     lacks_overlay_ = false;
     if (!drawn_.audience.eyes.empty())
-        headset_display_->show_slices();
+        headset_display_->show_parts();
     end_headset_frame(false);
     if (!shows_windows())
         return headset_display_->mirror(overlay);
     for (std::size_t i = 0; i < displays_.size(); ++i)
-        displays_[i].show_slices(overlay_of(i, overlay));
+        displays_[i].show_parts(overlay_of(i, overlay));
 }
 
 void Outputs::draw_again(const Audience& audience, const Overlay& overlay) {

@@ -105,22 +105,22 @@ class Outputs {
     /// @return load of one cell in every view: the number of views, and their pixels
     /// @throws render::OutOfMemory when the GL had no memory for something that was drawn
     DrawLoad draw(const Audience& audience, Scene scene, const Overlay& overlay);
-    /// Where the next slice of a picture belongs: to the windows that show their own views, then
+    /// Where the next part of a picture belongs: to the windows that show their own views, then
     /// to the headset.
-    struct SlicePlace {
+    struct PartPlace {
         std::size_t window = 0, viewport = 0; ///< the number of windows: the headset
         bool begins = true;                   ///< nothing has been drawn for this viewport
     };
     /// Draws a part of what a viewport still lacks. @return whether it is complete now
-    using SliceScene = std::function<bool(const ScenePlace&, std::span<const render::View>)>;
-    /// Draws the next slice of a new picture, while the old one stays on show, for the audience of
+    using PartScene = std::function<bool(const ScenePlace&, std::span<const render::View>)>;
+    /// Draws the next part of a new picture, while the old one stays on show, for the audience of
     /// the last frame, which wanted a picture, and windows as large as in it.
-    /// @param place where this slice belongs; becomes the place of the next one
+    /// @param place where this part belongs; becomes the place of the next one
     /// @return whether the pictures of all windows, or of the headset, are complete
     /// @throws render::OutOfMemory as `draw`
-    bool draw_slice(SlicePlace& place, const SliceScene& scene);
-    /// Shows the picture that was drawn in slices.
-    void show_slices(const Overlay& overlay);
+    bool draw_part(PartPlace& place, const PartScene& scene);
+    /// Shows the picture that was drawn in parts.
+    void show_parts(const Overlay& overlay);
     /// Whether the windows hold what they showed last, with the overlay. Pictures to keep have none.
     bool can_stay() const { return !headset_ && !room_ && !lacks_overlay_; }
     /// Keeps the windows as they are, instead of the other calls, where `can_stay` and nothing has
@@ -162,7 +162,7 @@ class Outputs {
     Overlay overlay_of(std::size_t window, const Overlay& overlay) const;
     void draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay,
                      bool kept = false) const;
-    bool draw_slice_at(SlicePlace& place, const SliceScene& scene);
+    bool draw_part_at(PartPlace& place, const PartScene& scene);
     void end_headset_frame(bool again);
     render::Image headset_picture();
     bool kept_differ() const; ///< pictures to keep differ from the shown ones

@@ -34,7 +34,7 @@ void measurements(const PanelModel& model) {
                      size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
                      std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
          kDim);
-    note(fmt::format("search {:.2f} ms   bricks {:.2f} ms", frame.search.count(),
+    note(fmt::format("search {:.2f} ms   blocks {:.2f} ms", frame.search.count(),
                      frame.gather.count()),
          kDim);
     const index::ReadUse& use = model.work.reading;

@@ -15,7 +15,7 @@ Milliseconds period_of(const Config& config, std::optional<double> refresh_rate)
 /// Time without motion after which a picture that still changes, as the head sways, is not expected
 /// to become still.
 constexpr interaction::Seconds kNeverStill{1};
-/// Longest time at rest in which footprints are tried before slices begin.
+/// Longest time at rest in which footprints are tried before parts begin.
 constexpr interaction::Seconds kTrialsAtRest{0.15};
 
 } // namespace
@@ -71,21 +71,21 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
         input.settled = input.settled.value_or(render::kBestFootprint);
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
     input.available = available;
-    const auto in_the_end = sliced(input, how);
+    const auto in_the_end = partial(input, how);
     if (still || report.pace == interaction::Pace::moving)
         swayed_since_ = report.time;
-    input.in_slices = in_the_end;
-    const bool slices = still && in_the_end;
-    if (slices) {
+    input.in_parts = in_the_end;
+    const bool parts = still && in_the_end;
+    if (parts) {
         input.settled.reset();
         if (resting_ && resting_->input == input && resting_->possible == possible) {
             report.budget = steady_.budget();
             report.expected = resting_->cost;
-            report.better = steady_.expected(*input.in_slices, input.load);
+            report.better = steady_.expected(*input.in_parts, input.load);
             return resting_->plan;
         }
     }
-    const bool pauses = still && !slices && report.pace != interaction::Pace::moving;
+    const bool pauses = still && !parts && report.pace != interaction::Pace::moving;
     QualityController& controller = pauses ? still_ : steady_;
     QualityInput with_mesh = input;
     with_mesh.available = possible;
@@ -96,34 +96,34 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     // A trial of the exact surface comes first where both are next.
     plan.mesh = with_all.footprint == render::Footprint::mesh &&
                 choice.footprint <= render::Footprint::mesh;
-    if (how == Choosing::with_slices && !still)
+    if (how == Choosing::with_parts && !still)
         plan.unseen = steady_.worth_measuring(with_mesh);
     plan.mesh |= plan.unseen == render::Footprint::mesh;
     if (plan.unseen && !available.has(*plan.unseen))
         plan.unseen.reset();
-    // What a mesh or slices may still change is not final.
+    // What a mesh or parts may still change is not final.
     plan.holds_finer = in_the_end && *in_the_end != choice.footprint;
-    const bool slices_come = plan.holds_finer && report.time - swayed_since_ < kNeverStill;
+    const bool parts_come = plan.holds_finer && report.time - swayed_since_ < kNeverStill;
     plan.final =
-        choice.final && with_all.final && choice.footprint == with_all.footprint && !slices_come;
+        choice.final && with_all.final && choice.footprint == with_all.footprint && !parts_come;
     report.retries = choice.retries;
     report.budget = controller.budget();
     report.expected = choice.cost;
     report.better = choice.better_cost;
     resting_.reset();
     const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
-    if (slices && measured && choice.footprint != *input.in_slices) {
+    if (parts && measured && choice.footprint != *input.in_parts) {
         resting_ = {input, possible, plan, choice.cost};
-        resting_->plan.in_slices = input.in_slices;
+        resting_->plan.in_parts = input.in_parts;
         resting_->plan.measure = false;
     }
     return plan;
 }
 
-/// The footprint that this picture at rest is to have in the end, if it is made in slices.
-std::optional<render::Footprint> FrameQuality::sliced(const QualityInput& input,
-                                                      Choosing how) const {
-    if (how != Choosing::with_slices || !(still_budget_.count() > 0) || input.playing ||
+/// The footprint that this picture at rest is to have in the end, if it is made in parts.
+std::optional<render::Footprint> FrameQuality::partial(const QualityInput& input,
+                                                       Choosing how) const {
+    if (how != Choosing::with_parts || !(still_budget_.count() > 0) || input.playing ||
         input.mode != interaction::QualityMode::automatic ||
         input.pace != interaction::Pace::settled || input.load.cells <= 0)
         return std::nullopt;
@@ -137,17 +137,17 @@ Milliseconds FrameQuality::left_of_frame(Milliseconds taken) const {
     return left >= kLeast ? left : Milliseconds(0);
 }
 
-Milliseconds FrameQuality::slice_budget() const {
-    // Shorter slices would take longer in all, and longer ones would be felt in what comes next.
+Milliseconds FrameQuality::part_budget() const {
+    // Shorter parts would take longer in all, and longer ones would be felt in what comes next.
     constexpr Milliseconds kLeast{8}, kMost{50};
     return std::min(still_budget_, std::clamp(steady_.budget(), kLeast, kMost));
 }
 
-void FrameQuality::learn_slices(render::Footprint footprint, std::uint64_t cells,
-                                Milliseconds time) {
+void FrameQuality::learn_parts(render::Footprint footprint, std::uint64_t cells,
+                               Milliseconds time) {
     const DrawLoad load{static_cast<double>(cells) * charged_.cells, charged_.pixels};
     for (QualityController* controller : {&steady_, &still_})
-        controller->measured_in_slices(footprint, load, time);
+        controller->measured_in_parts(footprint, load, time);
 }
 
 std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const {

@@ -2,7 +2,7 @@
 //
 //     quality.learn(quality.collect(log));                  // every frame
 //     quality.charge(quality.view());
-//     const Choosing how = Choosing::with_slices;
+//     const Choosing how = Choosing::with_parts;
 //     const FramePlan plan = quality.choose(state, changed, how, footprints, possible, report);
 //     if (plan.measure || changed) {
 //         quality.begin(log.next());
@@ -27,11 +27,11 @@ namespace isochron::app {
 /// What the choice of a footprint depends on: on measured times, or (`by_pace`) only on whether the
 /// picture moves. A fixed-step replay must repeat exactly, so it ignores measurements and draws a
 /// settled picture with the configured footprint, else the best one. Live frames are measured; a
-/// picture at rest ends at that footprint, too: it is drawn in slices over several frames.
-enum class Choosing : std::uint8_t { with_slices, by_pace };
+/// picture at rest ends at that footprint, too: it is drawn in parts over several frames.
+enum class Choosing : std::uint8_t { with_parts, by_pace };
 
 /// Frames that change have the frame budget. A picture in which nothing has moved for a while is
-/// drawn in slices, each within that budget. Where the quality or the configuration wants none, it
+/// drawn in parts, each within that budget. Where the quality or the configuration wants none, it
 /// is drawn at once, within the larger still budget: a pause that is acceptable at rest. Each budget
 /// has its own controller; both learn from all frames.
 class FrameQuality {
@@ -61,9 +61,9 @@ class FrameQuality {
     /// Advances by one frame and plans how it is drawn, at its report's time and pace and with its
     /// cells; which cells come next is for others to plan. The report gets the budget and the
     /// expected costs.
-    /// With slices, `FramePlan::in_slices` says which footprint to make once nothing needs to be
+    /// With parts, `FramePlan::in_parts` says which footprint to make once nothing needs to be
     /// measured any more; from then on the choice stays until something changes. `holds_finer` says
-    /// whether the picture ends at another footprint, made in slices.
+    /// whether the picture ends at another footprint, made in parts.
     /// @param changed what the eyes see has changed since the last frame, apart from the footprint
     /// @param available that the cells can be drawn with
     /// @param possible the same if the cells were asked for with a mesh
@@ -84,10 +84,10 @@ class FrameQuality {
 
     /// Time that a frame may spend on what nobody sees; 0: none. @param taken by the frame itself
     Milliseconds left_of_frame(Milliseconds taken) const;
-    /// Time that a frame may spend on slices.
-    Milliseconds slice_budget() const;
-    /// Learns from a picture that was made in slices, of the views that were charged.
-    void learn_slices(render::Footprint footprint, std::uint64_t cells, Milliseconds time);
+    /// Time that a frame may spend on parts.
+    Milliseconds part_budget() const;
+    /// Learns from a picture that was made in parts, of the views that were charged.
+    void learn_parts(render::Footprint footprint, std::uint64_t cells, Milliseconds time);
 
     /// Number of refreshes that the display missed in the time between two frames.
     unsigned missed(interaction::Seconds between) const;
@@ -100,7 +100,7 @@ class FrameQuality {
         FramePlan plan;
         std::optional<Milliseconds> cost; ///< expected
     };
-    std::optional<render::Footprint> sliced(const QualityInput& input, Choosing how) const;
+    std::optional<render::Footprint> partial(const QualityInput& input, Choosing how) const;
 
     const std::optional<render::Footprint> settled_;
     const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
@@ -109,7 +109,7 @@ class FrameQuality {
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
-    std::optional<Resting> resting_;       ///< while slices are made or shown
+    std::optional<Resting> resting_;       ///< while parts are made or shown
     DrawMeter meter_;
     DrawLoad view_; ///< of one cell in all views of the frame drawn last
     DrawLoad charged_;

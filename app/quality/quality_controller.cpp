@@ -65,8 +65,8 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
     }
 }
 
-void QualityController::measured_in_slices(Footprint footprint, const DrawLoad& load,
-                                           Milliseconds cost) {
+void QualityController::measured_in_parts(Footprint footprint, const DrawLoad& load,
+                                          Milliseconds cost) {
     if (load.cells <= 0)
         return;
     Candidate& candidate = of(footprint);
@@ -232,8 +232,8 @@ bool QualityController::bearable(Footprint footprint, const QualityInput& input)
         most = std::min(most, *earlier);
     if (input.pace == Pace::moving)
         return most <= kRoom * budget_;
-    // Where the exact picture comes in slices, no frame need be long.
-    return most <= (input.in_slices ? budget_ : std::max(budget_, kDearestTrial));
+    // Where the exact picture comes in parts, no frame need be long.
+    return most <= (input.in_parts ? budget_ : std::max(budget_, kDearestTrial));
 }
 
 /// Whether the load has grown so much that the next frame is expected over the budget.

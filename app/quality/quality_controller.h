@@ -27,8 +27,8 @@ struct QualityInput {
     render::FootprintSet available = render::FootprintSet::up_to(render::kBestFootprint);
     /// Best footprint of a settled picture, whatever it costs; empty: by measurement.
     std::optional<render::Footprint> settled;
-    /// Footprint that the picture at rest gets in slices, whatever it costs; empty: none is.
-    std::optional<render::Footprint> in_slices;
+    /// Footprint that the picture at rest gets in parts, whatever it costs; empty: none is.
+    std::optional<render::Footprint> in_parts;
     /// Ignore measurements: a moving picture is drawn with quads.
     bool by_pace = false;
     DrawLoad load;
@@ -62,7 +62,7 @@ struct QualityChoice {
 ///   the budgets that a failed trial took (at most 8), at most 2048 frames. The wait starts anew at
 ///   16 frames once the footprint has lasted 256 frames.
 /// A footprint is not tried if it may take longer than `kDearestTrial` (while moving, and beside
-/// slices: than the budget), judged by its earlier times at other loads, or by a multiple of the
+/// parts: than the budget), judged by its earlier times at other loads, or by a multiple of the
 /// time of quads. If quads get faster, so do its earlier times, as other programs may have slowed
 /// both down. If it failed by less than three budgets, its times are halved every 2048 frames, so
 /// that it is tried again. What is not tried because of that multiple alone is worth to be measured
@@ -88,8 +88,8 @@ class QualityController {
     /// measured long ago. Empty: there is none. Not splats, which are put in order for each view:
     /// a picture of theirs cannot be made while the view changes.
     std::optional<render::Footprint> worth_measuring(const QualityInput& input) const;
-    /// Adds the cost of a picture that was made in slices, which tells about whole frames, too.
-    void measured_in_slices(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
+    /// Adds the cost of a picture that was made in parts, which tells about whole frames, too.
+    void measured_in_parts(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
     /// Advances by one frame.
     QualityChoice choose(const QualityInput& input);

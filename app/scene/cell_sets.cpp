@@ -1,7 +1,7 @@
 // The sets of cells that a scene holds: for moving pictures, and for pictures at rest.
 #include "app/scene/cell_sets.h"
 
-#include "index/extraction/brick_values.h"
+#include "index/extraction/block_values.h"
 #include "index/surface/cell_mesh.h"
 
 namespace isochron::app {
@@ -16,7 +16,7 @@ CellSets::CellSets(const render::Gl& gl, const index::Grid& grid, const Config& 
 
 void CellSets::prepare_for(const index::SeriesInfo& array) {
     // The storage of values depends only on their type, not on their range.
-    held_types_.push_back(index::BrickValues(array.type, array.scaling, 0, 1).held());
+    held_types_.push_back(index::BlockValues(array.type, array.scaling, 0, 1).held());
     cells_.prepare(held_types_.back());
 }
 

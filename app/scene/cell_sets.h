@@ -80,7 +80,7 @@ class CellSets {
 
     const render::Gl& gl_;
     const index::Grid grid_;
-    std::vector<index::ValueType> held_types_;   ///< types of the values in bricks, of all arrays
+    std::vector<index::ValueType> held_types_;   ///< types of the values in blocks, of all arrays
     const std::size_t upload_bytes_;             ///< per frame
     const std::uint64_t mesh_room_;              ///< 0: no set comes with a mesh
     render::CellBuffers cells_;                  ///< for Use::always

@@ -1,7 +1,7 @@
 // A surface in one cell, with all that any footprint needs.
 #include "app/scene/small_surface.h"
 
-#include "index/extraction/brick_values.h"
+#include "index/extraction/block_values.h"
 #include "index/surface/mesh_maker.h"
 #include "render/passes/color_map.h"
 
@@ -41,12 +41,12 @@ index::ExtractionPtr small_surface(const index::Grid& grid) {
     auto mesh = std::make_shared<index::CellMesh>();
     index::MeshMaker().make(values, surface.query, surface.ids, *mesh);
     surface.mesh = std::move(mesh);
-    const index::BrickValues held(values.type, values.scaling, 0, 3);
-    const index::BrickLevels levels = held.levels(result->query.isovalues);
+    const index::BlockValues held(values.type, values.scaling, 0, 3);
+    const index::BlockLevels levels = held.levels(result->query.isovalues);
     result->levels = levels.units;
-    index::BrickGatherer gatherer(grid, held);
+    index::BlockGatherer gatherer(grid, held);
     gatherer.need(surface);
-    gatherer.gather(values, 0, levels, result->bricks);
+    gatherer.gather(values, 0, levels, result->blocks);
     return result;
 }
 

@@ -118,7 +118,7 @@ bool CellSupply::is_half_sent(const Frame& frame) const {
 }
 
 /// Whether a set takes so much longer to draw than the one at rest that is still being drawn in
-/// slices that this one is to be seen first.
+/// parts that this one is to be seen first.
 bool CellSupply::waits_its_turn(const index::ExtractionPtr& set, const Frame& frame) const {
     constexpr std::size_t kManyMore = 8;
     const index::ExtractionPtr& resting = sets_.held(CellSets::Use::at_rest);
@@ -173,9 +173,9 @@ bool CellSupply::is_finest(const Frame& frame) const {
            (shown->query.detail == frame.plan.detail && frame.plan.detail.at_rest);
 }
 
-/// Whether a picture at rest of more cells than a frame can draw is made in slices.
-bool CellSupply::may_be_sliced(const Frame& frame) const {
-    return frame.choosing() == Choosing::with_slices && config_.quality.still_budget_ms > 0 &&
+/// Whether a picture at rest of more cells than a frame can draw is made in parts.
+bool CellSupply::may_be_partial(const Frame& frame) const {
+    return frame.choosing() == Choosing::with_parts && config_.quality.still_budget_ms > 0 &&
            frame.state.quality == interaction::QualityMode::automatic &&
            !frame.state.playback.playing;
 }
@@ -239,7 +239,7 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
 }
 
 /// First as many cells as quads would show in the pause that a picture at rest may take, in steps,
-/// so that it gets better soon; then, where slices draw them, all, which are looked for meanwhile.
+/// so that it gets better soon; then, where parts draw them, all, which are looked for meanwhile.
 /// @param moving cells of moving pictures
 index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQuality& quality,
                                               std::uint64_t moving) {
@@ -272,7 +272,7 @@ index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQua
                        2 * resting->cells() >= resting->query.detail.most_cells;
     if (grows && !seen)
         return resting->query.detail; // it is being drawn
-    frame.plan.all_at_rest |= serves && !grows && may_be_sliced(frame);
+    frame.plan.all_at_rest |= serves && !grows && may_be_partial(frame);
     if (frame.plan.all_at_rest)
         return last;
     const index::DetailQuery first = details_.at_first_rest(cells_at_first_);

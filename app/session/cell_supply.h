@@ -68,7 +68,7 @@ class CellSupply {
     bool comes_late(const index::ExtractionPtr& set) const;
     bool give_way(const index::ExtractionPtr& set, FramePlan& plan);
     void say_refused(const index::ExtractionPtr& set, const Frame& frame);
-    bool may_be_sliced(const Frame& frame) const;
+    bool may_be_partial(const Frame& frame) const;
     index::DetailQuery detail_for_live(const Frame& frame, const FrameQuality& quality);
     index::DetailQuery detail_at_rest(const Frame& frame, const FrameQuality& quality,
                                       std::uint64_t moving);

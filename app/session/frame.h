@@ -26,7 +26,7 @@ struct Frame {
 
     bool is_live() const { return waiting == Waiting::never; }
     /// How footprints are chosen. The frames of a replay are each drawn at once.
-    Choosing choosing() const { return is_live() ? Choosing::with_slices : Choosing::by_pace; }
+    Choosing choosing() const { return is_live() ? Choosing::with_parts : Choosing::by_pace; }
 };
 
 } // namespace isochron::app

@@ -19,9 +19,9 @@ void PictureChoice::learn_costs(const Frame& frame) {
 }
 
 /// Whether a picture at rest differs from the one that is shown in nothing but more detail, and may
-/// be made in slices.
+/// be made in parts.
 bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) const {
-    if (!supply_.rests() || !frame.drawn || frame.choosing() != Choosing::with_slices ||
+    if (!supply_.rests() || !frame.drawn || frame.choosing() != Choosing::with_parts ||
         now.cells == frame.drawn->cells || now.cells != sets_.held(CellSets::Use::at_rest))
         return false;
     Picture same = now;
@@ -47,18 +47,18 @@ FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
 
 /// Takes over rank 0's plan.
 void PictureChoice::agree(const Frame& frame, FramePlan plan) {
-    // More cells than a frame can draw come in slices alone, which may begin some frames later; also
+    // More cells than a frame can draw come in parts alone, which may begin some frames later; also
     // far more than those that were drawn, of which the time is not known well.
     constexpr std::size_t kFarMore = 4;
     FrameReport& report = frame.report;
     const bool near = !frame.drawn || !frame.drawn->cells ||
                       report.cells <= kFarMore * frame.drawn->cells->cells();
     const bool fits = near && report.expected && *report.expected <= report.budget;
-    plan.shows_slices = frame.sharing.slices_are_whole();
+    plan.shows_parts = frame.sharing.parts_are_whole();
     plan.holds_finer &= !fits;
     plan.all_at_rest = frame.plan.all_at_rest;
     frame.plan = frame.sharing.agree(plan);
-    report.in_slices = frame.plan.in_slices;
+    report.in_parts = frame.plan.in_parts;
     report.footprint = frame.plan.footprint;
     report.reason = frame.plan.reason;
     report.final = frame.plan.final;
@@ -90,24 +90,24 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
         agree(frame, plan);
     }
     now.footprint = report.footprint;
-    rest_in_slices(frame, now);
+    rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != frame.drawn || frame.plan.measure) &&
                      !frame.plan.holds_finer;
 }
 
-/// Shows the picture at rest that was made in slices for as long as nothing changes.
-void PictureChoice::rest_in_slices(const Frame& frame, Picture& now) const {
+/// Shows the picture at rest that was made in parts for as long as nothing changes.
+void PictureChoice::rest_in_parts(const Frame& frame, Picture& now) const {
     FrameReport& report = frame.report;
-    if (!report.in_slices || !frame.drawn)
+    if (!report.in_parts || !frame.drawn)
         return;
-    now.footprint = *report.in_slices;
+    now.footprint = *report.in_parts;
     const bool shown = now == frame.drawn;
     if (!shown)
         now.footprint = report.footprint;
     report.footprint = now.footprint;
-    report.reason = QualityReason::in_slices;
+    report.reason = QualityReason::in_parts;
     report.final = shown && supply_.is_finest(frame);
     if (shown)
         report.expected = std::exchange(report.better, std::nullopt);

@@ -35,7 +35,7 @@ class PictureChoice {
     Options options(const Frame& frame, bool changed) const;
     FramePlan wanted(const Frame& frame, const Options& options);
     void agree(const Frame& frame, FramePlan plan);
-    void rest_in_slices(const Frame& frame, Picture& now) const;
+    void rest_in_parts(const Frame& frame, Picture& now) const;
 
     const Outputs& outputs_;
     FrameLog& log_;

@@ -29,7 +29,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
               render::CellBuffers::wanted_shading(outputs_.gl())),
       pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
       choice_(config_, outputs_, log_, scene_.cells(), supply_, pictures_),
-      sliced_(scene_, outputs_, choice_.quality()) {
+      partial_(scene_, outputs_, choice_.quality()) {
     for (std::size_t number = 1; number < file->arrays(); ++number)
         scene_.cells().prepare_for(file->array(number).info());
 }
@@ -181,10 +181,10 @@ void Session::warm_up() {
                       scene_.warm_up(picture, views);
                   },
                   {});
-    Outputs::SlicePlace place; // what is drawn over several frames has a place of its own
+    Outputs::PartPlace place; // what is drawn over several frames has a place of its own
     const auto nothing = [](const ScenePlace&, std::span<const render::View>) { return true; };
     for (bool whole = false; !whole;)
-        whole = outputs_.draw_slice(place, nothing);
+        whole = outputs_.draw_part(place, nothing);
 }
 
 void Session::draw_eyes(const Frame& frame, const Picture& now,
@@ -194,10 +194,10 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
             draw_aids();
             panel_.draw_over(size, state_, facts, frame.report.time);
         } : Outputs::Overlay();
-    const bool in_slices = plan_.in_slices && now.footprint == *plan_.in_slices;
-    sliced_.begin_frame(in_slices);
-    if (plan_.in_slices && !frame.report.redrawn && !in_slices && outputs_.want(now.audience)) {
-        if (auto whole = sliced_.draw(frame, now, overlay)) {
+    const bool in_parts = plan_.in_parts && now.footprint == *plan_.in_parts;
+    partial_.begin_frame(in_parts);
+    if (plan_.in_parts && !frame.report.redrawn && !in_parts && outputs_.want(now.audience)) {
+        if (auto whole = partial_.draw(frame, now, overlay)) {
             drawn_ = std::move(whole);
             frame.report.footprint = drawn_->footprint;
             frame.report.redrawn = true;
@@ -217,7 +217,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
 
 void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay) {
     StopWatch watch;
-    sliced_.give_up();
+    partial_.give_up();
     supply_.forget_views();
     outputs_.leave_free(now.layout.free);
     outputs_.show_aside(now.layout.aside);
@@ -263,8 +263,8 @@ FrameAnswer Session::answer() const {
     answer.failure = supply_.extractor().failure().value_or("");
     answer.view = choice_.quality().view();
     answer.surface_limit = scene_.cells().surface_limit();
-    answer.slices_whole = sliced_.are_whole();
-    answer.slices_took = sliced_.took();
+    answer.parts_whole = partial_.are_whole();
+    answer.parts_took = partial_.took();
     return answer;
 }
 
@@ -315,7 +315,7 @@ void Session::set_wake(const std::function<void()>& wake) {
 FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
-        .busy = state_.playback.playing || last.extracting || sliced_.are_made() ||
+        .busy = state_.playback.playing || last.extracting || partial_.are_made() ||
                 captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
         .final =
@@ -371,7 +371,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.present(damaged);
     report.present = stages.lap();
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
-    sliced_.measure_unseen(frame, now, whole);
+    partial_.measure_unseen(frame, now, whole);
     note_.input = input;
     if (captures(report))
         outputs_.take_screenshots(note());

@@ -21,12 +21,12 @@
 #include "app/quality/frame_quality.h"
 #include "app/scene/scene.h"
 #include "app/session/cell_supply.h"
+#include "app/session/partial_pictures.h"
 #include "app/session/picker.h"
 #include "app/session/picture_choice.h"
 #include "app/session/picture_maker.h"
 #include "app/session/session_panel.h"
 #include "app/session/shown_arrays.h"
-#include "app/session/sliced_pictures.h"
 #include "app/session/window_contents.h"
 #include "index/extraction/extractor.h"
 #include "interaction/controls/controls.h"
@@ -192,7 +192,7 @@ class Session {
     CellSupply supply_;
     PictureMaker pictures_;
     PictureChoice choice_;
-    SlicedPictures sliced_;
+    PartialPictures partial_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< of the last frame
     std::optional<Picture> drawn_; ///< last picture

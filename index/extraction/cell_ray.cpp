@@ -22,14 +22,14 @@ namespace {
 /// root on a face is never lost by rounding.
 constexpr double kSlack = 1e-9;
 
-using CellCorners = std::array<float, 8>; ///< brick units, x fastest
+using CellCorners = std::array<float, 8>; ///< block units, x fastest
 
-/// The vertices of an extraction's bricks.
-class BrickVertices {
+/// The vertices of an extraction's blocks.
+class BlockVertices {
   public:
-    BrickVertices(const VolumeBricks& bricks, const Grid& grid) : bricks_(bricks), tiling_(grid) {}
+    BlockVertices(const VolumeBlocks& blocks, const Grid& grid) : blocks_(blocks), tiling_(grid) {}
 
-    /// @return nothing if a brick is missing: then the cell is not active
+    /// @return nothing if a block is missing: then the cell is not active
     std::optional<CellCorners> of_cell(const glm::ivec3& cell) {
         CellCorners corners;
         for (int corner = 0; corner < 8; ++corner) {
@@ -43,30 +43,30 @@ class BrickVertices {
     }
 
   private:
-    static constexpr int kEdge = static_cast<int>(kBrickEdge);
+    static constexpr int kEdge = static_cast<int>(kBlockEdge);
 
-    bool find(const glm::ivec3& brick) {
-        const auto id = static_cast<BrickId>(
-            (brick.z * tiling_.bricks[1] + brick.y) * tiling_.bricks[0] + brick.x);
+    bool find(const glm::ivec3& block) {
+        const auto id = static_cast<BlockId>(
+            (block.z * tiling_.blocks[1] + block.y) * tiling_.blocks[0] + block.x);
         if (id != id_) {
             id_ = id;
-            const auto found = std::ranges::lower_bound(bricks_.ids, id);
-            const bool there = found != bricks_.ids.end() && *found == id;
-            bytes_ = there ? bricks_.brick(found - bricks_.ids.begin()).data() : nullptr;
+            const auto found = std::ranges::lower_bound(blocks_.ids, id);
+            const bool there = found != blocks_.ids.end() && *found == id;
+            bytes_ = there ? blocks_.block(found - blocks_.ids.begin()).data() : nullptr;
         }
         return bytes_ != nullptr;
     }
     float value(int vertex) const {
-        return visit_value_type(bricks_.held, [&]<class T>(std::type_identity<T>) {
+        return visit_value_type(blocks_.held, [&]<class T>(std::type_identity<T>) {
             T held;
             std::memcpy(&held, bytes_ + vertex * sizeof held, sizeof held);
-            return static_cast<float>(held) * bricks_.factor;
+            return static_cast<float>(held) * blocks_.factor;
         });
     }
 
-    const VolumeBricks& bricks_;
-    BrickTiling tiling_;
-    std::optional<BrickId> id_; ///< of the last brick that was looked up
+    const VolumeBlocks& blocks_;
+    BlockTiling tiling_;
+    std::optional<BlockId> id_; ///< of the last block that was looked up
     const std::byte* bytes_ = nullptr;
 };
 
@@ -313,7 +313,7 @@ std::optional<RayHit> first_hit(const Extraction& shown, const Grid& grid, const
     if (shown.coarse())
         return first_hit_of_levels(shown, grid, ray, *indexed, surfaces);
     const auto& [origin, direction] = *indexed;
-    BrickVertices vertices(shown.bricks, grid);
+    BlockVertices vertices(shown.blocks, grid);
     for (CellRay at(grid, *indexed); at.inside(); at.advance()) {
         const auto corners = vertices.of_cell(at.cell());
         if (!corners)

@@ -1,4 +1,4 @@
-// Searches for every surface, copies the bricks that the cells need, and colors the cells.
+// Searches for every surface, copies the blocks that the cells need, and colors the cells.
 #include "index/extraction/extraction.h"
 
 #include "index/detail/detail_search.h"
@@ -75,7 +75,7 @@ class Extracting {
         }
         const auto started = std::chrono::steady_clock::now();
         result->levels = values_.levels(result->query.isovalues).units;
-        result->bricks = gatherer_.none();
+        result->blocks = gatherer_.none();
         if (result->cells() > 0)
             find_surroundings(step_in_chunks(*file_, result->query.step), *result, stop);
         result->gather_time = std::chrono::steady_clock::now() - started;
@@ -117,17 +117,17 @@ class Extracting {
         return true;
     }
 
-    /// Adds the bricks and the colors. @return false when stopped
+    /// Adds the blocks and the colors. @return false when stopped
     bool fill(const StepView& step, Extraction& result, const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
-        const BrickLevels levels = values_.levels(result.query.isovalues);
+        const BlockLevels levels = values_.levels(result.query.isovalues);
         result.levels = levels.units;
-        result.bricks = gatherer_.none();
+        result.blocks = gatherer_.none();
         if (result.cells() == 0) // avoids loading the step, which may decode a file
             return true;
         for (const CellSet& surface : result.surfaces)
             gatherer_.need(surface);
-        if (!gatherer_.gather(step, levels, result.bricks, stop))
+        if (!gatherer_.gather(step, levels, result.blocks, stop))
             return false;
         find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
@@ -157,8 +157,8 @@ class Extracting {
     std::optional<SearchMethod> method_;
     Shading shading_;
     std::vector<SearchInto> searches_; ///< by surface
-    BrickValues values_;
-    BrickGatherer gatherer_;
+    BlockValues values_;
+    BlockGatherer gatherer_;
     LayerSearch layers_; ///< for meshes
     SurfaceColors colors_;
     DetailSearch details_;

@@ -1,8 +1,8 @@
-// The result of one request: the active cells of its surfaces and the volume bricks around them.
+// The result of one request: the active cells of its surfaces and the volume blocks around them.
 #pragma once
 
 #include "index/extraction/surroundings.h"
-#include "index/extraction/volume_bricks.h"
+#include "index/extraction/volume_blocks.h"
 #include "index/search/index_search.h"
 
 #include <chrono>
@@ -20,11 +20,11 @@ namespace isochron::index {
 struct Extraction {
     SurfacesQuery query;
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows if asked for
-    std::vector<float> levels;     ///< the isovalues in brick units: see BrickLevels
+    std::vector<float> levels;     ///< the isovalues in block units: see BlockLevels
     /// Color coordinates of the cells, surface after surface in the order of ids; empty if none
     /// were asked for, or the index has no array to color by.
     std::vector<std::uint16_t> colors;
-    VolumeBricks bricks;           ///< of the step, for all surfaces
+    VolumeBlocks blocks;           ///< of the step, for all surfaces
     SurroundingField surroundings; ///< of all surfaces; none where there are no cells
     /// The level of each region's cells (detail_regions.h). Empty: all cells are those of the
     /// volume itself. Else cells come as points only, as detail_regions.h has them, and without the

@@ -19,7 +19,7 @@ struct SendBudget {
     std::size_t left() const { return bytes - sent; }
 };
 
-/// Sends what says which cells a set has. Bricks of its volume and its mesh are sent beside it, by
+/// Sends what says which cells a set has. Blocks of its volume and its mesh are sent beside it, by
 /// CellBuffers.
 class ArrivingSet {
   public:

@@ -1,4 +1,4 @@
-// Uploads a set to the GPU: finds what changes, sends bricks and cells, then applies all at once.
+// Uploads a set to the GPU: finds what changes, sends blocks and cells, then applies all at once.
 #include "render/cells/cell_buffers.h"
 
 #include "render/gl/driver.h"
@@ -59,7 +59,7 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
 }
 
 void CellBuffers::prepare(index::ValueType held) {
-    bricks_.emplace(*gl_, grid_, held);
+    blocks_.emplace(*gl_, grid_, held);
     volume_version_ = 0; // of no set
     held_ = held;
     const auto [made, is_new] = computes_.try_emplace(held, *gl_, grid_, *axes_, held);
@@ -67,17 +67,17 @@ void CellBuffers::prepare(index::ValueType held) {
     if (!is_new)
         return;
     const index::Extraction none;
-    compute_->enter_pages(*bricks_);
+    compute_->enter_pages(*blocks_);
     compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, arriving_.message(),
                           points_);
     compute_->set_styles(none, arriving_.styles(), points_);
-    compute_->fill_planes(none, *bricks_, points_);
-    compute_->fill_corners(none, *bricks_, points_, {0, 0}, {corners_.values, corners_.gradients});
+    compute_->fill_planes(none, *blocks_, points_);
+    compute_->fill_corners(none, *blocks_, points_, {0, 0}, {corners_.values, corners_.gradients});
 }
 
-/// Makes ready for values of this type; drops bricks of another.
+/// Makes ready for values of this type; drops blocks of another.
 void CellBuffers::hold(index::ValueType held) {
-    if (!bricks_ || held_ != held)
+    if (!blocks_ || held_ != held)
         prepare(held);
 }
 
@@ -85,7 +85,7 @@ bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_bu
                          SendVolume volume) {
     SendBudget budget{std::max(byte_budget, StagingRing::kUnit)};
     bool changed = false;
-    const bool volume_of_shown = !pending() && (sending_bricks_ || !newest || newest == shown_);
+    const bool volume_of_shown = !pending() && (sending_blocks_ || !newest || newest == shown_);
     try {
         while (take_up(newest, volume, budget) && send_on(budget)) {
             show();
@@ -116,7 +116,7 @@ bool CellBuffers::stage(const index::ExtractionPtr& set, std::size_t byte_budget
 /// Whether the shown set's volume is missing and could be sent.
 bool CellBuffers::wants_volume() const {
     return !has_volume() && no_volume_version_ != version_ && !shown_->coarse() &&
-           shown_->bricks.ids.size() <= bricks_->values().limit();
+           shown_->blocks.ids.size() <= blocks_->values().limit();
 }
 
 /// Drops what is being sent: the set, or without one the volume of the shown set.
@@ -128,10 +128,10 @@ void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& wh
         no_volume_version_ = version_;
     }
     arriving_.end();
-    sending_bricks_ = sending_mesh_ = false;
+    sending_blocks_ = sending_mesh_ = false;
     volume_version_ = 0; // of no set
-    if (bricks_)         // which may have got only a part
-        bricks_.emplace(*gl_, grid_, held_);
+    if (blocks_)         // which may have got only a part
+        blocks_.emplace(*gl_, grid_, held_);
 }
 
 /// Begins to send a new set, or the volume of the shown one, if there is anything to send.
@@ -141,20 +141,20 @@ bool CellBuffers::take_up(const index::ExtractionPtr& newest, SendVolume volume,
     if (pending())
         return true;
     const bool shown = !newest || newest == shown_ || newest == refused();
-    if (sending_bricks_ || (shown && volume == SendVolume::with_cells))
+    if (sending_blocks_ || (shown && volume == SendVolume::with_cells))
         send_volume_of_shown(budget);
-    if (sending_bricks_ || shown)
+    if (sending_blocks_ || shown)
         return false;
     return begin(newest, volume);
 }
 
-/// Drops the bricks of the shown set if both do not fit together.
-/// @return false when these bricks alone do not fit
-bool CellBuffers::make_room_for(const index::VolumeBricks& bricks) {
-    if (bricks.ids.size() > bricks_->values().limit())
+/// Drops the blocks of the shown set if both do not fit together.
+/// @return false when these blocks alone do not fit
+bool CellBuffers::make_room_for(const index::VolumeBlocks& blocks) {
+    if (blocks.ids.size() > blocks_->values().limit())
         return false;
-    if (!bricks_->has_room_for(bricks)) {
-        bricks_->forget();
+    if (!blocks_->has_room_for(blocks)) {
+        blocks_->forget();
         volume_version_ = 0; // of no set
     }
     return true;
@@ -162,33 +162,33 @@ bool CellBuffers::make_room_for(const index::VolumeBricks& bricks) {
 
 /// @return false when the set is refused
 bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
-    hold(set->bricks.held);
+    hold(set->blocks.held);
     const bool with_points = set->shaded();
     refused_ = {};
     std::string why;
     if (set->cells() > points_.limit())
         why = fmt::format("{} cells at step {}: this GL can draw at most {}, so the last ones stay",
                           set->cells(), std::uint32_t{set->query.step}, points_.limit());
-    else if (!with_points && !set->coarse() && !make_room_for(set->bricks))
-        why = fmt::format("{} bricks of the volume at step {}: this GL holds at most {}, so the "
+    else if (!with_points && !set->coarse() && !make_room_for(set->blocks))
+        why = fmt::format("{} blocks of the volume at step {}: this GL holds at most {}, so the "
                           "last cells stay",
-                          set->bricks.ids.size(), std::uint32_t{set->query.step},
-                          bricks_->values().limit());
+                          set->blocks.ids.size(), std::uint32_t{set->query.step},
+                          blocks_->values().limit());
     if (!why.empty()) {
         refused_ = {std::move(set), std::move(why)};
         return false;
     }
     if (set->coarse() ||
-        (with_points && volume == SendVolume::with_cells && !make_room_for(set->bricks)))
+        (with_points && volume == SendVolume::with_cells && !make_room_for(set->blocks)))
         volume = SendVolume::never;
     std::unique_ptr<SlotPlan> plan;
     if (!with_points)
         plan = !by_changes_ || (shown_ && shown_->coarse())
                    ? std::make_unique<SlotPlan>(grid_, nullptr, kNoSlots, *set)
                    : std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
-    sending_bricks_ = volume == SendVolume::with_cells || !with_points;
-    if (sending_bricks_)
-        bricks_->begin(set->bricks);
+    sending_blocks_ = volume == SendVolume::with_cells || !with_points;
+    if (sending_blocks_)
+        blocks_->begin(set->blocks);
     sending_mesh_ = with_points && set->meshed();
     if (sending_mesh_)
         mesh_.begin(*set);
@@ -200,21 +200,21 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
 bool CellBuffers::send_on(SendBudget& budget) {
     if (!arriving_.send_points(budget, count_))
         return false;
-    if (sending_bricks_ && !send_bricks(budget))
+    if (sending_blocks_ && !send_blocks(budget))
         return false;
     if (sending_mesh_ && !send_mesh(budget))
         return false;
     return arriving_.comes_with_points() || arriving_.send_changes(ring_, budget, count_);
 }
 
-/// @return whether all bricks are on the GPU
-bool CellBuffers::send_bricks(SendBudget& budget) {
-    if (!bricks_->complete()) {
-        const std::size_t part = bricks_->send(ring_, budget.left());
+/// @return whether all blocks are on the GPU
+bool CellBuffers::send_blocks(SendBudget& budget) {
+    if (!blocks_->complete()) {
+        const std::size_t part = blocks_->send(ring_, budget.left());
         budget.sent += part;
-        count_.brick_bytes += part;
+        count_.block_bytes += part;
     }
-    return bricks_->complete();
+    return blocks_->complete();
 }
 
 /// @return whether the whole mesh is on the GPU
@@ -231,34 +231,34 @@ bool CellBuffers::send_mesh(SendBudget& budget) {
 void CellBuffers::send_volume_of_shown(SendBudget& budget) {
     if (!shown_ || has_volume() || no_volume_version_ == version_ || shown_->coarse())
         return;
-    if (!sending_bricks_) {
-        hold(shown_->bricks.held);
-        if (!make_room_for(shown_->bricks))
+    if (!sending_blocks_) {
+        hold(shown_->blocks.held);
+        if (!make_room_for(shown_->blocks))
             return;
-        sending_bricks_ = true;
-        bricks_->begin(shown_->bricks);
+        sending_blocks_ = true;
+        blocks_->begin(shown_->blocks);
     }
-    if (!send_bricks(budget))
+    if (!send_blocks(budget))
         return;
-    compute_->enter_pages(*bricks_);
-    bricks_->show();
-    sending_bricks_ = false;
+    compute_->enter_pages(*blocks_);
+    blocks_->show();
+    sending_blocks_ = false;
     volume_version_ = version_;
 }
 
 void CellBuffers::show() {
-    if (sending_bricks_)
-        compute_->enter_pages(*bricks_);
+    if (sending_blocks_)
+        compute_->enter_pages(*blocks_);
     count_.whole_ids += arriving_.set()->cells();
     slots_ = std::make_shared<const Slots>(
         arriving_.comes_with_points() ? arriving_.swap_points(points_) : place_cells());
-    if (sending_bricks_)
-        bricks_->show();
+    if (sending_blocks_)
+        blocks_->show();
     ++count_.sets;
     shown_ = arriving_.end();
     version_ = next_version();
     count_.surrounding_bytes += surroundings_.show(shown_->surroundings);
-    if (std::exchange(sending_bricks_, false))
+    if (std::exchange(sending_blocks_, false))
         volume_version_ = version_;
     if (std::exchange(sending_mesh_, false)) {
         mesh_.show();
@@ -274,7 +274,7 @@ Slots CellBuffers::place_cells() {
     compute_->place_cells(plan, set, arriving_.message(), points_);
     if (!set.colors.empty() || (shown_ && !shown_->colors.empty()))
         compute_->set_styles(set, arriving_.styles(), points_);
-    compute_->fill_planes(set, *bricks_, points_);
+    compute_->fill_planes(set, *blocks_, points_);
     count_.ids += plan.ids();
     return plan.take();
 }
@@ -292,7 +292,7 @@ std::size_t CellBuffers::compute_corners(std::size_t most) {
     }
     const std::size_t count = std::min(most, cells - corners_.done);
     if (count > 0)
-        compute_->fill_corners(*shown_, *bricks_, points_, {corners_.done, count},
+        compute_->fill_corners(*shown_, *blocks_, points_, {corners_.done, count},
                                {corners_.values, corners_.gradients});
     corners_.done += count;
     return count;
@@ -300,7 +300,7 @@ std::size_t CellBuffers::compute_corners(std::size_t most) {
 
 void CellBuffers::write_corners(DrawPart cells, const CellCompute::Corners& to) const {
     assert(has_volume());
-    compute_->fill_corners(*shown_, *bricks_, points_, cells, to);
+    compute_->fill_corners(*shown_, *blocks_, points_, cells, to);
 }
 
 DeviceArray CellBuffers::corner_values_array(const Gl& gl) {

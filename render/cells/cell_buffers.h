@@ -8,7 +8,7 @@
 #include "index/extraction/extraction.h"
 #include "render/cells/arriving_set.h"
 #include "render/cells/axis_table.h"
-#include "render/cells/brick_pool.h"
+#include "render/cells/block_pool.h"
 #include "render/cells/cell_compute.h"
 #include "render/cells/mesh_buffers.h"
 #include "render/cells/slot_plan.h"
@@ -35,8 +35,8 @@ enum class SendVolume : std::uint8_t {
 
 /// Cells lie in dense slots. A new set is sent as its difference from the shown one, through a ring
 /// of mapped memory, with a budget of bytes per frame. It is applied when all of it and of its
-/// volume bricks is on the GPU, so that no frame shows half a set. The GPU computes normals, and
-/// the data for exact surfaces, from the bricks. A set that comes with its points, normals
+/// volume blocks is on the GPU, so that no frame shows half a set. The GPU computes normals, and
+/// the data for exact surfaces, from the blocks. A set that comes with its points, normals
 /// included, is sent whole instead: for software GL, where the worker computes normals in a tenth
 /// of the time and sending costs little.
 class CellBuffers {
@@ -60,7 +60,7 @@ class CellBuffers {
 
     /// Makes the compute programs and runs each once, over no cells: compiling them takes longer
     /// than a frame may. Without this the first upload does it.
-    /// @param held type of the values in volume bricks. If the arrays of an index have several
+    /// @param held type of the values in volume blocks. If the arrays of an index have several
     ///        types, call this for each of them.
     void prepare(index::ValueType held);
 
@@ -128,7 +128,7 @@ class CellBuffers {
     /// Most cells that these textures can hold: fewer than can be drawn without them.
     std::size_t corner_limit() const { return corners_.gradients.limit(); }
     /// GL_TEXTURE_BUFFER by slot, two RGBA32F texels each: the values at the cell's vertices minus
-    /// its surface's isovalue, in brick units (index/extraction/brick_values.h), which keep signs
+    /// its surface's isovalue, in block units (index/extraction/block_values.h), which keep signs
     /// and roots. Order of the vertices: 000, 100, 010, 110, 001, 101, 011, 111, x first.
     GLuint corner_values_texture() const { return corners_.values.texture(); }
     /// GL_TEXTURE_BUFFER by slot, four RGBA32UI texels each: for each vertex, in the same order,
@@ -140,7 +140,7 @@ class CellBuffers {
     /// What was sent so far.
     const UploadCount& count() const { return count_; }
     /// Null before the first set.
-    const BrickPool* bricks() const { return bricks_ ? &*bricks_ : nullptr; }
+    const BlockPool* blocks() const { return blocks_ ? &*blocks_ : nullptr; }
 
   private:
     /// What is kept for exact surfaces: see the textures.
@@ -158,10 +158,10 @@ class CellBuffers {
     void give_up(const index::ExtractionPtr& set, const OutOfMemory& why);
     bool take_up(const index::ExtractionPtr& newest, SendVolume volume, SendBudget& budget);
     bool begin(index::ExtractionPtr set, SendVolume volume);
-    bool make_room_for(const index::VolumeBricks& bricks);
+    bool make_room_for(const index::VolumeBlocks& blocks);
     bool send_on(SendBudget& budget);
     bool send_mesh(SendBudget& budget);
-    bool send_bricks(SendBudget& budget);
+    bool send_blocks(SendBudget& budget);
     void send_volume_of_shown(SendBudget& budget);
     Slots place_cells();
     void show();
@@ -174,7 +174,7 @@ class CellBuffers {
     KeptCorners corners_;
     MeshBuffers mesh_;
     Surroundings surroundings_;
-    std::optional<BrickPool> bricks_;                  ///< made when the type is known
+    std::optional<BlockPool> blocks_;                  ///< made when the type is known
     index::ValueType held_{};                          ///< of its values
     std::map<index::ValueType, CellCompute> computes_; ///< by type of the values
     CellCompute* compute_ = nullptr;                   ///< for `held_`; likewise
@@ -187,7 +187,7 @@ class CellBuffers {
     UploadCount count_;
     ArrivingSet arriving_;
     bool sending_mesh_ = false;   ///< of the arriving set
-    bool sending_bricks_ = false; ///< of the arriving set, or later of the shown one
+    bool sending_blocks_ = false; ///< of the arriving set, or later of the shown one
 };
 
 } // namespace isochron::render

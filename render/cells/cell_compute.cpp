@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 64; ///< largest data of a cell in a buffer range: its gradients
 
-/// The uniform block of volume_bricks.glsl, in std140 layout.
+/// The uniform block of volume_blocks.glsl, in std140 layout.
 struct VolumeBlock {
     std::array<glm::vec4, 3> from_difference;
     glm::ivec3 vertices;
@@ -32,10 +32,10 @@ static_assert(sizeof(VolumeBlock) == 3 * 16 + 2 * 16 + 2 * 16);
 std::string_view sampler_of(index::ValueType held) {
     switch (held) {
     case index::ValueType::i8:
-    case index::ValueType::i16: return "#define BRICKS isamplerBuffer\n";
+    case index::ValueType::i16: return "#define BLOCKS isamplerBuffer\n";
     case index::ValueType::u8:
-    case index::ValueType::u16: return "#define BRICKS usamplerBuffer\n";
-    default: return "#define BRICKS samplerBuffer\n";
+    case index::ValueType::u16: return "#define BLOCKS usamplerBuffer\n";
+    default: return "#define BLOCKS samplerBuffer\n";
     }
 }
 
@@ -70,27 +70,27 @@ float gradient_scale(float range) {
 CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, const AxisTable& axes,
                          index::ValueType held)
     : gl_(&gl), grid_(grid), axes_(&axes), at_once_(work_at_once(Limits(gl), kMostBytes)),
-      pages_(link_program(gl, {shader_file("brick_pages.comp")})),
+      pages_(link_program(gl, {shader_file("block_pages.comp")})),
       places_(link_program(gl, {shader_file("cell_places.comp")})),
       styles_(link_program(gl, {shader_file("cell_styles.comp")})),
       planes_(link_program(gl, {shader_file("cell_planes.comp")}, prelude_of(grid, held))),
       corners_(link_program(gl, {shader_file("cell_corners.comp")}, prelude_of(grid, held))),
       volume_(gl), work_(gl) {}
 
-void CellCompute::use_volume(const index::Extraction& set, const BrickPool& bricks) const {
+void CellCompute::use_volume(const index::Extraction& set, const BlockPool& blocks) const {
     const auto& n = grid_.vertices;
-    const auto tiles = index::BrickTiling(grid_).bricks;
+    const auto tiles = index::BlockTiling(grid_).blocks;
     VolumeBlock block{.from_difference = from_difference(grid_),
                       .vertices = {n[0], n[1], n[2]},
-                      .factor = set.bricks.factor,
+                      .factor = set.blocks.factor,
                       .tiles = {tiles[0], tiles[1], tiles[2]},
-                      .gradient_scale = gradient_scale(set.bricks.range) * axes_->smallest(),
+                      .gradient_scale = gradient_scale(set.blocks.range) * axes_->smallest(),
                       .levels = {}};
     std::ranges::copy(set.levels, block.levels.begin());
     gl_->NamedBufferData(volume_.name(), sizeof(block), &block, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, 0, volume_.name());
-    gl_->BindTextureUnit(0, bricks.pages().texture());
-    gl_->BindTextureUnit(1, bricks.values().texture());
+    gl_->BindTextureUnit(0, blocks.pages().texture());
+    gl_->BindTextureUnit(1, blocks.values().texture());
     axes_->bind();
 }
 
@@ -128,10 +128,10 @@ void CellCompute::run(const Program& program, DrawPart items, Work work, Prepare
                        GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void CellCompute::enter_pages(const BrickPool& bricks) const {
-    bind(0, bricks.pages());
-    bind(1, bricks.page_message());
-    run(pages_, bricks.page_changes(), {}, [](std::size_t, std::size_t) {});
+void CellCompute::enter_pages(const BlockPool& blocks) const {
+    bind(0, blocks.pages());
+    bind(1, blocks.page_message());
+    run(pages_, blocks.page_changes(), {}, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::place_cells(const SlotPlan& plan, const index::Extraction& set,
@@ -154,16 +154,16 @@ void CellCompute::set_styles(const index::Extraction& set, const DeviceArray& st
     run(styles_, set.cells(), {.colored = !set.colors.empty()}, [](std::size_t, std::size_t) {});
 }
 
-void CellCompute::fill_planes(const index::Extraction& set, const BrickPool& bricks,
+void CellCompute::fill_planes(const index::Extraction& set, const BlockPool& blocks,
                               const DeviceArray& points) const {
-    use_volume(set, bricks);
+    use_volume(set, blocks);
     bind(0, points);
     run(planes_, set.cells(), {}, [](std::size_t, std::size_t) {});
 }
 
-void CellCompute::fill_corners(const index::Extraction& set, const BrickPool& bricks,
+void CellCompute::fill_corners(const index::Extraction& set, const BlockPool& blocks,
                                const DeviceArray& points, DrawPart cells, const Corners& to) const {
-    use_volume(set, bricks);
+    use_volume(set, blocks);
     bind(0, points);
     gl_->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, to.list != 0 ? to.list : points.buffer());
     run(corners_, cells, {.whole = to.list == 0}, [&](std::size_t begin, std::size_t end) {

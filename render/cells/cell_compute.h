@@ -3,7 +3,7 @@
 
 #include "index/extraction/extraction.h"
 #include "render/cells/axis_table.h"
-#include "render/cells/brick_pool.h"
+#include "render/cells/block_pool.h"
 #include "render/cells/draw_part.h"
 #include "render/cells/slot_plan.h"
 
@@ -17,13 +17,13 @@ namespace isochron::render {
 /// The compute passes of one volume; each covers slots 0 to n - 1.
 class CellCompute {
   public:
-    /// @param held type of the values in bricks
+    /// @param held type of the values in blocks
     /// @throws Error when a shader does not compile, or the driver's limits are too small
     CellCompute(const Gl& gl, const index::Grid& grid, const AxisTable& axes,
                 index::ValueType held);
 
     /// Applies the changes of the new set to the pool's page table.
-    void enter_pages(const BrickPool& bricks) const;
+    void enter_pages(const BlockPool& blocks) const;
 
     /// Writes the cells of a slot plan's message into `points` (three words per slot, see
     /// index::CellPoint), without their planes.
@@ -36,8 +36,8 @@ class CellCompute {
     void set_styles(const index::Extraction& set, const DeviceArray& styles,
                     const DeviceArray& points) const;
 
-    /// Writes the planes of all points. @param set its bricks are in the pool
-    void fill_planes(const index::Extraction& set, const BrickPool& bricks,
+    /// Writes the planes of all points. @param set its blocks are in the pool
+    void fill_planes(const index::Extraction& set, const BlockPool& blocks,
                      const DeviceArray& points) const;
 
     /// Values and gradients at the vertices of cells, by slot or by number.
@@ -48,11 +48,11 @@ class CellCompute {
         GLuint list = 0;       ///< buffer of slots by number; 0: by slot
     };
     /// Writes these of some cells.
-    void fill_corners(const index::Extraction& set, const BrickPool& bricks,
+    void fill_corners(const index::Extraction& set, const BlockPool& blocks,
                       const DeviceArray& points, DrawPart cells, const Corners& to) const;
 
   private:
-    void use_volume(const index::Extraction& set, const BrickPool& bricks) const;
+    void use_volume(const index::Extraction& set, const BlockPool& blocks) const;
     void bind(GLuint binding, const DeviceArray& array) const;
     void bind(GLuint binding, const DeviceArray& array, std::size_t first, std::size_t count) const;
     /// The uniform block of work.glsl, in std140 layout.

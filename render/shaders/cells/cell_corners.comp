@@ -1,10 +1,10 @@
 #version 450 core
 // Computes for every cell the values at its vertices, minus its surface's isovalue, and their
 // gradients: the data for the exact surface inside the cell.
-#ifndef BRICKS
-#define BRICKS samplerBuffer
+#ifndef BLOCKS
+#define BLOCKS samplerBuffer
 #endif
-#include "volume_bricks.glsl"
+#include "volume_blocks.glsl"
 #include "work.glsl"
 #include "slots.glsl"
 

@@ -1,10 +1,10 @@
 #version 450 core
 // Computes every cell's plane, as index::CellPlane defines it: the normal from the mean of its
 // vertices' central differences, the offset from its own values.
-#ifndef BRICKS
-#define BRICKS samplerBuffer
+#ifndef BLOCKS
+#define BLOCKS samplerBuffer
 #endif
-#include "volume_bricks.glsl"
+#include "volume_blocks.glsl"
 #include "work.glsl"
 #include "slots.glsl"
 

@@ -46,8 +46,8 @@ FrameAnswer rich_answer(std::mt19937& random) {
     answer.failure = random() % 2 ? "step 3: damaged" : "";
     answer.view = {2, 1e6 / 3};
     answer.surface_limit = random();
-    answer.slices_whole = random() % 2;
-    answer.slices_took = Milliseconds(0.1 * static_cast<double>(random() % 10'000));
+    answer.parts_whole = random() % 2;
+    answer.parts_took = Milliseconds(0.1 * static_cast<double>(random() % 10'000));
     answer.samples = {
         {random(), render::Footprint::surface, {1e5 / 3, 2}, Milliseconds(0.1), {}},
         {random(), render::Footprint::quad, {1, 2}, Milliseconds(1), Milliseconds(3)}};

@@ -387,7 +387,7 @@ TEST_F(ClusterJobTest, AStillPictureEndsExactOnAllWallsInTheSameFrameThoughNoFra
     for (std::size_t i = 0; i < first.size(); ++i) {
         for (const char* key : {"footprint", "reason"})
             EXPECT_EQ(first[i][key], second[i][key]) << "frame " << i << ", " << key;
-        exact |= first[i]["footprint"] == "surface" && first[i]["reason"] == "in slices";
+        exact |= first[i]["footprint"] == "surface" && first[i]["reason"] == "in parts";
     }
     EXPECT_TRUE(exact);
 }

@@ -111,7 +111,7 @@ class SimulatedDisplay {
         const double whole = footprint ? cost(*footprint, input.load) : 0;
         if (!footprint || unseen_spent_ < whole)
             return;
-        controller.measured_in_slices(*footprint, input.load, Milliseconds(whole));
+        controller.measured_in_parts(*footprint, input.load, Milliseconds(whole));
         ++measured_unseen;
         unseen_.reset();
     }

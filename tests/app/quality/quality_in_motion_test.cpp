@@ -122,7 +122,7 @@ TEST_F(QualityInMotion, ATrialEndsWhereThereAreManyMoreCells) {
     SimulatedDisplay display(100, [](Footprint footprint, const DrawLoad& load) {
         return load.cells * (footprint == Footprint::quad ? 1e-3 : 2e-3);
     });
-    display.input.in_slices = Footprint::surface;
+    display.input.in_parts = Footprint::surface;
     display.latency = 3;
     display.run(2);
     while (display.frames.back().choice.footprint == Footprint::quad)
@@ -132,21 +132,21 @@ TEST_F(QualityInMotion, ATrialEndsWhereThereAreManyMoreCells) {
     EXPECT_EQ(display.frame().choice.footprint, Footprint::quad);
 }
 
-TEST_F(QualityInMotion, BesideSlicesNothingIsTriedThatTakesLong) {
-    // At rest the surface comes in slices; gaussians may take 8 times as long as quads.
+TEST_F(QualityInMotion, BesidePartsNothingIsTriedThatTakesLong) {
+    // At rest the surface comes in parts; gaussians may take 8 times as long as quads.
     SimulatedDisplay display(200, constant({10, 60, 90}));
-    display.input.in_slices = Footprint::surface;
+    display.input.in_parts = Footprint::surface;
     SimulatedDisplay tight(kBudget, constant({20, 120, 150}));
-    tight.input.in_slices = Footprint::surface;
+    tight.input.in_parts = Footprint::surface;
     display.run(3000);
     tight.run(3000);
     EXPECT_EQ(display.frames.back().choice.footprint, Footprint::surface) << "within the budget";
     EXPECT_EQ(tight.at(Footprint::quad), 3000);
     EXPECT_TRUE(tight.frames.back().choice.final);
-    // What the slices took tells whether moving frames can have it, too.
+    // What the parts took tells whether moving frames can have it, too.
     SimulatedDisplay cheap(kBudget, constant({2, 30, 5}));
     cheap.controller.measured(Footprint::quad, cheap.input.load, Milliseconds(2));
-    cheap.controller.measured_in_slices(Footprint::surface, cheap.input.load, Milliseconds(6));
+    cheap.controller.measured_in_parts(Footprint::surface, cheap.input.load, Milliseconds(6));
     cheap.input.pace = Pace::moving;
     EXPECT_EQ(cheap.run(40).choice.footprint, Footprint::surface);
     EXPECT_EQ(cheap.over_budget(), 0);
@@ -158,7 +158,7 @@ TEST_F(QualityInMotion, WhatIsGuessedTooDearIsMeasuredUnseenAndDrawnOnceItIsKnow
         display.measures_unseen = true;
         display.still = false;
         display.input.pace = pace;
-        display.input.in_slices = Footprint::surface;
+        display.input.in_parts = Footprint::surface;
         EXPECT_EQ(display.run(40).choice.footprint, Footprint::surface);
         EXPECT_EQ(display.over_budget(), 0);
         EXPECT_EQ(display.measured_unseen, 1);
@@ -175,7 +175,7 @@ TEST_F(QualityInMotion, WhatDoesNotFitIsMeasuredUnseenOnceInLongAndNeverDrawn) {
     });
     display.measures_unseen = true;
     display.still = false;
-    display.input.in_slices = Footprint::surface;
+    display.input.in_parts = Footprint::surface;
     display.run(QualityController::kLongestWait);
     EXPECT_EQ(display.at(Footprint::quad), static_cast<int>(QualityController::kLongestWait));
     EXPECT_EQ(display.measured_unseen, 1);
@@ -204,7 +204,7 @@ TEST_F(QualityInMotion, TheBestThatFitsIsFoundUnseenWhicheverIsTheCheaper) {
                                                      : 40.0;
         });
         display.input.available.add(Footprint::mesh);
-        display.input.in_slices = Footprint::surface;
+        display.input.in_parts = Footprint::surface;
         display.measures_unseen = true;
         display.still = false;
         EXPECT_EQ(display.run(400).choice.footprint, wanted);

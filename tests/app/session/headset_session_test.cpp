@@ -133,7 +133,7 @@ TEST_F(HeadsetSession, AStillPictureIsShownAgainWithoutBeingDrawnAgain) {
     EXPECT_NE(headset().frames.back().views.at(0).picture.rgba, before.rgba);
 }
 
-TEST_F(HeadsetSession, ThatIsPutDownEndsAtTheExactPictureInSlicesThatInputGivesUp) {
+TEST_F(HeadsetSession, ThatIsPutDownEndsAtTheExactPictureInPartsThatInputGivesUp) {
     config_.quality.frame_budget_ms = config_.quality.still_budget_ms =
         1e-6; // no frame can hold it
     start();
@@ -150,7 +150,7 @@ TEST_F(HeadsetSession, ThatIsPutDownEndsAtTheExactPictureInSlicesThatInputGivesU
         });
     };
     const auto begun = [](const FrameReport& report) {
-        return report.in_slices && report.footprint != *report.in_slices;
+        return report.in_parts && report.footprint != *report.in_parts;
     };
     headset().head.position.x += 0.2f;
     EXPECT_NE(live().footprint, Footprint::surface);
@@ -158,13 +158,13 @@ TEST_F(HeadsetSession, ThatIsPutDownEndsAtTheExactPictureInSlicesThatInputGivesU
     EXPECT_NE(live().footprint, Footprint::surface) << "not whole yet";
     headset().head.position.x -= 0.2f;
     const FrameReport moved = live();
-    EXPECT_TRUE(moved.redrawn && !moved.in_slices) << "given up";
+    EXPECT_TRUE(moved.redrawn && !moved.in_parts) << "given up";
     ASSERT_TRUE(rest_until(begun));
     const auto fast = shown();
     EXPECT_NE(fast, exact);
     const std::size_t first = headset().frames.size();
     ASSERT_TRUE(rest_until(&FrameReport::final));
-    EXPECT_EQ(session_->log().frames().back().reason, QualityReason::in_slices);
+    EXPECT_EQ(session_->log().frames().back().reason, QualityReason::in_parts);
     EXPECT_EQ(shown(), exact);
     EXPECT_GT(headset().frames.size(), first + 2);
     for (std::size_t i = first; i < headset().frames.size(); ++i) {

@@ -61,7 +61,7 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
         if (report.redrawn && report.coarsest == 0) {
-            EXPECT_EQ(report.reason, QualityReason::in_slices) << "no frame holds all cells";
+            EXPECT_EQ(report.reason, QualityReason::in_parts) << "no frame holds all cells";
             EXPECT_NE(report.footprint, render::Footprint::quad);
         }
         return report.coarsest == 0 && report.final;

@@ -67,7 +67,7 @@ TEST_P(SessionQuality, APictureAtRestMayTakeItsTimeButNotOneThatSways) {
     FrameReport report = rest(session, 60);
     EXPECT_EQ(report.footprint, render::kBestFootprint);
     EXPECT_TRUE(report.final);
-    EXPECT_EQ(report.reason, QualityReason::in_slices);
+    EXPECT_EQ(report.reason, QualityReason::in_parts);
     EXPECT_FALSE(report.redrawn);
     // Settled, but every second refresh shows another pose: that of a slow tracker.
     const auto sway = [&](int frames) {
@@ -120,7 +120,7 @@ TEST_P(SessionQuality, AHeadThatSwaysEndsAtTheExactSurfaceThoughItIsGuessedTooDe
             interaction::InputState input = head_at_rest(now().count());
             input.devices[0].pose->position.x = 1e-5f * static_cast<float>(frame_ / 2 % 2);
             report = session.frame(input, {}, Waiting::never);
-            EXPECT_FALSE(report.in_slices);
+            EXPECT_FALSE(report.in_parts);
         }
         return report.footprint == Footprint::surface;
     };
@@ -170,14 +170,14 @@ TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest)
     const auto& frames = session.log().frames();
     std::uint64_t in_motion = 0;
     for (auto i = first; i < frames.size(); ++i)
-        in_motion += frames[i].uploaded.brick_bytes;
+        in_motion += frames[i].uploaded.block_bytes;
     EXPECT_EQ(in_motion == 0, follows);
     rest_until(session, is_best);
     const auto sending = std::ranges::count_if(
-        frames, [](const auto& frame) { return frame.uploaded.brick_bytes > 0; });
+        frames, [](const auto& frame) { return frame.uploaded.block_bytes > 0; });
     EXPECT_GT(sending, 2);
     for (const FrameReport& frame : frames)
-        EXPECT_TRUE(frame.uploaded.brick_bytes < 16 * 1024 || // as much as fits, and so not all
+        EXPECT_TRUE(frame.uploaded.block_bytes < 16 * 1024 || // as much as fits, and so not all
                     frame.pace == interaction::Pace::moving);
 }
 

@@ -48,7 +48,7 @@ index::ExtractionPtr with_cells(const index::Extract& extract, std::uint64_t mos
     return asked;
 }
 
-TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
+TEST_P(SessionRest, PartsBeginAnewWhereAFinerSetComes) {
     Config config = config_with(1e-6);
     config.quality.still_budget_ms = 1e-6; // a piece in each frame
     const auto second_picture = [&](bool in_the_midst) {
@@ -68,11 +68,11 @@ TEST_P(SessionRest, SlicesBeginAnewWhereAFinerSetComes) {
         Session session(config, large_, *context_, controlled);
         FrameReport report = first_frame(session, false);
         const auto made = [&] {
-            return report.in_slices && report.cells > 0 && report.footprint == *report.in_slices;
+            return report.in_parts && report.cells > 0 && report.footprint == *report.in_parts;
         };
         EXPECT_TRUE(test_support::eventually([&] {
             report = frame(session, false);
-            return in_the_midst ? report.in_slices && !made() : made();
+            return in_the_midst ? report.in_parts && !made() : made();
         }));
         for (int i = 0; i < 12; ++i) // until some cells are drawn, and not only put in order
             report = frame(session, false);
@@ -102,7 +102,7 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
             const auto ends = [&] { return report.final && report.cells > 0; };
             for (int i = 0; i < 50 && !ends(); ++i) { // the worker may take its time
                 report = frame(session, false);
-                if (!report.redrawn || report.reason != QualityReason::in_slices)
+                if (!report.redrawn || report.reason != QualityReason::in_parts)
                     continue;
                 EXPECT_GE(report.cells, most) << "it only gets better";
                 most = report.cells;
@@ -128,10 +128,10 @@ TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
     session.share_frames(std::make_unique<KnownTimes>(stalls));
     FrameReport report = first_frame(session, false);
     std::uint64_t most = 0;
-    int coarse = 0; // pictures in slices
+    int coarse = 0; // pictures in parts
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        if (!report.redrawn || report.reason != QualityReason::in_slices)
+        if (!report.redrawn || report.reason != QualityReason::in_parts)
             return report.final && report.cells > 0;
         EXPECT_GE(report.cells, most);
         most = report.cells;
@@ -182,7 +182,7 @@ TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
     EXPECT_GT(report.cells, 12 * moving);
 }
 
-TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpectedToFit) {
+TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInPartsThoughTheyAreExpectedToFit) {
     const index::Extract real = extract();
     const index::Extract controlled = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         return with_cells(real, query.detail.at_rest ? 0 : DetailChoice::kFewest, query, stop);
@@ -194,7 +194,7 @@ TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInSlicesThoughTheyAreExpect
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
         if (report.redrawn && last > 0 && report.cells > 4 * last) {
-            EXPECT_EQ(report.reason, QualityReason::in_slices) << report.cells << " after " << last;
+            EXPECT_EQ(report.reason, QualityReason::in_parts) << report.cells << " after " << last;
             far = report.cells;
         }
         last = report.redrawn ? report.cells : last;
@@ -219,16 +219,15 @@ TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheS
     FrameReport report = first_frame(session, false);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        return report.in_slices && report.cells > 15'000 && report.coarsest > 0;
+        return report.in_parts && report.cells > 15'000 && report.coarsest > 0;
     })) << "the first set at rest, of 18,524 cells";
     report = frame(session, false);
-    ASSERT_NE(report.footprint, report.in_slices) << "a piece in each frame";
+    ASSERT_NE(report.footprint, report.in_parts) << "a piece in each frame";
     ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
-    int coarse = 0; // pictures in slices
+    int coarse = 0; // pictures in parts
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        coarse +=
-            report.redrawn && report.reason == QualityReason::in_slices && report.coarsest > 0;
+        coarse += report.redrawn && report.reason == QualityReason::in_parts && report.coarsest > 0;
         return report.final && report.coarsest == 0;
     }));
     EXPECT_EQ(coarse, 1);
@@ -316,18 +315,18 @@ class SessionRestInColors : public SessionRest {
     index::TestField noise_;
 };
 
-TEST_P(SessionRestInColors, AFinerSetInSlicesHasTheColorsAndTheLegendOfItsOwnPercentiles) {
+TEST_P(SessionRestInColors, AFinerSetInPartsHasTheColorsAndTheLegendOfItsOwnPercentiles) {
     Session session(config_with(1e-6), large_, *context_);
     FrameReport report = frame(session, false, between_percentiles());
-    int coarse = 0, in_slices = 0; // pictures
+    int coarse = 0, in_parts = 0; // pictures
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
         coarse += report.redrawn && report.cells > 0 && report.coarsest > 0;
-        in_slices += report.redrawn && report.reason == QualityReason::in_slices;
+        in_parts += report.redrawn && report.reason == QualityReason::in_parts;
         return report.final && report.cells > 0 && report.coarsest == 0;
     }));
     EXPECT_GT(coarse, 0);
-    EXPECT_GT(in_slices, 0);
+    EXPECT_GT(in_parts, 0);
 
     Config at_once = config_with(1e-6);
     at_once.quality.settled = report.footprint;

@@ -97,7 +97,7 @@ class SlowGpu : public SessionTest {
                     session.frame(head_at_rest(frame++ / 60.0),
                                   frames == 1 ? to : interaction::Commands{}, Waiting::never);
                 walk.sets += report.uploaded.sets;
-                const bool sent = report.uploaded.id_bytes + report.uploaded.brick_bytes > 0;
+                const bool sent = report.uploaded.id_bytes + report.uploaded.block_bytes > 0;
                 if (!report.shown || report.shown->step != step || sent)
                     left = 30;
                 else

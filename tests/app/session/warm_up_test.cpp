@@ -38,7 +38,7 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
         Config config = small_config();
         config.quality.settled = settled;
         config.quality.frame_budget_ms = 1e-6; // quads in motion
-        config.quality.still_budget_ms = 0;    // no slices
+        config.quality.still_budget_ms = 0;    // no parts
         if (settled == render::Footprint::mesh)
             config.rendering.drawn_by = render::DrawnBy::processor; // else there are no meshes
         programs.used.clear();
@@ -90,7 +90,7 @@ TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
         Config config = small_config();
         config.quality.settled = settled;
         config.quality.frame_budget_ms = 1e-6; // quads in motion
-        config.quality.still_budget_ms = 0;    // no slices
+        config.quality.still_budget_ms = 0;    // no parts
         config.rendering.drawn_by = render::DrawnBy::processor;
         Session session(config, file, noting_);
         session.warm_up();

@@ -24,14 +24,14 @@ std::shared_ptr<const IndexFile> indexed(const TestFolder& folder, const StepVal
     return IndexFile::open(folder.path() / "a.isochron");
 }
 
-/// Bricks of all vertices whose values a cell's central differences take, one by one.
-std::set<BrickId> needed(const Grid& grid, const std::vector<CellSet>& surfaces) {
-    const BrickTiling tiling(grid);
-    std::set<BrickId> bricks;
+/// Blocks of all vertices whose values a cell's central differences take, one by one.
+std::set<BlockId> needed(const Grid& grid, const std::vector<CellSet>& surfaces) {
+    const BlockTiling tiling(grid);
+    std::set<BlockId> blocks;
     const auto need = [&](std::array<std::uint32_t, 3> v) {
         for (std::uint32_t& along : v)
-            along /= kBrickEdge;
-        bricks.insert((v[2] * tiling.bricks[1] + v[1]) * tiling.bricks[0] + v[0]);
+            along /= kBlockEdge;
+        blocks.insert((v[2] * tiling.blocks[1] + v[1]) * tiling.blocks[0] + v[0]);
     };
     for (const CellSet& surface : surfaces)
         for (const CellId id : surface.ids) {
@@ -48,10 +48,10 @@ std::set<BrickId> needed(const Grid& grid, const std::vector<CellSet>& surfaces)
                 }
             }
         }
-    return bricks;
+    return blocks;
 }
 
-TEST(Extraction, HasTheCellsOfEverySurfaceAndExactlyTheBricksTheyNeed) {
+TEST(Extraction, HasTheCellsOfEverySurfaceAndExactlyTheBlocksTheyNeed) {
     const TestFolder folder;
     std::mt19937 random(test_seed());
     for (const ValueType type : kAllTypes) {
@@ -72,9 +72,9 @@ TEST(Extraction, HasTheCellsOfEverySurfaceAndExactlyTheBricksTheyNeed) {
                     ASSERT_EQ(found->surfaces[i].ids,
                               BruteForce(values, step).active(query.isovalues[i]))
                         << name_of(type) << " surface " << i;
-                const auto bricks = needed(values.grid, found->surfaces);
-                EXPECT_EQ(found->bricks.ids, (std::vector<BrickId>(bricks.begin(), bricks.end())));
-                EXPECT_EQ(found->bricks.bytes.size(), bricks.size() * found->bricks.brick_bytes());
+                const auto blocks = needed(values.grid, found->surfaces);
+                EXPECT_EQ(found->blocks.ids, (std::vector<BlockId>(blocks.begin(), blocks.end())));
+                EXPECT_EQ(found->blocks.bytes.size(), blocks.size() * found->blocks.block_bytes());
             }
     }
 }
@@ -181,29 +181,29 @@ TEST(Extraction, WithoutASecondArrayThereAreNoValuesToColorBy) {
     EXPECT_TRUE(found->colors.empty());
 }
 
-TEST(Extraction, BricksHoldTheVolumeByteForByteAndZerosBeyondIt) {
+TEST(Extraction, BlocksHoldTheVolumeByteForByteAndZerosBeyondIt) {
     const TestFolder folder;
     std::mt19937 random(test_seed());
     const TestField field({19, 11, 10}, 2, ValueType::i16, scaled(white_noise(random), 900, 10));
     const StepValues values = field.view();
     const ExtractionPtr found = extract_from(indexed(folder, values))({1, {10.0}}, {});
-    const BrickTiling tiling(values.grid);
-    ASSERT_EQ(found->bricks.held, ValueType::i16);
-    ASSERT_EQ(found->bricks.ids.size(), tiling.count());
-    for (std::size_t i = 0; i < found->bricks.ids.size(); ++i) {
-        const BrickId id = found->bricks.ids[i];
-        const auto* held = reinterpret_cast<const std::int16_t*>(found->bricks.brick(i).data());
-        for (std::uint32_t v = 0; v < kBrickVertices; ++v) {
-            const std::uint32_t x = id % tiling.bricks[0] * 8 + v % 8;
-            const std::uint32_t y = id / tiling.bricks[0] % tiling.bricks[1] * 8 + v / 8 % 8;
-            const std::uint32_t z = id / tiling.bricks[0] / tiling.bricks[1] * 8 + v / 64;
+    const BlockTiling tiling(values.grid);
+    ASSERT_EQ(found->blocks.held, ValueType::i16);
+    ASSERT_EQ(found->blocks.ids.size(), tiling.count());
+    for (std::size_t i = 0; i < found->blocks.ids.size(); ++i) {
+        const BlockId id = found->blocks.ids[i];
+        const auto* held = reinterpret_cast<const std::int16_t*>(found->blocks.block(i).data());
+        for (std::uint32_t v = 0; v < kBlockVertices; ++v) {
+            const std::uint32_t x = id % tiling.blocks[0] * 8 + v % 8;
+            const std::uint32_t y = id / tiling.blocks[0] % tiling.blocks[1] * 8 + v / 8 % 8;
+            const std::uint32_t z = id / tiling.blocks[0] / tiling.blocks[1] * 8 + v / 64;
             const bool inside = x < 19 && y < 11 && z < 10;
             ASSERT_EQ(held[v], inside ? values.step<std::int16_t>(1)[(z * 11 + y) * 19 + x] : 0);
         }
     }
 }
 
-TEST(Extraction, DigestsTellBricksThatChangeFromThoseThatDoNot) {
+TEST(Extraction, DigestsTellBlocksThatChangeFromThoseThatDoNot) {
     const TestFolder folder;
     const TestField field(
         {32, 20, 20}, 3, ValueType::f32, [](double x, double y, double z, double t) {
@@ -213,23 +213,23 @@ TEST(Extraction, DigestsTellBricksThatChangeFromThoseThatDoNot) {
     const auto first = extract({0, {30.0}}, {}), second = extract({1, {30.0}}, {}),
                third = extract({2, {30.0}}, {}), other = extract({2, {34.0}}, {});
     std::size_t same = 0, changed = 0;
-    for (std::size_t i = 0; i < second->bricks.ids.size(); ++i) {
-        const auto at = std::ranges::find(first->bricks.ids, second->bricks.ids[i]);
-        if (at == first->bricks.ids.end())
+    for (std::size_t i = 0; i < second->blocks.ids.size(); ++i) {
+        const auto at = std::ranges::find(first->blocks.ids, second->blocks.ids[i]);
+        if (at == first->blocks.ids.end())
             continue;
-        const bool equal = first->bricks.digests[std::size_t(at - first->bricks.ids.begin())] ==
-                           second->bricks.digests[i];
-        EXPECT_EQ(equal, second->bricks.ids[i] % 4 < 2);
+        const bool equal = first->blocks.digests[std::size_t(at - first->blocks.ids.begin())] ==
+                           second->blocks.digests[i];
+        EXPECT_EQ(equal, second->blocks.ids[i] % 4 < 2);
         (equal ? same : changed) += 1;
     }
     EXPECT_GT(same, 5u);
     EXPECT_GT(changed, 5u);
-    EXPECT_EQ(second->bricks.digests, third->bricks.digests);
-    for (std::size_t i = 0; i < other->bricks.ids.size(); ++i) { // another isovalue, the same step
-        const auto at = std::ranges::find(third->bricks.ids, other->bricks.ids[i]);
-        if (at != third->bricks.ids.end()) {
-            EXPECT_EQ(third->bricks.digests[std::size_t(at - third->bricks.ids.begin())],
-                      other->bricks.digests[i]);
+    EXPECT_EQ(second->blocks.digests, third->blocks.digests);
+    for (std::size_t i = 0; i < other->blocks.ids.size(); ++i) { // another isovalue, the same step
+        const auto at = std::ranges::find(third->blocks.ids, other->blocks.ids[i]);
+        if (at != third->blocks.ids.end()) {
+            EXPECT_EQ(third->blocks.digests[std::size_t(at - third->blocks.ids.begin())],
+                      other->blocks.digests[i]);
         }
     }
 }
@@ -265,8 +265,8 @@ TEST(Extraction, WithoutActiveCellsThereIsNothingToSend) {
     const auto found = extract({0, {1e9, std::nan("")}}, {});
     ASSERT_TRUE(found);
     EXPECT_EQ(found->cells(), 0u);
-    EXPECT_TRUE(found->bricks.ids.empty());
-    EXPECT_EQ(found->bricks.held, ValueType::u8);
+    EXPECT_TRUE(found->blocks.ids.empty());
+    EXPECT_EQ(found->blocks.held, ValueType::u8);
 }
 
 TEST(Extraction, AStoppedOneGivesNothingAndTheNextIsWhole) {
@@ -277,8 +277,8 @@ TEST(Extraction, AStoppedOneGivesNothingAndTheNextIsWhole) {
     stop.request_stop();
     EXPECT_EQ(extract({1, {100.0, 150.0}}, stop.get_token()), nullptr);
     const auto found = extract({1, {100.0, 150.0}}, {});
-    const auto bricks = needed(field.view().grid, found->surfaces);
-    EXPECT_EQ(found->bricks.ids, (std::vector<BrickId>(bricks.begin(), bricks.end())));
+    const auto blocks = needed(field.view().grid, found->surfaces);
+    EXPECT_EQ(found->blocks.ids, (std::vector<BlockId>(blocks.begin(), blocks.end())));
 }
 
 TEST(Extraction, WhatCannotBeAskedIsAnError) {
@@ -300,7 +300,7 @@ TEST(Extraction, IsMadeByTheWorkerAndReadByOthers) {
             {.query = {i % 6, {100.0, 150.0 + i % 3}}, .ahead = StepsAhead{(i + 1) % 6}});
         if (const ExtractionPtr newest = extractor.newest()) {
             ASSERT_EQ(newest->surfaces.size(), 2u);
-            ASSERT_EQ(newest->bricks.digests.size(), newest->bricks.ids.size());
+            ASSERT_EQ(newest->blocks.digests.size(), newest->blocks.ids.size());
         }
         if (i % 4 == 0)
             extractor.wait();

@@ -143,9 +143,9 @@ TEST_F(LayerSearchTest, ExtractionsAreThoseOfWholeSteps) {
         EXPECT_EQ(whole->colors, chunks->colors);
         EXPECT_FALSE(whole->surroundings.shares.empty());
         EXPECT_EQ(whole->surroundings.shares, chunks->surroundings.shares);
-        EXPECT_EQ(whole->bricks.ids, chunks->bricks.ids);
-        EXPECT_EQ(whole->bricks.bytes, chunks->bricks.bytes);
-        EXPECT_TRUE(whole->bricks.digests == chunks->bricks.digests);
+        EXPECT_EQ(whole->blocks.ids, chunks->blocks.ids);
+        EXPECT_EQ(whole->blocks.bytes, chunks->blocks.bytes);
+        EXPECT_TRUE(whole->blocks.digests == chunks->blocks.digests);
     }
 }
 

@@ -82,10 +82,10 @@ std::shared_ptr<const IndexFile> step_of(std::uint32_t width, std::uint32_t heig
 }
 
 /// Places of volume bricks, which have other numbers in other grids.
-std::vector<std::array<std::uint32_t, 3>> places_of(const VolumeBricks& bricks, const Grid& grid) {
-    const auto tiles = BrickTiling(grid).bricks;
+std::vector<std::array<std::uint32_t, 3>> places_of(const VolumeBlocks& bricks, const Grid& grid) {
+    const auto tiles = BlockTiling(grid).blocks;
     std::vector<std::array<std::uint32_t, 3>> places;
-    for (const BrickId id : bricks.ids)
+    for (const BlockId id : bricks.ids)
         places.push_back({id % tiles[0], id / tiles[0] % tiles[1], id / tiles[0] / tiles[1]});
     return places;
 }
@@ -114,8 +114,8 @@ TEST(WideIds, AreExtractedAsTheSameCellsOfAGridWithoutThem) {
         ASSERT_TRUE(cells.mesh && same.mesh);
         EXPECT_EQ(*cells.mesh, *same.mesh);
     }
-    EXPECT_EQ(places_of(found->bricks, wide_grid), places_of(expected->bricks, narrow_grid));
-    EXPECT_EQ(found->bricks.bytes, expected->bricks.bytes);
+    EXPECT_EQ(places_of(found->blocks, wide_grid), places_of(expected->blocks, narrow_grid));
+    EXPECT_EQ(found->blocks.bytes, expected->blocks.bytes);
     EXPECT_EQ(found->volume_cells, expected->volume_cells);
 }
 

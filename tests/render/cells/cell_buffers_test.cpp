@@ -57,7 +57,7 @@ class CellUpload : public CellUploadTest {
 TEST_P(CellUpload, StaysWithinTheBudgetAndShowsWholeSetsOnly) {
     CellBuffers buffers(gl_, field_.view().grid);
     const auto first = extractions_.of_cells(0, {random_ids(500)});
-    const auto second = extractions_.of_cells(1, {random_ids(300)}); // other bricks, too
+    const auto second = extractions_.of_cells(1, {random_ids(300)}); // other blocks, too
     ASSERT_TRUE(buffers.upload(first, kEnough));
     EXPECT_EQ(buffers.shown(), first);
     expect_whole(buffers);
@@ -156,10 +156,10 @@ TEST_P(CellUpload, CountsTheIdsAndTheBytesThatAreSent) {
     const auto first = extractions_.of_cells(0, {ids});
     copied_bytes = 0;
     buffers.upload(first, kEnough);
-    const std::size_t brick = index::kBrickVertices + 2 * sizeof(std::uint32_t); // with its page
-    const std::uint64_t bricks = first->bricks.ids.size();
-    EXPECT_EQ(buffers.count(), (UploadCount{1, 400, 400, 1600, bricks * brick}));
-    // Ten go and ten come: ten slots change. The step is the same, and the bricks are there.
+    const std::size_t block = index::kBlockVertices + 2 * sizeof(std::uint32_t); // with its page
+    const std::uint64_t blocks = first->blocks.ids.size();
+    EXPECT_EQ(buffers.count(), (UploadCount{1, 400, 400, 1600, blocks * block}));
+    // Ten go and ten come: ten slots change. The step is the same, and the blocks are there.
     const std::set<CellId> there(ids.begin(), ids.end());
     for (int i = 0; i < 10; ++i)
         ids.erase(ids.begin() + 7 * i);
@@ -170,9 +170,9 @@ TEST_P(CellUpload, CountsTheIdsAndTheBytesThatAreSent) {
         }
     std::ranges::sort(ids);
     const auto second = extractions_.of_cells(0, {ids});
-    ASSERT_EQ(second->bricks.ids.size(), bricks);
+    ASSERT_EQ(second->blocks.ids.size(), blocks);
     buffers.upload(second, kEnough);
-    EXPECT_EQ(buffers.count(), (UploadCount{2, 410, 800, 1680, bricks * brick}));
+    EXPECT_EQ(buffers.count(), (UploadCount{2, 410, 800, 1680, blocks * block}));
 }
 
 TEST_P(CellUpload, ColorsOnOffAndChangedAreThoseOfTheSetWithAnyBudget) {
@@ -198,7 +198,7 @@ TEST_P(CellUpload, ColorsOnOffAndChangedAreThoseOfTheSetWithAnyBudget) {
             changed = buffers.upload(next, budget);
             let_a_frame_pass();
             const UploadCount sent = buffers.count().since(earlier);
-            EXPECT_LE(sent.id_bytes + sent.brick_bytes + sent.color_bytes,
+            EXPECT_LE(sent.id_bytes + sent.block_bytes + sent.color_bytes,
                       std::max(budget, StagingRing::kUnit));
             if (!changed && before && frames % 16 == 0)
                 expect_colors(buffers); // the old ones, all of them
@@ -349,11 +349,11 @@ TEST_P(CellUpload, ASetThatTheDriverCannotHoldIsRefusedWithALineAndTheLastOneKep
                                      "the last ones stay");
     }
     // Of these there is room for the cells, and not for the volume around them.
-    const std::size_t bricks = too_much->bricks.ids.size();
-    ASSERT_GT(bricks, 100'000u / 512);
+    const std::size_t blocks = too_much->blocks.ids.size();
+    ASSERT_GT(blocks, 100'000u / 512);
     EXPECT_FALSE(buffers.upload(too_much, kEnough));
-    EXPECT_EQ(buffers.refusal(), std::to_string(bricks) +
-                                     " bricks of the volume at step 0: this GL holds at most 195, "
+    EXPECT_EQ(buffers.refusal(), std::to_string(blocks) +
+                                     " blocks of the volume at step 0: this GL holds at most 195, "
                                      "so the last cells stay");
     EXPECT_TRUE(buffers.stage(too_much, kEnough)) << "nothing is left to send";
     EXPECT_FALSE(buffers.upload(fits, kEnough));
@@ -379,11 +379,11 @@ TEST_P(CellUpload, SetsThatFitOneByOneFollowEachOtherWhereBothDoNot) {
         all[i] = CellId(i);
     for (const std::uint32_t step : {0u, 1u, 0u}) {
         const auto set = extractions.of_cells(step, {all});
-        ASSERT_GT(2 * set->bricks.ids.size(), 195u);
-        ASSERT_LE(set->bricks.ids.size(), 195u);
+        ASSERT_GT(2 * set->blocks.ids.size(), 195u);
+        ASSERT_LE(set->blocks.ids.size(), 195u);
         ASSERT_TRUE(buffers.upload(set, kEnough)) << buffers.refusal();
         EXPECT_TRUE(buffers.has_volume());
-        EXPECT_LE(buffers.bricks()->capacity(), 195u);
+        EXPECT_LE(buffers.blocks()->capacity(), 195u);
     }
 }
 

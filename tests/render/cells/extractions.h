@@ -15,7 +15,7 @@ namespace isochron::render {
 class Extractions {
   public:
     explicit Extractions(const index::StepValues& values)
-        : values_(values), bricks_(brick_values(values)), gatherer_(values.grid, bricks_) {}
+        : values_(values), blocks_(block_values(values)), gatherer_(values.grid, blocks_) {}
 
     /// Of the active cells.
     index::ExtractionPtr active(std::uint32_t step, std::vector<double> isovalues) {
@@ -47,10 +47,10 @@ class Extractions {
         return with_points;
     }
 
-    const index::BrickValues& brick_values() const { return bricks_; }
+    const index::BlockValues& block_values() const { return blocks_; }
 
   private:
-    static index::BrickValues brick_values(const index::StepValues& values) {
+    static index::BlockValues block_values(const index::StepValues& values) {
         const auto sorted = index::sorted_values(values);
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const double value : sorted)
@@ -61,17 +61,17 @@ class Extractions {
         return {values.type, values.scaling, low, high};
     }
     index::ExtractionPtr complete(std::shared_ptr<index::Extraction> made) {
-        const index::BrickLevels levels = bricks_.levels(made->query.isovalues);
+        const index::BlockLevels levels = blocks_.levels(made->query.isovalues);
         made->levels = levels.units;
         for (const index::CellSet& surface : made->surfaces)
             gatherer_.need(surface);
-        gatherer_.gather(values_, made->query.step, levels, made->bricks);
+        gatherer_.gather(values_, made->query.step, levels, made->blocks);
         return made;
     }
 
     index::StepValues values_;
-    index::BrickValues bricks_;
-    index::BrickGatherer gatherer_;
+    index::BlockValues blocks_;
+    index::BlockGatherer gatherer_;
 };
 
 } // namespace isochron::render

@@ -45,23 +45,23 @@ TEST_P(LateVolume, WithoutTheVolumeItFollowsWhenItIsAskedFor) {
         expect_whole(buffers);
         EXPECT_FALSE(buffers.has_volume());
     }
-    EXPECT_EQ(buffers.count().brick_bytes, 0u);
+    EXPECT_EQ(buffers.count().block_bytes, 0u);
     const std::uint64_t version = buffers.version();
     int frames = 0;
     while (!buffers.has_volume()) {
         ASSERT_LT(++frames, 1000);
-        const std::uint64_t before = buffers.count().brick_bytes;
+        const std::uint64_t before = buffers.count().block_bytes;
         EXPECT_FALSE(buffers.upload(second, 4000)); // the same cells
-        EXPECT_LE(buffers.count().brick_bytes - before, 4000u);
+        EXPECT_LE(buffers.count().block_bytes - before, 4000u);
     }
     EXPECT_GT(frames, 2);
     EXPECT_EQ(buffers.version(), version);
     expect_corners_as_if_new(buffers, second);
     // What the next set has in common with it is there.
     const auto third = std::make_shared<index::Extraction>(*second);
-    const std::uint64_t before = buffers.count().brick_bytes;
+    const std::uint64_t before = buffers.count().block_bytes;
     ASSERT_TRUE(buffers.upload(third, kEnough));
-    EXPECT_EQ(buffers.count().brick_bytes, before);
+    EXPECT_EQ(buffers.count().block_bytes, before);
     EXPECT_TRUE(buffers.has_volume());
     expect_corners_as_if_new(buffers, third);
 }
@@ -97,7 +97,7 @@ TEST_P(LateVolume, AnyRunOfSetsWithAndWithoutTheVolumeShowsEachWhole) {
         if (complete || frame % 50 == 0)
             expect_whole(buffers);
         if (buffers.has_volume() && !buffers.pending()) { // nothing is left of what gave way
-            EXPECT_EQ(buffers.bricks()->size(), buffers.shown()->bricks.ids.size());
+            EXPECT_EQ(buffers.blocks()->size(), buffers.shown()->blocks.ids.size());
         }
         if (buffers.has_volume() && frame % 20 == 0)
             expect_corners_as_if_new(buffers, buffers.shown());

@@ -34,8 +34,8 @@ class MeshPassTest : public GlTest {
         auto set = std::make_shared<index::Extraction>();
         set->query = {0, isovalues, index::CellColoring::none};
         std::vector<index::MeshMaker> makers(2);
-        index::BrickValues values(index::ValueType::u8, {}, 0, 255);
-        index::BrickGatherer gatherer(field_.view().grid, values);
+        index::BlockValues values(index::ValueType::u8, {}, 0, 255);
+        index::BlockGatherer gatherer(field_.view().grid, values);
         for (const double isovalue : isovalues) {
             index::CellSet cells;
             cells.query = {0, isovalue};
@@ -47,10 +47,10 @@ class MeshPassTest : public GlTest {
             gatherer.need(cells);
             set->surfaces.push_back(std::move(cells));
         }
-        const index::BrickLevels levels = values.levels(isovalues);
+        const index::BlockLevels levels = values.levels(isovalues);
         set->levels = levels.units;
-        set->bricks = gatherer.none();
-        EXPECT_TRUE(gatherer.gather(field_.view(), 0, levels, set->bricks));
+        set->blocks = gatherer.none();
+        EXPECT_TRUE(gatherer.gather(field_.view(), 0, levels, set->blocks));
         if (colors)
             for (std::size_t i = 0; i < set->cells(); ++i)
                 set->colors.push_back(static_cast<std::uint16_t>(i % 4096));

@@ -1,4 +1,4 @@
-// The exact picture at rest in slices: the same as the whole, to the bit, and given up for input.
+// The exact picture at rest in parts: the same as the whole, to the bit, and given up for input.
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
@@ -15,10 +15,10 @@ using render::Footprint;
 using stereo::Eye;
 using stereo::StereoMode;
 
-class Slices : public SessionTest {
+class Parts : public SessionTest {
   protected:
     /// Frames have time for one piece each, and no footprint but quads fits.
-    static Config sliced(StereoMode mode = StereoMode::side_by_side) {
+    static Config partial(StereoMode mode = StereoMode::side_by_side) {
         Config config = small_config(mode);
         config.rendering.frame_rate_limit = 60;
         config.quality.frame_budget_ms = 1e-6;
@@ -47,10 +47,10 @@ class Slices : public SessionTest {
         EXPECT_TRUE(rests_until(session, &FrameReport::final));
         return frame_ - first;
     }
-    /// Frames at rest until slices are made. @return whether they are
-    bool begin_slices(Session& session) {
+    /// Frames at rest until parts are made. @return whether they are
+    bool begin_parts(Session& session) {
         return rests_until(session, [](const FrameReport& report) {
-            return report.in_slices && report.footprint != *report.in_slices;
+            return report.in_parts && report.footprint != *report.in_parts;
         });
     }
     /// Shows a surface of some thousand cells.
@@ -89,12 +89,12 @@ class Slices : public SessionTest {
     int frame_ = 0, replayed_ = 0;
 };
 
-INSTANTIATE_TEST_SUITE_P(, Slices,
+INSTANTIATE_TEST_SUITE_P(, Parts,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);
 
-TEST_P(Slices, GiveTheWholePictureToTheBitInEveryStereoMode) {
-    const Config config = sliced();
+TEST_P(Parts, GiveTheWholePictureToTheBitInEveryStereoMode) {
+    const Config config = partial();
     Session session(config, file_, *context_), reference = at_once(config);
     start(session);
     for (const StereoMode mode : stereo::all_stereo_modes()) {
@@ -106,17 +106,17 @@ TEST_P(Slices, GiveTheWholePictureToTheBitInEveryStereoMode) {
         EXPECT_GT(settle(session), 3);
         const FrameReport& report = session.log().frames().back();
         EXPECT_EQ(report.footprint, Footprint::surface);
-        EXPECT_EQ(report.reason, QualityReason::in_slices);
+        EXPECT_EQ(report.reason, QualityReason::in_parts);
         EXPECT_FALSE(report.redrawn);
         EXPECT_EQ(pictures(session), whole(reference, commands));
         EXPECT_EQ(reference.log().frames().back().footprint, Footprint::surface);
     }
 }
 
-TEST_P(Slices, GiveTheWholePictureOfTranslucentSurfacesAndOfSeveralSamples) {
+TEST_P(Parts, GiveTheWholePictureOfTranslucentSurfacesAndOfSeveralSamples) {
     const auto expect_whole = [&](int samples, float opacity) {
         SCOPED_TRACE(testing::Message() << samples << " samples, opacity " << opacity);
-        Config config = sliced();
+        Config config = partial();
         config.rendering.samples = samples;
         Commands commands;
         commands.isosurfaces = {
@@ -130,13 +130,13 @@ TEST_P(Slices, GiveTheWholePictureOfTranslucentSurfacesAndOfSeveralSamples) {
     expect_whole(1, 0.4f);
     expect_whole(4, 1.0f);
     // Mesa 22.3's zink draws a translucent surface on four samples as on one if it is drawn at
-    // once, so that the edges of its cells show. In slices it does not.
+    // once, so that the edges of its cells show. In parts it does not.
     if (stereo::describe_current(context_->loader()).find("zink") == std::string::npos)
         expect_whole(4, 0.4f);
 }
 
-TEST_P(Slices, EndAtWhatIsConfiguredForAPictureAtRest) {
-    Config config = sliced();
+TEST_P(Parts, EndAtWhatIsConfiguredForAPictureAtRest) {
+    Config config = partial();
     config.quality.settled = Footprint::gaussian;
     Session session(config, file_, *context_);
     Session reference = at_once(config, Footprint::gaussian);
@@ -146,10 +146,10 @@ TEST_P(Slices, EndAtWhatIsConfiguredForAPictureAtRest) {
     expect_whole(session, reference);
 }
 
-TEST_P(Slices, ShowNothingUntilTheyAreWhole) {
-    Session session(sliced(), file_, *context_);
+TEST_P(Parts, ShowNothingUntilTheyAreWhole) {
+    Session session(partial(), file_, *context_);
     start(session);
-    ASSERT_TRUE(begin_slices(session));
+    ASSERT_TRUE(begin_parts(session));
     const auto before = pictures(session);
     FrameReport report;
     int frames = 0;
@@ -163,7 +163,7 @@ TEST_P(Slices, ShowNothingUntilTheyAreWhole) {
     EXPECT_NE(pictures(session), before);
 }
 
-TEST_P(Slices, AreGivenUpInTheFrameThatChangesSomething) {
+TEST_P(Parts, AreGivenUpInTheFrameThatChangesSomething) {
     const std::function<void(Commands&, double&)> changes[] = {
         [](Commands&, double& head) { head = 0.2; },
         [](Commands& commands, double&) { commands.bounding_box = false; },
@@ -171,21 +171,21 @@ TEST_P(Slices, AreGivenUpInTheFrameThatChangesSomething) {
         [](Commands& commands, double&) { commands.step = 1; }};
     for (const auto& change : changes) {
         SCOPED_TRACE(&change - changes);
-        Session session(sliced(), file_, *context_);
+        Session session(partial(), file_, *context_);
         start(session);
-        ASSERT_TRUE(begin_slices(session));
+        ASSERT_TRUE(begin_parts(session));
         frame(session);
         Commands commands;
         double head = 0;
         change(commands, head);
         FrameReport report = frame(session, commands, head);
-        EXPECT_FALSE(report.in_slices);
+        EXPECT_FALSE(report.in_parts);
         EXPECT_NE(report.footprint, Footprint::surface);
         EXPECT_TRUE(report.redrawn || commands.step) << "the cells of another step come later";
         if (!commands.step) {
             // At rest a load of other programs that ends may be the time to try splats. A moving
             // picture of a replay has quads.
-            Session fresh = at_once(sliced(), report.footprint);
+            Session fresh = at_once(partial(), report.footprint);
             Commands same;
             same.isovalue = 2.0;
             for (int i = 0; i < 30; ++i)
@@ -195,34 +195,34 @@ TEST_P(Slices, AreGivenUpInTheFrameThatChangesSomething) {
             const FrameReport& whole = fresh.frame(input, commands, Waiting::for_cells);
             EXPECT_EQ(whole.pace, report.pace);
             ASSERT_EQ(whole.footprint, report.footprint);
-            EXPECT_EQ(pictures(session), pictures(fresh)) << "nothing of the slices is left";
+            EXPECT_EQ(pictures(session), pictures(fresh)) << "nothing of the parts is left";
         }
         EXPECT_TRUE(rests_until(session, &FrameReport::final, head));
         EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface) << "they begin anew";
     }
 }
 
-TEST_P(Slices, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) {
+TEST_P(Parts, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) {
     for (const interaction::QualityMode mode :
          {interaction::QualityMode::automatic, interaction::QualityMode::fast,
           interaction::QualityMode::paper}) {
-        Config config = sliced();
+        Config config = partial();
         config.quality.mode = mode;
         if (mode == interaction::QualityMode::automatic)
             config.quality.still_budget_ms = 0;
         Session session(config, file_, *context_);
         start(session);
         for (int i = 0; i < 120; ++i)
-            EXPECT_FALSE(frame(session).in_slices);
+            EXPECT_FALSE(frame(session).in_parts);
     }
-    Session session(sliced(), file_, *context_);
+    Session session(partial(), file_, *context_);
     for (int i = 0; i < 60; ++i)
-        EXPECT_FALSE(session.frame(head_at_rest(i / 60.0), {}, Waiting::for_cells).in_slices);
+        EXPECT_FALSE(session.frame(head_at_rest(i / 60.0), {}, Waiting::for_cells).in_parts);
     EXPECT_EQ(session.log().frames().back().footprint, Footprint::surface);
 }
 
-TEST_P(Slices, GiveTheWholePictureInEveryViewport) {
-    Config config = sliced();
+TEST_P(Parts, GiveTheWholePictureInEveryViewport) {
+    Config config = partial();
     std::vector<stereo::Viewport>& viewports = config.installation.windows.front().viewports;
     viewports.push_back(viewports.front());
     for (std::size_t i = 0; i < viewports.size(); ++i) {
@@ -232,14 +232,14 @@ TEST_P(Slices, GiveTheWholePictureInEveryViewport) {
     Session session(config, file_, *context_), reference = at_once(config);
     start(session);
     settle(session);
-    EXPECT_EQ(session.log().frames().back().reason, QualityReason::in_slices);
+    EXPECT_EQ(session.log().frames().back().reason, QualityReason::in_parts);
     expect_whole(session, reference);
 }
 
-TEST_P(Slices, TellWhatThePictureCostsThatNoFrameHasDrawn) {
-    Session session(sliced(), file_, *context_);
+TEST_P(Parts, TellWhatThePictureCostsThatNoFrameHasDrawn) {
+    Session session(partial(), file_, *context_);
     start(session);
-    ASSERT_TRUE(begin_slices(session));
+    ASSERT_TRUE(begin_parts(session));
     EXPECT_FALSE(session.log().frames().back().better) << "not known yet";
     settle(session);
     const std::optional<Milliseconds> cost = session.log().frames().back().expected;
@@ -247,8 +247,8 @@ TEST_P(Slices, TellWhatThePictureCostsThatNoFrameHasDrawn) {
     EXPECT_GT(cost->count(), 0);
 }
 
-TEST_P(Slices, TellWhatTheExactPictureCosts) {
-    Config config = sliced();
+TEST_P(Parts, TellWhatTheExactPictureCosts) {
+    Config config = partial();
     config.quality.frame_budget_ms = 60000; // all fits once it is known to, on any machine
     Session session(config, file_, *context_);
     start(session);

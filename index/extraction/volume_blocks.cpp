@@ -1,5 +1,5 @@
-// Marks and copies volume bricks.
-#include "index/extraction/volume_bricks.h"
+// Marks and copies volume blocks.
+#include "index/extraction/volume_blocks.h"
 
 #include "index/system/parallel.h"
 #include "index/volume/cell_walk.h"
@@ -13,35 +13,35 @@
 namespace isochron::index {
 namespace {
 
-/// First and last brick of a cell's two vertices along one axis.
+/// First and last block of a cell's two vertices along one axis.
 std::array<std::uint32_t, 2> inner(std::uint32_t cell) {
-    return {cell / kBrickEdge, (cell + 1) / kBrickEdge};
+    return {cell / kBlockEdge, (cell + 1) / kBlockEdge};
 }
 /// The same for the vertices and their outer neighbors.
 std::array<std::uint32_t, 2> outer(std::uint32_t cell, std::uint32_t vertices) {
-    return {(cell == 0 ? 0 : cell - 1) / kBrickEdge, std::min(cell + 2, vertices - 1) / kBrickEdge};
+    return {(cell == 0 ? 0 : cell - 1) / kBlockEdge, std::min(cell + 2, vertices - 1) / kBlockEdge};
 }
 
-/// Copies the rows of a brick inside the grid, as stored; the size of a row is a constant.
+/// Copies the rows of a block inside the grid, as stored; the size of a row is a constant.
 template <std::size_t kRow>
 void copy_rows(const std::byte* from, std::size_t row, std::size_t slice, std::byte* out) {
-    for (std::uint32_t z = 0; z < kBrickEdge; ++z)
-        for (std::uint32_t y = 0; y < kBrickEdge; ++y, out += kRow)
+    for (std::uint32_t z = 0; z < kBlockEdge; ++z)
+        for (std::uint32_t y = 0; y < kBlockEdge; ++y, out += kRow)
             std::memcpy(out, from + z * slice + y * row, kRow);
 }
 
 } // namespace
 
-BrickTiling::BrickTiling(const Grid& grid) {
-    std::ranges::transform(grid.vertices, bricks.begin(),
-                           [](std::uint32_t n) { return (n + kBrickEdge - 1) / kBrickEdge; });
+BlockTiling::BlockTiling(const Grid& grid) {
+    std::ranges::transform(grid.vertices, blocks.begin(),
+                           [](std::uint32_t n) { return (n + kBlockEdge - 1) / kBlockEdge; });
 }
 
-BrickGatherer::BrickGatherer(const Grid& grid, const BrickValues& values)
+BlockGatherer::BlockGatherer(const Grid& grid, const BlockValues& values)
     : grid_(grid), tiling_(grid), values_(values), needed_(tiling_.count()),
-      row_inner_(tiling_.bricks[0]), row_outer_(tiling_.bricks[0]) {}
+      row_inner_(tiling_.blocks[0]), row_outer_(tiling_.blocks[0]) {}
 
-void BrickGatherer::need(const CellSet& set) {
+void BlockGatherer::need(const CellSet& set) {
     if (has_wide_ids(grid_))
         return mark(set.points.size(), [&](std::size_t i) -> std::array<std::uint32_t, 3> {
             const CellPoint& point = set.points[i];
@@ -54,9 +54,9 @@ void BrickGatherer::need(const CellSet& set) {
     });
 }
 
-/// Marks the bricks of cells whose places ascend from row to row.
+/// Marks the blocks of cells whose places ascend from row to row.
 template <class PlaceOf>
-void BrickGatherer::mark(std::size_t cells, PlaceOf&& place_of) {
+void BlockGatherer::mark(std::size_t cells, PlaceOf&& place_of) {
     std::uint32_t y = 0, z = 0;
     for (std::size_t i = 0; i < cells; ++i) {
         const auto [at_x, at_y, at_z] = place_of(i);
@@ -71,14 +71,14 @@ void BrickGatherer::mark(std::size_t cells, PlaceOf&& place_of) {
         mark_row(y, z);
 }
 
-/// Marks the bricks that the cells of a row need, from its bricks along x, and clears these.
-void BrickGatherer::mark_row(std::uint32_t y, std::uint32_t z) {
+/// Marks the blocks that the cells of a row need, from its blocks along x, and clears these.
+void BlockGatherer::mark_row(std::uint32_t y, std::uint32_t z) {
     const auto mark = [&](const std::vector<std::uint8_t>& row, const auto& ys, const auto& zs) {
         for (std::uint32_t at_z = zs[0]; at_z <= zs[1]; ++at_z)
             for (std::uint32_t at_y = ys[0]; at_y <= ys[1]; ++at_y) {
                 std::uint8_t* needed =
                     needed_.data() +
-                    (std::size_t{at_z} * tiling_.bricks[1] + at_y) * tiling_.bricks[0];
+                    (std::size_t{at_z} * tiling_.blocks[1] + at_y) * tiling_.blocks[0];
                 for (std::size_t x = 0; x < row.size(); ++x)
                     needed[x] |= row[x];
             }
@@ -90,104 +90,104 @@ void BrickGatherer::mark_row(std::uint32_t y, std::uint32_t z) {
     std::ranges::fill(row_outer_, std::uint8_t{0});
 }
 
-/// The stored values of a brick: the first one, strides, and the number along each axis.
-struct BrickGatherer::Box {
+/// The stored values of a block: the first one, strides, and the number along each axis.
+struct BlockGatherer::Box {
     const std::byte* first;
     std::size_t row, plane; ///< bytes from one to the next
     std::array<std::uint32_t, 3> size;
 };
 
-/// Coordinates of a brick, in bricks.
-std::array<std::uint32_t, 3> BrickGatherer::at(BrickId brick) const {
-    const auto& n = tiling_.bricks;
-    return {brick % n[0], brick / n[0] % n[1], brick / n[0] / n[1]};
+/// Coordinates of a block, in blocks.
+std::array<std::uint32_t, 3> BlockGatherer::at(BlockId block) const {
+    const auto& n = tiling_.blocks;
+    return {block % n[0], block / n[0] % n[1], block / n[0] / n[1]};
 }
 
-void BrickGatherer::copy(const Box& from, const BrickLevels& levels, VolumeBricks& bricks,
+void BlockGatherer::copy(const Box& from, const BlockLevels& levels, VolumeBlocks& blocks,
                          std::size_t i) const {
-    const std::size_t held = size_of(values_.held()), bytes = bricks.brick_bytes();
-    std::byte* out = bricks.bytes.data() + i * bytes;
+    const std::size_t held = size_of(values_.held()), bytes = blocks.block_bytes();
+    std::byte* out = blocks.bytes.data() + i * bytes;
     const bool inside =
-        from.size == std::array<std::uint32_t, 3>{kBrickEdge, kBrickEdge, kBrickEdge};
+        from.size == std::array<std::uint32_t, 3>{kBlockEdge, kBlockEdge, kBlockEdge};
     if (inside && values_.stored() == values_.held()) {
         switch (held) {
-        case 1: copy_rows<kBrickEdge>(from.first, from.row, from.plane, out); break;
-        case 2: copy_rows<2 * kBrickEdge>(from.first, from.row, from.plane, out); break;
-        default: copy_rows<4 * kBrickEdge>(from.first, from.row, from.plane, out);
+        case 1: copy_rows<kBlockEdge>(from.first, from.row, from.plane, out); break;
+        case 2: copy_rows<2 * kBlockEdge>(from.first, from.row, from.plane, out); break;
+        default: copy_rows<4 * kBlockEdge>(from.first, from.row, from.plane, out);
         }
     } else {
         for (std::uint32_t z = 0; z < from.size[2]; ++z)
             for (std::uint32_t y = 0; y < from.size[1]; ++y)
                 values_.convert(from.first + z * from.plane + y * from.row, from.size[0], levels,
-                                out + (z * kBrickEdge + y) * kBrickEdge * held);
+                                out + (z * kBlockEdge + y) * kBlockEdge * held);
     }
     const XXH128_hash_t hash = XXH3_128bits(out, bytes);
-    bricks.digests[i] = {hash.low64, hash.high64};
+    blocks.digests[i] = {hash.low64, hash.high64};
 }
 
-VolumeBricks BrickGatherer::none() const {
-    VolumeBricks bricks;
-    bricks.held = values_.held();
-    bricks.factor = values_.factor();
-    bricks.range = values_.range();
-    return bricks;
+VolumeBlocks BlockGatherer::none() const {
+    VolumeBlocks blocks;
+    blocks.held = values_.held();
+    blocks.factor = values_.factor();
+    blocks.range = values_.range();
+    return blocks;
 }
 
-void BrickGatherer::take_marked(VolumeBricks& bricks) {
-    bricks = none();
+void BlockGatherer::take_marked(VolumeBlocks& blocks) {
+    blocks = none();
     for (auto it = needed_.begin(); (it = std::find(it, needed_.end(), 1)) != needed_.end(); ++it) {
-        bricks.ids.push_back(static_cast<BrickId>(it - needed_.begin()));
+        blocks.ids.push_back(static_cast<BlockId>(it - needed_.begin()));
         *it = 0;
     }
-    bricks.bytes.assign(bricks.ids.size() * bricks.brick_bytes(), std::byte{0});
-    bricks.digests.resize(bricks.ids.size());
+    blocks.bytes.assign(blocks.ids.size() * blocks.block_bytes(), std::byte{0});
+    blocks.digests.resize(blocks.ids.size());
 }
 
-bool BrickGatherer::gather(const StepView& step, const BrickLevels& levels, VolumeBricks& bricks,
+bool BlockGatherer::gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
                            const std::stop_token& stop) {
-    return step.by_chunks() ? gather_chunks(step, levels, bricks, stop)
-                            : gather(step.whole(stop).values, step.at(), levels, bricks, stop);
+    return step.by_chunks() ? gather_chunks(step, levels, blocks, stop)
+                            : gather(step.whole(stop).values, step.at(), levels, blocks, stop);
 }
 
-bool BrickGatherer::gather(const StepValues& step, Instant at_step, const BrickLevels& levels,
-                           VolumeBricks& bricks, const std::stop_token& stop) {
-    take_marked(bricks);
+bool BlockGatherer::gather(const StepValues& step, Instant at_step, const BlockLevels& levels,
+                           VolumeBlocks& blocks, const std::stop_token& stop) {
+    take_marked(blocks);
     const std::byte* first = step.step_bytes(at_step).data();
     const auto& n = grid_.vertices;
     const std::size_t size = size_of(values_.stored()), row = n[0] * size, plane = n[1] * row;
-    for (std::size_t i = 0; i < bricks.ids.size(); ++i) {
+    for (std::size_t i = 0; i < blocks.ids.size(); ++i) {
         if (i % 256 == 0 && stop.stop_requested())
             return false;
         Box box{first, row, plane, {}};
-        auto corner = at(bricks.ids[i]);
+        auto corner = at(blocks.ids[i]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            corner[axis] *= kBrickEdge;
-            box.size[axis] = std::min(kBrickEdge, n[axis] - corner[axis]);
+            corner[axis] *= kBlockEdge;
+            box.size[axis] = std::min(kBlockEdge, n[axis] - corner[axis]);
         }
         box.first += corner[2] * plane + corner[1] * row + corner[0] * size;
-        copy(box, levels, bricks, i);
+        copy(box, levels, blocks, i);
     }
     return true;
 }
 
-bool BrickGatherer::gather_chunks(const StepView& step, const BrickLevels& levels,
-                                  VolumeBricks& bricks, const std::stop_token& stop) {
-    static_assert(kChunkEdge % kBrickEdge == 0);
-    constexpr std::uint32_t kAcross = kChunkEdge / kBrickEdge;
-    take_marked(bricks);
+bool BlockGatherer::gather_chunks(const StepView& step, const BlockLevels& levels,
+                                  VolumeBlocks& blocks, const std::stop_token& stop) {
+    static_assert(kChunkEdge % kBlockEdge == 0);
+    constexpr std::uint32_t kAcross = kChunkEdge / kBlockEdge;
+    take_marked(blocks);
     const std::size_t size = size_of(values_.stored());
-    const std::uint64_t layer_bricks =
-        std::uint64_t{tiling_.bricks[0]} * tiling_.bricks[1] * kAcross;
+    const std::uint64_t layer_blocks =
+        std::uint64_t{tiling_.blocks[0]} * tiling_.blocks[1] * kAcross;
     parallel_for(
         step.chunk_grid().layers(), thread_count(0),
         [&](std::size_t layer, unsigned) {
-            const auto first = std::ranges::lower_bound(bricks.ids, layer * layer_bricks);
+            const auto first = std::ranges::lower_bound(blocks.ids, layer * layer_blocks);
             const auto last =
-                std::ranges::lower_bound(first, bricks.ids.end(), (layer + 1) * layer_bricks);
+                std::ranges::lower_bound(first, blocks.ids.end(), (layer + 1) * layer_blocks);
             if (first == last || stop.stop_requested())
                 return;
-            const auto place_of = [&](BrickId brick) {
-                const auto [x, y, z] = at(brick);
+            const auto place_of = [&](BlockId block) {
+                const auto [x, y, z] = at(block);
                 return step.chunk_grid().place(x / kAcross, y / kAcross);
             };
             std::vector<std::uint32_t> places;
@@ -197,22 +197,22 @@ bool BrickGatherer::gather_chunks(const StepView& step, const BrickLevels& level
             const auto at_layer = static_cast<std::uint32_t>(layer);
             step.expect(at_layer, places);
             const auto found = step.chunks(at_layer, places, stop);
-            for (auto brick = first; brick != last; ++brick) {
-                if ((brick - first) % 256 == 0 && stop.stop_requested())
+            for (auto block = first; block != last; ++block) {
+                if ((block - first) % 256 == 0 && stop.stop_requested())
                     return;
-                const auto place = std::ranges::lower_bound(places, place_of(*brick));
+                const auto place = std::ranges::lower_bound(places, place_of(*block));
                 const Chunk& chunk = *found[static_cast<std::size_t>(place - places.begin())];
-                auto corner = at(*brick);
+                auto corner = at(*block);
                 Box box{chunk.values.data(),
                         chunk.size[0] * size,
                         chunk.size[0] * chunk.size[1] * size,
                         {}};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    corner[axis] = corner[axis] % kAcross * kBrickEdge;
-                    box.size[axis] = std::min(kBrickEdge, chunk.size[axis] - corner[axis]);
+                    corner[axis] = corner[axis] % kAcross * kBlockEdge;
+                    box.size[axis] = std::min(kBlockEdge, chunk.size[axis] - corner[axis]);
                 }
                 box.first += corner[2] * box.plane + corner[1] * box.row + corner[0] * size;
-                copy(box, levels, bricks, static_cast<std::size_t>(brick - bricks.ids.begin()));
+                copy(box, levels, blocks, static_cast<std::size_t>(block - blocks.ids.begin()));
             }
         },
         {});

@@ -1,37 +1,37 @@
-// Reads the values around a cell from volume bricks; needs BRICKS, the sampler of their type.
-// A volume brick has 8^3 vertices (index/extraction/volume_bricks.h), x fastest.
+// Reads the values around a cell from volume blocks; needs BLOCKS, the sampler of their type.
+// A volume block has 8^3 vertices (index/extraction/volume_blocks.h), x fastest.
 
 #include "cell_place.glsl"
 
-layout(binding = 0) uniform usamplerBuffer pages; // slots by brick id
-layout(binding = 1) uniform BRICKS bricks;        // held values by slot
+layout(binding = 0) uniform usamplerBuffer pages; // slots by block id
+layout(binding = 1) uniform BLOCKS blocks;        // held values by slot
 
 layout(std140, binding = 0) uniform Volume {
     vec4 from_difference_x, from_difference_y, from_difference_z; // rows: towards lower values
     ivec3 vertices;
-    float factor;         // brick units per held value
-    ivec3 tiles;          // bricks along each axis
-    float gradient_scale; // factor of stored gradients, per brick unit
-    vec4 levels[2];       // of the surfaces, in brick units
+    float factor;         // block units per held value
+    ivec3 tiles;          // blocks along each axis
+    float gradient_scale; // factor of stored gradients, per block unit
+    vec4 levels[2];       // of the surfaces, in block units
 };
 
 // The four planes of vertices around a cell along one axis: its two vertices and their outer
-// neighbors, clamped at the border. They lie in one or two bricks.
+// neighbors, clamped at the border. They lie in one or two blocks.
 struct Planes {
-    ivec4 offset; // of each plane in its brick
-    bvec4 second; // whether it lies in the second brick
-    ivec2 brick;  // the two bricks along this axis
+    ivec4 offset; // of each plane in its block
+    bvec4 second; // whether it lies in the second block
+    ivec2 block;  // the two blocks along this axis
 };
 
 Planes planes(int cell, int count, int shift) {
     ivec4 at = clamp(cell + ivec4(-1, 0, 1, 2), 0, count - 1);
-    ivec4 brick = at >> 3;
-    return Planes((at & 7) << shift, notEqual(brick, ivec4(brick.x)), ivec2(brick.x, brick.w));
+    ivec4 block = at >> 3;
+    return Planes((at & 7) << shift, notEqual(block, ivec4(block.x)), ivec2(block.x, block.w));
 }
 
-ivec4 first_texels(ivec4 brick) {
-    return ivec4(texelFetch(pages, brick.x).x, texelFetch(pages, brick.y).x,
-                 texelFetch(pages, brick.z).x, texelFetch(pages, brick.w).x) << 9;
+ivec4 first_texels(ivec4 block) {
+    return ivec4(texelFetch(pages, block.x).x, texelFetch(pages, block.y).x,
+                 texelFetch(pages, block.z).x, texelFetch(pages, block.w).x) << 9;
 }
 
 // The values on those planes, in rows along x; row_yz lies on planes y and z. Rows on inner planes
@@ -41,11 +41,11 @@ ivec4 first_texels(ivec4 brick) {
 vec4 row_11, row_21, row_12, row_22;
 vec2 row_01, row_31, row_02, row_32, row_10, row_20, row_13, row_23;
 
-float value_at(int texel) { return float(texelFetch(bricks, texel).x) * factor; }
+float value_at(int texel) { return float(texelFetch(blocks, texel).x) * factor; }
 
-// First texels of a row in the first and the second brick along x. `lower` has the first texels of
-// the bricks that are first along z, `upper` of the bricks that are second along z; each has both
-// bricks along x for the first brick along y, then for the second.
+// First texels of a row in the first and the second block along x. `lower` has the first texels of
+// the blocks that are first along z, `upper` of the blocks that are second along z; each has both
+// blocks along x for the first block along y, then for the second.
 ivec2 row_start(bool second_y, bool second_z, int offset, ivec4 lower, ivec4 upper) {
     ivec4 of_z = second_z ? upper : lower;
     return (second_y ? of_z.zw : of_z.xy) + offset;
@@ -65,9 +65,9 @@ void read_around(ivec3 cell) {
     Planes x = planes(cell.x, vertices.x, 0);
     Planes y = planes(cell.y, vertices.y, 3);
     Planes z = planes(cell.z, vertices.z, 6);
-    ivec4 page = y.brick.xxyy * tiles.x + x.brick.xyxy;
-    ivec4 lower = first_texels(page + z.brick.x * tiles.y * tiles.x);
-    ivec4 upper = first_texels(page + z.brick.y * tiles.y * tiles.x);
+    ivec4 page = y.block.xxyy * tiles.x + x.block.xyxy;
+    ivec4 lower = first_texels(page + z.block.x * tiles.y * tiles.x);
+    ivec4 upper = first_texels(page + z.block.y * tiles.y * tiles.x);
 #define START(i, j) row_start(y.second[i], z.second[j], y.offset[i] + z.offset[j], lower, upper)
     row_11 = inner_row(START(1, 1), x);
     row_21 = inner_row(START(2, 1), x);

@@ -1,5 +1,5 @@
 // The pieces of a picture that is drawn over several frames, with simulated times.
-#include "app/quality/slice_pace.h"
+#include "app/quality/part_pace.h"
 
 #include "tests/support/test_seed.h"
 
@@ -16,7 +16,7 @@ namespace {
 /// Frames until so much work is done. @return the time of each [ms]
 std::vector<double> frames_of(std::size_t work, Milliseconds each,
                               const std::function<double(std::size_t, std::size_t)>& cost) {
-    SlicePace pace;
+    PartPace pace;
     std::vector<double> frames;
     double whole = 0;
     for (std::size_t done = 0; done < work;) {
@@ -38,7 +38,7 @@ std::vector<double> frames_of(std::size_t work, Milliseconds each,
     return frames;
 }
 
-TEST(SlicePace, FramesKeepToTheirTimeAndUseIt) {
+TEST(PartPace, FramesKeepToTheirTimeAndUseIt) {
     std::mt19937 random(test_seed());
     const auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<>(low, high)(random);
@@ -52,22 +52,22 @@ TEST(SlicePace, FramesKeepToTheirTimeAndUseIt) {
         double whole = 0;
         for (const double frame : frames) {
             // The first piece is drawn without knowing what it costs.
-            EXPECT_LE(frame, std::max(1.2 * each, 1.3 * of_one * SlicePace::kFirst + 1)) << trial;
+            EXPECT_LE(frame, std::max(1.2 * each, 1.3 * of_one * PartPace::kFirst + 1)) << trial;
             whole += frame;
         }
         EXPECT_LE(static_cast<double>(frames.size()), 2 + 2.0 * whole / each) << trial;
     }
 }
 
-TEST(SlicePace, EveryFrameHasAPieceHoweverShortItsTime) {
+TEST(PartPace, EveryFrameHasAPieceHoweverShortItsTime) {
     const auto frames = frames_of(100'000, Milliseconds(1e-6), [](std::size_t, std::size_t work) {
         return 1e-2 * static_cast<double>(work);
     });
-    EXPECT_GE(frames.size(), 100'000 / SlicePace::kFirst);
-    EXPECT_LE(frames.size(), 100'000 / SlicePace::kLeast + 2);
+    EXPECT_GE(frames.size(), 100'000 / PartPace::kFirst);
+    EXPECT_LE(frames.size(), 100'000 / PartPace::kLeast + 2);
 }
 
-TEST(SlicePace, WorkThatBecomesDearIsNoticedAfterOnePiece) {
+TEST(PartPace, WorkThatBecomesDearIsNoticedAfterOnePiece) {
     // A hundred times as dear from the middle on.
     const auto frames =
         frames_of(200'000, Milliseconds(20), [](std::size_t done, std::size_t work) {
@@ -78,13 +78,13 @@ TEST(SlicePace, WorkThatBecomesDearIsNoticedAfterOnePiece) {
     EXPECT_EQ(std::ranges::count_if(frames, [](double frame) { return frame > 21; }), 1);
 }
 
-TEST(SlicePace, OtherWorkCountsForTheFrameOnly) {
-    SlicePace pace;
+TEST(PartPace, OtherWorkCountsForTheFrameOnly) {
+    PartPace pace;
     pace.begin_frame(Milliseconds(10));
     pace.took(0, Milliseconds(30));
     EXPECT_EQ(pace.next(), 0u) << "the frame has had its time";
     pace.begin_frame(Milliseconds(10));
-    EXPECT_EQ(pace.next(), SlicePace::kFirst);
+    EXPECT_EQ(pace.next(), PartPace::kFirst);
 }
 
 } // namespace

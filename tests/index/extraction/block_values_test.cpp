@@ -1,5 +1,5 @@
-// Values in volume bricks: none changes its side of an isovalue, for any type and scaling.
-#include "index/extraction/brick_values.h"
+// Values in volume blocks: none changes its side of an isovalue, for any type and scaling.
+#include "index/extraction/block_values.h"
 #include "index/volume/grid.h"
 #include "tests/support/test_field.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 /// Held values of one type, as the GPU reads them: times the factor.
 template <class T>
-std::vector<float> units_of(const BrickValues& values, const std::vector<T>& stored,
-                            const BrickLevels& levels) {
+std::vector<float> units_of(const BlockValues& values, const std::vector<T>& stored,
+                            const BlockLevels& levels) {
     std::vector<std::byte> held(stored.size() * size_of(values.held()));
     values.convert(reinterpret_cast<const std::byte*>(stored.data()), stored.size(), levels,
                    held.data());
@@ -41,8 +41,8 @@ void expect_sides(const std::vector<T>& stored, ValueType type, Scaling scaling,
             low = std::min(low, scaling(double(value)));
             high = std::max(high, scaling(double(value)));
         }
-    const BrickValues values(type, scaling, low, high);
-    const BrickLevels levels = values.levels(isovalues);
+    const BlockValues values(type, scaling, low, high);
+    const BlockLevels levels = values.levels(isovalues);
     ASSERT_EQ(levels.units.size(), isovalues.size());
     const auto units = units_of(values, stored, levels);
     for (std::size_t i = 0; i < stored.size(); ++i) {
@@ -68,7 +68,7 @@ void expect_sides(const std::vector<T>& stored, ValueType type, Scaling scaling,
     }
 }
 
-TEST(BrickValues, KeepEveryValueOnItsSideForEveryTypeScalingAndIsovalue) {
+TEST(BlockValues, KeepEveryValueOnItsSideForEveryTypeScalingAndIsovalue) {
     std::mt19937 random(test_seed());
     for (const ValueType type : kAllTypes)
         for (const Scaling scaling : {Scaling{1, 0}, Scaling{-0.25, 3}, Scaling{0.1, -7.3}})
@@ -89,7 +89,7 @@ TEST(BrickValues, KeepEveryValueOnItsSideForEveryTypeScalingAndIsovalue) {
             }
 }
 
-TEST(BrickValues, TellApartWhatFloatCannot) {
+TEST(BlockValues, TellApartWhatFloatCannot) {
     // Doubles closer to each other than floats: on, below and above isovalues as close.
     std::vector<double> stored, isovalues;
     for (int i = -40; i <= 40; ++i)
@@ -107,7 +107,7 @@ TEST(BrickValues, TellApartWhatFloatCannot) {
                  {2147483646.5, 2147483646.0, 2147483645.5, 2147483647.0, -2147483647.0, 5.0});
 }
 
-TEST(BrickValues, HoldTheLimitsOfFloatingPoint) {
+TEST(BlockValues, HoldTheLimitsOfFloatingPoint) {
     const double most = std::numeric_limits<double>::max();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
@@ -121,13 +121,13 @@ TEST(BrickValues, HoldTheLimitsOfFloatingPoint) {
     expect_sides(std::vector<std::uint8_t>{0, 0}, ValueType::u8, {}, {});
 }
 
-TEST(BrickValues, ALevelLiesWhereTheIsovalueDoes) {
+TEST(BlockValues, ALevelLiesWhereTheIsovalueDoes) {
     // Between 3 and 4, not on 4: a surface would be drawn in another place.
-    const BrickValues values(ValueType::u8, {}, 0, 255);
+    const BlockValues values(ValueType::u8, {}, 0, 255);
     const auto levels = values.levels(std::vector{3.25, 200.0});
     EXPECT_FLOAT_EQ(levels.units[0] / values.factor(), 3.25f);
     EXPECT_FLOAT_EQ(levels.units[1] / values.factor(), 200.0f);
-    const BrickValues turned(ValueType::i16, {-0.5, 1}, -500, 500);
+    const BlockValues turned(ValueType::i16, {-0.5, 1}, -500, 500);
     EXPECT_FLOAT_EQ(turned.levels(std::vector{10.2}).units[0] / turned.factor(), -18.4f);
 }
 

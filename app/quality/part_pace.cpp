@@ -1,5 +1,5 @@
 // How much of a picture that is drawn over several frames is drawn in each of them.
-#include "app/quality/slice_pace.h"
+#include "app/quality/part_pace.h"
 
 #include <algorithm>
 
@@ -9,13 +9,13 @@ namespace isochron::app {
 /// the piece before only.
 constexpr double kPiece = 0.25;
 
-void SlicePace::begin_frame(Milliseconds each) {
+void PartPace::begin_frame(Milliseconds each) {
     each_ = each;
     spent_ = Milliseconds(0);
     begun_ = false;
 }
 
-std::size_t SlicePace::next() const {
+std::size_t PartPace::next() const {
     std::size_t work = kFirst;
     if (of_one_.count() > 0) {
         const double wanted = kPiece * (each_ / of_one_);
@@ -26,7 +26,7 @@ std::size_t SlicePace::next() const {
     return fits || !begun_ ? work : 0;
 }
 
-void SlicePace::took(std::size_t work, Milliseconds time) {
+void PartPace::took(std::size_t work, Milliseconds time) {
     begun_ = true;
     spent_ += time;
     whole_ += time;

@@ -1,4 +1,4 @@
-// How much to draw in each frame of a picture that is drawn in slices, over several frames.
+// How much to draw in each frame of a picture that is drawn in parts, over several frames.
 #pragma once
 
 #include "app/frame/milliseconds.h"
@@ -10,7 +10,7 @@ namespace isochron::app {
 /// Each frame draws one or more pieces. A piece is meant to take a quarter of a frame's time,
 /// judged by the last piece, and has at most twice its work. So a frame takes longer than it may
 /// only if the same work suddenly takes much longer than in the piece before.
-class SlicePace {
+class PartPace {
   public:
     static constexpr std::size_t kFirst = 1024, kLeast = 256; ///< units of work
 

@@ -4,7 +4,7 @@
 
 #include "app/frame/stop_watch.h"
 #include "app/output/outputs.h"
-#include "app/quality/slice_pace.h"
+#include "app/quality/part_pace.h"
 #include "app/scene/scene.h"
 #include "app/session/frame.h"
 
@@ -14,14 +14,14 @@
 
 namespace isochron::app {
 
-class SlicedPictures {
+class PartialPictures {
   public:
     /// All outlive these pictures.
-    SlicedPictures(Scene& scene, Outputs& outputs, FrameQuality& quality)
+    PartialPictures(Scene& scene, Outputs& outputs, FrameQuality& quality)
         : scene_(scene), outputs_(outputs), quality_(quality) {}
 
     /// Begins a frame, whose picture is `now`.
-    /// @param shown the picture in slices is shown already
+    /// @param shown the picture in parts is shown already
     void begin_frame(bool shown) { whole_ = shown; }
     /// Draws as much of the picture at rest as this frame has time for, and shows it once it is
     /// whole, in a cluster: once it is whole in all processes, which show it in the same frame.
@@ -30,7 +30,7 @@ class SlicedPictures {
     std::optional<Picture> draw(const Frame& frame, const Picture& now,
                                 const Outputs::Overlay& overlay);
     /// Gives up the picture at rest: another one is drawn.
-    void give_up() { slices_.reset(); }
+    void give_up() { parts_.reset(); }
 
     /// A footprint that might serve moving pictures is drawn where nobody sees it, to find out its
     /// time: in the time that frames leave, each piece for the views of its own frame. Where light
@@ -38,36 +38,36 @@ class SlicedPictures {
     /// @param begun with the frame, which is on show now
     void measure_unseen(const Frame& frame, const Picture& now, const StopWatch& begun);
 
-    /// Whether the picture in slices is whole, or shown.
+    /// Whether the picture in parts is whole, or shown.
     bool are_whole() const { return whole_; }
     /// The time that it took, while it is whole and not shown.
     Milliseconds took() const {
-        return slices_ && slices_->whole ? slices_->pace.whole() : Milliseconds(0);
+        return parts_ && parts_->whole ? parts_->pace.whole() : Milliseconds(0);
     }
     /// Whether there is more to be drawn of one in the next frame.
-    bool are_made() const { return (slices_ && !slices_->whole) || unseen_; }
+    bool are_made() const { return (parts_ && !parts_->whole) || unseen_; }
 
   private:
     /// A picture that is drawn over several frames, and how far it has come.
-    struct Slices {
-        explicit Slices(const Picture& wanted) : picture(wanted) {}
+    struct Parts {
+        explicit Parts(const Picture& wanted) : picture(wanted) {}
         Picture picture;
-        SlicePace pace;
-        Outputs::SlicePlace place;
+        PartPace pace;
+        Outputs::PartPlace place;
         std::size_t done = 0;     ///< units of work done at `place`
         Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
         bool whole = false;
     };
 
-    void draw_pieces(Slices& slices);
-    bool draw_slice(Slices& slices, std::span<const render::View> views, std::size_t work,
-                    std::size_t& done);
+    void draw_pieces(Parts& parts);
+    bool draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
+                   std::size_t& done);
 
     Scene& scene_;
     Outputs& outputs_;
     FrameQuality& quality_;
-    std::optional<Slices> slices_; ///< the next picture, if it is made in slices
-    std::optional<Slices> unseen_; ///< one that is made only to measure it
+    std::optional<Parts> parts_;  ///< the next picture, if it is made in parts
+    std::optional<Parts> unseen_; ///< one that is made only to measure it
     bool whole_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Converts values for volume bricks so that a GPU sees every value on the right side of an
+// Converts values for volume blocks so that a GPU sees every value on the right side of an
 // isovalue.
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace isochron::index {
 
-/// The isovalues of a query in brick units.
-struct BrickLevels {
-    /// In the order of the query's isovalues, in brick units: a vertex is below isovalue i, as
+/// The isovalues of a query in block units.
+struct BlockLevels {
+    /// In the order of the query's isovalues, in block units: a vertex is below isovalue i, as
     /// `Query` defines it, if and only if `held * factor < units[i]`.
     std::vector<float> units;
     /// `units`, and the isovalues themselves; both ascending, without repetition.
@@ -26,27 +26,27 @@ struct BrickLevels {
 /// nearest f32, or, if that would cross an isovalue, to the last f32 on the value's own side.
 /// Isovalues that f32 cannot tell apart get neighboring levels, so that this is always possible.
 ///
-/// *Brick units* are `held * factor`. They have the order of the scaled values, and their size is
+/// *Block units* are `held * factor`. They have the order of the scaled values, and their size is
 /// at most about 1 over the whole data set (4 near the end of the range of floating point).
-class BrickValues {
+class BlockValues {
   public:
     /// @param low, high range of the finite scaled values of the data set
-    BrickValues(ValueType type, Scaling scaling, double low, double high);
+    BlockValues(ValueType type, Scaling scaling, double low, double high);
 
     ValueType stored() const { return type_; }
     /// i8, u8, i16, u16 or f32.
     ValueType held() const { return held_; }
     /// A power of two, or its negative if larger stored values are smaller scaled ones.
     float factor() const { return factor_; }
-    /// `high - low` in brick units, at least the smallest normal f32.
+    /// `high - low` in block units, at least the smallest normal f32.
     float range() const { return range_; }
 
-    BrickLevels levels(std::span<const double> isovalues) const;
+    BlockLevels levels(std::span<const double> isovalues) const;
 
     /// Converts stored values of one row to held ones.
     /// @param stored `count` aligned values of the stored type
     /// @param out `count` values of the held type
-    void convert(const std::byte* stored, std::size_t count, const BrickLevels& levels,
+    void convert(const std::byte* stored, std::size_t count, const BlockLevels& levels,
                  std::byte* out) const;
 
   private:

@@ -1,4 +1,4 @@
-// The exact picture at rest in slices in a cluster: shown by all in one frame, given up by all.
+// The exact picture at rest in parts in a cluster: shown by all in one frame, given up by all.
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
@@ -25,11 +25,11 @@ class InTurn final : public FramesAlone {
     InTurn(Told& told, std::size_t rank) : told_(told), rank_(rank) {}
     bool leads() const override { return rank_ == 0; }
     bool alone() const override { return false; }
-    bool slices_are_whole() const override {
-        return std::ranges::all_of(told_.answers, &FrameAnswer::slices_whole);
+    bool parts_are_whole() const override {
+        return std::ranges::all_of(told_.answers, &FrameAnswer::parts_whole);
     }
-    Milliseconds slices_took(Milliseconds) const override {
-        return std::ranges::max(told_.answers, {}, &FrameAnswer::slices_took).slices_took;
+    Milliseconds parts_took(Milliseconds) const override {
+        return std::ranges::max(told_.answers, {}, &FrameAnswer::parts_took).parts_took;
     }
     FramePlan agree(const FramePlan& mine) override {
         return rank_ == 0 ? told_.plan = mine : told_.plan;
@@ -43,17 +43,17 @@ class InTurn final : public FramesAlone {
     std::size_t rank_;
 };
 
-class SlicesInCluster : public SessionTest {
+class PartsInCluster : public SessionTest {
   protected:
     /// No footprint but quads fits, and each frame has time for one piece.
-    static Config sliced() {
+    static Config partial() {
         Config config = small_config();
         config.rendering.frame_rate_limit = 60;
         config.quality.frame_budget_ms = config.quality.still_budget_ms = 1e-6;
         config.rendering.samples = 1;
         return config;
     }
-    SlicesInCluster() {
+    PartsInCluster() {
         first_.share_frames(std::make_unique<InTurn>(told_, 0));
         second_.share_frames(std::make_unique<InTurn>(told_, 1));
         interaction::Commands commands;
@@ -68,7 +68,7 @@ class SlicesInCluster : public SessionTest {
         const FrameReport report = first_.frame(input, commands, waiting);
         second_.frame(input, commands, waiting);
         EXPECT_EQ(last(second_).footprint, report.footprint) << "in frame " << frame_;
-        EXPECT_EQ(last(second_).in_slices, report.in_slices);
+        EXPECT_EQ(last(second_).in_parts, report.in_parts);
         return report;
     }
     static const FrameReport& last(const Session& session) { return session.log().frames().back(); }
@@ -84,23 +84,23 @@ class SlicesInCluster : public SessionTest {
         });
     }
     static bool begun(const FrameReport& report) {
-        return report.in_slices && report.footprint != *report.in_slices;
+        return report.in_parts && report.footprint != *report.in_parts;
     }
 
     Told told_;
-    Session first_{sliced(), file_, *context_}, second_{sliced(), file_, *context_};
+    Session first_{partial(), file_, *context_}, second_{partial(), file_, *context_};
     int frame_ = 0;
     float head_ = 0;
 };
 
-INSTANTIATE_TEST_SUITE_P(, SlicesInCluster,
+INSTANTIATE_TEST_SUITE_P(, PartsInCluster,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);
 
-TEST_P(SlicesInCluster, AreShownByAllInTheFrameAfterTheLastOneHasThem) {
+TEST_P(PartsInCluster, AreShownByAllInTheFrameAfterTheLastOneHasThem) {
     ASSERT_TRUE(rests_until(begun));
     const auto before = picture(second_);
-    while (!told_.answers[0].slices_whole || !told_.answers[1].slices_whole) {
+    while (!told_.answers[0].parts_whole || !told_.answers[1].parts_whole) {
         const FrameReport report = frame();
         ASSERT_LT(frame_, 5000);
         ASSERT_NE(report.footprint, Footprint::surface) << "not all have it";
@@ -112,7 +112,7 @@ TEST_P(SlicesInCluster, AreShownByAllInTheFrameAfterTheLastOneHasThem) {
     EXPECT_NE(picture(second_), before);
     EXPECT_TRUE(frame().final && last(second_).final);
 
-    Config at_once = sliced();
+    Config at_once = partial();
     at_once.quality.settled = Footprint::surface;
     Session whole(at_once, file_, *context_);
     interaction::Commands commands;
@@ -124,15 +124,15 @@ TEST_P(SlicesInCluster, AreShownByAllInTheFrameAfterTheLastOneHasThem) {
     EXPECT_EQ(picture(second_), picture(whole));
 }
 
-TEST_P(SlicesInCluster, TellAllWhatTheyTookWhereTheyTookLongest) {
+TEST_P(PartsInCluster, TellAllWhatTheyTookWhereTheyTookLongest) {
     ASSERT_TRUE(rests_until(begun));
-    while (!told_.answers[0].slices_whole || !told_.answers[1].slices_whole) {
+    while (!told_.answers[0].parts_whole || !told_.answers[1].parts_whole) {
         frame();
         ASSERT_LT(frame_, 5000);
     }
     for (const FrameAnswer& answer : told_.answers)
-        EXPECT_GT(answer.slices_took.count(), 0);
-    told_.answers[1].slices_took = Milliseconds(12345);
+        EXPECT_GT(answer.parts_took.count(), 0);
+    told_.answers[1].parts_took = Milliseconds(12345);
     ASSERT_EQ(frame().footprint, Footprint::surface);
     const FrameReport report = frame();
     ASSERT_TRUE(report.expected && last(second_).expected);
@@ -140,18 +140,18 @@ TEST_P(SlicesInCluster, TellAllWhatTheyTookWhereTheyTookLongest) {
     EXPECT_NEAR(last(second_).expected->count(), 12345, 1);
 }
 
-TEST_P(SlicesInCluster, WaitForTheSlowestAndAreGivenUpByAllForInput) {
+TEST_P(PartsInCluster, WaitForTheSlowestAndAreGivenUpByAllForInput) {
     ASSERT_TRUE(rests_until(begun));
     for (int i = 0; i < 400; ++i) {
-        told_.answers[1].slices_whole = false; // as if it never got there
+        told_.answers[1].parts_whole = false; // as if it never got there
         ASSERT_NE(frame().footprint, Footprint::surface);
     }
-    EXPECT_TRUE(told_.answers[0].slices_whole) << "rank 0 has it, and waits";
+    EXPECT_TRUE(told_.answers[0].parts_whole) << "rank 0 has it, and waits";
     head_ = 0.2f;
     const FrameReport moved = frame();
     EXPECT_TRUE(moved.redrawn && last(second_).redrawn);
-    EXPECT_FALSE(moved.in_slices);
-    EXPECT_FALSE(told_.answers[0].slices_whole || told_.answers[1].slices_whole);
+    EXPECT_FALSE(moved.in_parts);
+    EXPECT_FALSE(told_.answers[0].parts_whole || told_.answers[1].parts_whole);
     EXPECT_TRUE(rests_until(&FrameReport::final)) << "they begin anew";
     EXPECT_EQ(last(second_).footprint, Footprint::surface);
 }

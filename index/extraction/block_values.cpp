@@ -1,5 +1,5 @@
-// Rounds values and isovalues to the values that volume bricks hold.
-#include "index/extraction/brick_values.h"
+// Rounds values and isovalues to the values that volume blocks hold.
+#include "index/extraction/block_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ float nearest(double value) {
 }
 
 /// The value rounded to f32, but kept on its own side of all levels.
-float on_its_side(double relative, double scaled, const BrickLevels& levels) {
+float on_its_side(double relative, double scaled, const BlockLevels& levels) {
     if (std::isnan(scaled))
         return std::numeric_limits<float>::quiet_NaN();
     auto rounded = static_cast<float>(relative);
@@ -42,7 +42,7 @@ float on_its_side(double relative, double scaled, const BrickLevels& levels) {
 
 } // namespace
 
-BrickValues::BrickValues(ValueType type, Scaling scaling, double low, double high)
+BlockValues::BlockValues(ValueType type, Scaling scaling, double low, double high)
     : type_(type), held_(type), scaling_(scaling), keys_(type, scaling) {
     const double half = 0.5 * high - 0.5 * low; // halves first: the difference may overflow
     double half_in_units = 0;
@@ -62,7 +62,7 @@ BrickValues::BrickValues(ValueType type, Scaling scaling, double low, double hig
         range_ = std::max(static_cast<float>(2 * half_in_units), std::numeric_limits<float>::min());
 }
 
-float BrickValues::stored_level(double isovalue) const {
+float BlockValues::stored_level(double isovalue) const {
     return visit_value_type(type_, [&]<class T>(std::type_identity<T>) -> float {
         if constexpr (sizeof(T) > 4 || std::is_same_v<T, std::int32_t>)
             return 0; // converted instead
@@ -94,8 +94,8 @@ float BrickValues::stored_level(double isovalue) const {
     });
 }
 
-BrickLevels BrickValues::levels(std::span<const double> isovalues) const {
-    BrickLevels levels;
+BlockLevels BlockValues::levels(std::span<const double> isovalues) const {
+    BlockLevels levels;
     levels.exact.assign(isovalues.begin(), isovalues.end());
     std::erase_if(levels.exact, [](double v) { return !std::isfinite(v); }); // no active cells
     std::ranges::sort(levels.exact);
@@ -115,7 +115,7 @@ BrickLevels BrickValues::levels(std::span<const double> isovalues) const {
     return levels;
 }
 
-void BrickValues::convert(const std::byte* stored, std::size_t count, const BrickLevels& levels,
+void BlockValues::convert(const std::byte* stored, std::size_t count, const BlockLevels& levels,
                           std::byte* out) const {
     visit_value_type(type_, [&]<class T>(std::type_identity<T>) {
         if constexpr (sizeof(T) > 4 || std::is_same_v<T, std::int32_t>) {

@@ -1,0 +1,97 @@
+// Pictures that are drawn over several frames beside the one that is shown.
+#include "app/session/partial_pictures.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::app {
+
+std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& now,
+                                             const Outputs::Overlay& overlay) {
+    Picture wanted = now;
+    wanted.footprint = *frame.plan.in_parts;
+    if (!parts_ || parts_->picture != wanted)
+        parts_.emplace(wanted);
+    if (!parts_->whole) {
+        parts_->pace.begin_frame(quality_.part_budget());
+        draw_pieces(*parts_);
+    }
+    whole_ = parts_->whole;
+    if (!whole_ || !frame.plan.shows_parts)
+        return std::nullopt;
+    quality_.learn_parts(wanted.footprint, frame.report.cells,
+                         frame.sharing.parts_took(parts_->pace.whole()));
+    outputs_.show_parts(overlay);
+    parts_.reset();
+    return wanted;
+}
+
+/// Draws pieces of a picture while this frame has time for them, or until it is whole.
+void PartialPictures::draw_pieces(Parts& parts) {
+    StopWatch watch;
+    while (const std::size_t work = parts.whole ? 0 : parts.pace.next()) {
+        std::size_t done = scene_.prepare_parts(parts.picture, work);
+        if (done > 0) {
+            outputs_.gl().Finish(); // so that its time is known
+            const Milliseconds time = watch.lap();
+            parts.prepared += time;
+            parts.pace.took(done, time);
+            continue;
+        }
+        parts.whole = outputs_.draw_part(
+            parts.place, [&](const ScenePlace&, std::span<const render::View> views) {
+                return draw_part(parts, views, work, done);
+            });
+        parts.pace.took(done, watch.lap());
+    }
+}
+
+/// Draws the next of: what comes before the cells of a viewport, some of the cells, what comes
+/// after them. @param done work that was done, of at most `work` @return whether it was the last
+bool PartialPictures::draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
+                                std::size_t& done) {
+    ScenePart part{.begins = parts.place.begins, .cells = {parts.done, 0}, .ends = false};
+    const std::size_t all = scene_.work(parts.picture, views.size());
+    if (part.begins) {
+        parts.done = 0;
+    } else if (parts.done < all) {
+        part.cells.count = done = std::min(work, all - parts.done);
+    } else {
+        part.ends = true;
+    }
+    parts.done += scene_.draw(parts.picture, views, part);
+    return part.ends;
+}
+
+void PartialPictures::measure_unseen(const Frame& frame, const Picture& now,
+                                     const StopWatch& begun) {
+    const std::optional<render::Footprint> footprint = frame.plan.unseen;
+    const bool opaque =
+        std::ranges::all_of(now.isosurfaces, [](const interaction::Isosurface& surface) {
+            return surface.opacity >= 1.0f;
+        });
+    if (!footprint || !opaque || !frame.sharing.alone() || !outputs_.want(now.audience) ||
+        now.cells != scene_.cells().shown()) {
+        unseen_.reset();
+        return;
+    }
+    if (!unseen_ || unseen_->picture.cells != now.cells ||
+        unseen_->picture.footprint != *footprint ||
+        unseen_->picture.layout.windows != now.layout.windows)
+        unseen_.emplace(now);
+    unseen_->picture = now;
+    unseen_->picture.footprint = *footprint;
+    outputs_.gl().Finish(); // so that the frame's own time is known
+    const Milliseconds left = quality_.left_of_frame(begun.time());
+    if (!(left.count() > 0))
+        return;
+    parts_.reset(); // they are drawn in the same place
+    unseen_->pace.begin_frame(left);
+    draw_pieces(*unseen_);
+    if (!unseen_->whole)
+        return;
+    quality_.learn_parts(*footprint, frame.report.cells, unseen_->pace.whole() - unseen_->prepared);
+    unseen_.reset();
+}
+
+} // namespace isochron::app

@@ -1,0 +1,92 @@
+// Volume blocks: the parts of a step's volume that its active cells need, packed for a GPU.
+#pragma once
+
+#include "index/extraction/block_values.h"
+#include "index/file/step_view.h"
+#include "index/surface/cell_set.h"
+#include "index/volume/step_values.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Vertices along each side of a volume block. In this file, "block" always means a volume block;
+/// the bricks of scan/bricks.h are blocks of 8 x 4 x 4 cells.
+constexpr std::uint32_t kBlockEdge = 8;
+constexpr std::uint32_t kBlockVertices = kBlockEdge * kBlockEdge * kBlockEdge;
+
+using BlockId = std::uint32_t; ///< x fastest, then y, then z
+
+/// The blocks that tile the vertices of a grid; the last ones of an axis may reach beyond the grid.
+struct BlockTiling {
+    explicit BlockTiling(const Grid& grid);
+    std::size_t count() const { return std::size_t{blocks[0]} * blocks[1] * blocks[2]; }
+    std::array<std::uint32_t, 3> blocks;
+};
+
+/// A hash of 128 bits of a block's bytes: equal digests mean equal bytes.
+struct BlockDigest {
+    std::uint64_t low = 0, high = 0;
+    bool operator==(const BlockDigest&) const = default;
+};
+
+/// Some blocks of one step.
+struct VolumeBlocks {
+    ValueType held = ValueType::f32;  ///< of the values in `bytes`
+    float factor = 1;                 ///< see BlockValues
+    float range = 1;                  ///< width of the data set's range, in block units
+    std::vector<BlockId> ids;         ///< ascending
+    std::vector<BlockDigest> digests; ///< in the same order: a block with the same id and digest
+                                      ///< need not be uploaded again
+    std::vector<std::byte> bytes;     ///< same order; [z][y][x], x fastest; 0 beyond the grid
+
+    std::size_t block_bytes() const { return kBlockVertices * size_of(held); }
+    std::span<const std::byte> block(std::size_t i) const {
+        return std::span(bytes).subspan(i * block_bytes(), block_bytes());
+    }
+};
+
+/// Collects the blocks that hold the vertices of cells and the neighbors of these along each axis,
+/// which central differences need.
+class BlockGatherer {
+  public:
+    BlockGatherer(const Grid& grid, const BlockValues& values);
+
+    /// The result of `gather` if nothing is marked.
+    VolumeBlocks none() const;
+    /// Marks the blocks that a set's cells need. @param set with points, if the grid has wide ids
+    void need(const CellSet& set);
+    /// Copies the blocks that have been marked since the last call, then clears the marks. From
+    /// chunks it does so with all cores.
+    /// @return false when it was stopped and the blocks are incomplete
+    /// @throws Error as ChunkStore does
+    bool gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
+                const std::stop_token& stop = {});
+    /// The same from values in memory.
+    bool gather(const StepValues& step, Instant at, const BlockLevels& levels, VolumeBlocks& blocks,
+                const std::stop_token& stop = {});
+
+  private:
+    struct Box;
+    template <class PlaceOf>
+    void mark(std::size_t cells, PlaceOf&& place_of);
+    void mark_row(std::uint32_t y, std::uint32_t z);
+    std::array<std::uint32_t, 3> at(BlockId block) const;
+    void take_marked(VolumeBlocks& blocks);
+    bool gather_chunks(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
+                       const std::stop_token& stop);
+    void copy(const Box& from, const BlockLevels& levels, VolumeBlocks& blocks,
+              std::size_t i) const;
+
+    Grid grid_;
+    BlockTiling tiling_;
+    BlockValues values_;
+    std::vector<std::uint8_t> needed_;                ///< by block id
+    std::vector<std::uint8_t> row_inner_, row_outer_; ///< of a row of cells, by block along x
+};
+
+} // namespace isochron::index

@@ -78,35 +78,36 @@ bool CellUnit::check_head(std::uint32_t steps, std::uint32_t cells) const {
 
 void CellUnit::search(const TimePath& path, LevelMap::Cut cut, RunBuffer& certain,
                       RunBuffer& ambiguous) const {
-    const std::uint32_t level = cut.level;
+    const std::uint32_t threshold = cut.threshold;
     if (tables_.head().lossless) {
         for (const std::uint32_t node : path)
-            if (const auto table = tables_.at_level(node, level - 1))
-                table->up_to(level - 1, {level - 1}, first_, certain);
+            if (const auto table = tables_.at_level(node, threshold - 1))
+                table->up_to(threshold - 1, {threshold - 1}, first_, certain);
         return;
     }
     for (const std::uint32_t node : path)
-        if (const auto table = tables_.at_level(node, level)) {
-            if (level > 0)
-                table->up_to(level - 1, {cut.exact ? level : level + 1}, first_, certain);
+        if (const auto table = tables_.at_level(node, threshold)) {
+            if (threshold > 0)
+                table->up_to(threshold - 1, {cut.exact ? threshold : threshold + 1}, first_,
+                             certain);
             if (cut.exact)
                 continue;
-            table->up_to(level, {level, level + 1}, first_, ambiguous);
-            table->between(static_cast<std::int32_t>(level) - 1, level, {level + 1}, first_,
-                           ambiguous);
+            table->up_to(threshold, {threshold, threshold + 1}, first_, ambiguous);
+            table->between(static_cast<std::int32_t>(threshold) - 1, threshold, {threshold + 1},
+                           first_, ambiguous);
         }
 }
 
 void CellUnit::level_difference(const TimePath& path, LevelMap::Cut from, LevelMap::Cut to,
                                 RunBuffer& added, RunBuffer& removed) const {
     assert(from.exact && to.exact);
-    if (from.level > to.level)
+    if (from.threshold > to.threshold)
         return level_difference(path, to, from, removed, added);
-    if (from.level == to.level)
+    if (from.threshold == to.threshold)
         return;
     // An entry's column is its low rank. Its row is its high rank if the map is lossy, else 1 less.
     const std::uint32_t lossy = !tables_.head().lossless;
-    const std::uint32_t low = from.level - 1u, high = to.level - 1u;
+    const std::uint32_t low = from.threshold - 1u, high = to.threshold - 1u;
     for (const std::uint32_t node : path)
         if (const auto table = tables_.at_any_level(node)) {
             table->up_to(low, {low + lossy, high + lossy}, first_, removed);
@@ -121,11 +122,11 @@ bool DeltaUnit::check_head(std::uint32_t steps, std::uint32_t cells) const {
 void DeltaUnit::change(std::uint32_t into_step, LevelMap::Cut cut, RunBuffer& added,
                        RunBuffer& removed) const {
     assert(cut.exact);
-    const std::uint32_t level = cut.level - 1u;
-    if (const auto table = tables_.at_level(2 * into_step, level))
-        table->up_to(level, {level}, first_, added);
-    if (const auto table = tables_.at_level(2 * into_step + 1, level))
-        table->up_to(level, {level}, first_, removed);
+    const std::uint32_t threshold = cut.threshold - 1u;
+    if (const auto table = tables_.at_level(2 * into_step, threshold))
+        table->up_to(threshold, {threshold}, first_, added);
+    if (const auto table = tables_.at_level(2 * into_step + 1, threshold))
+        table->up_to(threshold, {threshold}, first_, removed);
 }
 
 } // namespace isochron::index

@@ -24,8 +24,9 @@ namespace isochron::index::HWY_NAMESPACE {
 class Candidates {
   public:
     Candidates(std::span<const std::uint8_t> bricks, const LevelMap::Cut& cut)
-        : count_(bricks.size() / 2), low_(bricks.data()), high_(low_ + count_), level_(cut.level),
-          highest_low_(static_cast<std::uint8_t>(cut.level - (cut.exact ? 1 : 0))) {}
+        : count_(bricks.size() / 2), low_(bricks.data()), high_(low_ + count_),
+          threshold_(cut.threshold),
+          highest_low_(static_cast<std::uint8_t>(cut.threshold - (cut.exact ? 1 : 0))) {}
 
     /// Number of all bricks, candidates or not.
     std::size_t bricks() const { return count_; }
@@ -80,7 +81,7 @@ class Candidates {
         std::uint64_t bits = 0;
         for (std::size_t i = 0; i < kWordBits; i += hn::Lanes(d)) {
             const auto above = hn::Gt(hn::LoadU(d, low + i), hn::Set(d, highest_low_));
-            const auto below = hn::Lt(hn::LoadU(d, high + i), hn::Set(d, level_));
+            const auto below = hn::Lt(hn::LoadU(d, high + i), hn::Set(d, threshold_));
             bits |= bits_of(d, hn::Not(hn::Or(above, below))) << i;
         }
         return bits;
@@ -89,7 +90,7 @@ class Candidates {
     std::size_t count_;
     const std::uint8_t* low_;
     const std::uint8_t* high_;
-    std::uint8_t level_, highest_low_;
+    std::uint8_t threshold_, highest_low_;
 };
 
 } // namespace isochron::index::HWY_NAMESPACE

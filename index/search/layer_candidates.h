@@ -45,7 +45,7 @@ class LayerCandidates {
                                 std::uint32_t layer = 0, const ChunkFilter& only = {});
     /// Whether cells with ranks from `low` to `high` may be active.
     static bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
-        return low + (cut.exact ? 1 : 0) <= cut.level && high >= cut.level;
+        return low + (cut.exact ? 1 : 0) <= cut.threshold && high >= cut.threshold;
     }
     /// The bricks that may hold active cells.
     static BricksOfChunk bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut);

@@ -2,7 +2,7 @@
 //
 //     const auto levels = index::LevelMap::of_type(ValueType::u8);        // 256 levels: lossless
 //     levels.ranks(std::as_bytes(values.step<std::uint8_t>(t)), ranks);   // a byte for each vertex
-//     if (const auto cut = levels.cut(values.scaling, isovalue))          // the level to find
+//     if (const auto cut = levels.cut(values.scaling, isovalue))          // the threshold to find
 //         search(*cut);
 #pragma once
 
@@ -40,11 +40,12 @@ class LevelMap {
     /// The ordinals of all values, as `of_values` takes them. The map must be lossless.
     std::vector<std::uint64_t> distinct() const;
 
-    /// The level that tells on which side of an isovalue a vertex is. If exact, it is upper if
-    /// `rank >= level`, else lower; the level is never 0. If not exact, it is upper if
-    /// `rank > level` and lower if `rank < level`; at `rank == level` only the volume tells.
+    /// The threshold that tells on which side of an isovalue a vertex is, by its number. If exact, a
+    /// vertex is upper if `rank >= threshold`, else lower; the threshold is never 0. If not exact, a
+    /// vertex is upper if `rank > threshold` and lower if `rank < threshold`; at
+    /// `rank == threshold` only the volume tells.
     struct Cut {
-        std::uint8_t level = 0;
+        std::uint8_t threshold = 0;
         bool exact = false;
         bool operator==(const Cut&) const = default;
     };

@@ -65,9 +65,9 @@ double check_cuts(const LevelMap& levels, const std::vector<T>& values, const Sc
             // The upper side of the cut is the lower one of a falling scaling.
             const bool side = (scaling(static_cast<double>(values[i])) >= v) == rising;
             if (cut->exact) {
-                EXPECT_EQ(ranks[i] >= cut->level, side) << v;
-            } else if (ranks[i] != cut->level) {
-                EXPECT_EQ(ranks[i] > cut->level, side) << v;
+                EXPECT_EQ(ranks[i] >= cut->threshold, side) << v;
+            } else if (ranks[i] != cut->threshold) {
+                EXPECT_EQ(ranks[i] > cut->threshold, side) << v;
             }
         }
     }

@@ -12,20 +12,21 @@
 namespace isochron::app {
 namespace {
 
-constexpr double kUp = 1.4;   ///< times a number of cells must fit before it is taken up
-constexpr double kDown = 0.9; ///< and below this share of it, it is left
-constexpr int kMostSteps = 2; ///< by which it grows at a time: twice as many
-/// Share of what was seen when a number was chosen; where less is seen, it does not grow.
+constexpr double kUp = 1.4;   ///< a number of cells is chosen once it fits so many times
+constexpr double kDown = 0.9; ///< and given up once less than this share of it fits
+constexpr int kMostSteps = 2; ///< most steps of growth at a time: twice as many cells
+/// Where less is seen than this share of what was seen when the number was chosen, the number does
+/// not grow.
 constexpr double kAsMuchSeen = 0.9;
-constexpr double kStay = 0.25; ///< levels beyond its range within which a wish stays
-/// Levels by which voxels at rest are less than a pixel, at first and in the end: the light of
-/// cells that share a pixel is another one at the next level until they are far below it.
+constexpr double kStay = 0.25; ///< [levels] a wish stays until it is this far out of its range
+/// How many levels finer than a pixel the voxels are at rest, at first and in the end: where cells
+/// share a pixel, its light changes with the next level until the cells are far below a pixel.
 constexpr double kFinerAtFirst = 0.5, kFinerAtLast = 2;
-constexpr double kUnseen = 2; ///< levels by which unseen regions may be coarser
+constexpr double kUnseen = 2; ///< how many levels coarser unseen regions may be
 constexpr double kNearest = -8, kFarthest = 8;
 constexpr int kParts = index::DetailQuery::kPartsOfLevel;
 
-/// The numbers of cells that are chosen from: each is the half more, or a third more, of the last.
+/// The numbers of cells to choose from: each is larger than the one before by a half or a third.
 std::uint64_t cells_of(int step) {
     const std::uint64_t base = DetailChoice::kFewest << (step / 2);
     return step % 2 == 0 ? base : base + base / 2;
@@ -139,7 +140,7 @@ index::DetailQuery DetailChoice::at_rest() const {
     return resting(most_, kFinerAtLast);
 }
 
-/// @param finer levels by which voxels are less than a pixel
+/// @param finer how many levels finer than a pixel the voxels are
 index::DetailQuery DetailChoice::resting(std::uint64_t cells, double finer) const {
     index::DetailQuery query{std::min(cells, most_), true, {}};
     const auto level = [finer](double ideal) {

@@ -52,12 +52,12 @@ class DetailChoice {
     /// @param drawn `most_cells` of the cells that are drawn
     index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
     /// For a picture that has just come to rest: level 0 wherever a voxel is larger than half a
-    /// pixel, and elsewhere a level of which a voxel is at most 0.7 pixels.
+    /// pixel, and elsewhere a level whose voxels are at most 0.7 pixels large.
     /// @param cells that it may have
     index::DetailQuery at_first_rest(std::uint64_t cells) const;
     /// For a picture that stays at rest, and for pictures that are written: level 0 wherever a
-    /// voxel is larger than an eighth of a pixel, and elsewhere a level of which a voxel is at most
-    /// a quarter of a pixel. As many cells as a set may have.
+    /// voxel is larger than an eighth of a pixel, and elsewhere a level whose voxels are at most a
+    /// quarter of a pixel large. As many cells as a set may have.
     index::DetailQuery at_rest() const;
 
   private:
@@ -75,7 +75,7 @@ class DetailChoice {
     int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
     double seen_ = 0;               ///< share of the regions that some view may show
     double seen_then_ = 0;          ///< the same when the number was chosen
-    std::vector<double> ideal_;     ///< by region: the level of which a voxel is a pixel
+    std::vector<double> ideal_;     ///< by region: the level whose voxels are a pixel large
     std::vector<std::int8_t> kept_; ///< wishes of moving pictures
 };
 

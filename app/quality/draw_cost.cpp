@@ -9,13 +9,14 @@ namespace {
 
 constexpr double kKept =
     0.9; ///< weight of a measurement relative to the next one that tells the same
-/// Information on the difference between the two parts that is as good as none, beside 1 of a
-/// measurement: times scatter by some tenths, so loads that differ by a tenth tell nothing.
+/// Information on the difference between the two parts that is as good as none, where one
+/// measurement counts as 1: times scatter by some tenths, so loads that differ by a tenth tell
+/// nothing.
 constexpr double kScatter = 0.02;
 
-/// Growth of the time, at least, where there are more cells than were ever measured, beside that of
-/// their number: a first picture without cells may have taken longer than later ones with some, as
-/// if any number of cells cost nothing.
+/// Where there are more cells than were ever measured, the time grows at least by this share of the
+/// growth in cells: a first picture without cells may have taken longer than later ones with some,
+/// as if any number of cells cost nothing.
 constexpr double kLeastGrowth = 0.05;
 
 /// What a load is measured in, so that the units favor neither part.
@@ -42,7 +43,7 @@ void DrawCost::add(const DrawLoad& load, Milliseconds time) {
     const double p = load.pixels / pixel, c = load.cells / cell; // 1, or 0 where there is nothing
     if (p == 0 && c == 0)
         return;
-    // As if it were known a little that the difference between the parts is as it was.
+    // Pulls the difference between the two parts a little towards its last estimate.
     const double pp = pixels_pixels_ / (pixel * pixel) + kScatter * c * c;
     const double pc = pixels_cells_ / (pixel * cell) - kScatter * p * c;
     const double cc = cells_cells_ / (cell * cell) + kScatter * p * p;

@@ -17,9 +17,10 @@ struct DrawLoad {
 /// `time = a * pixels + b * cells` with a, b >= 0, by recursive least squares with directional
 /// forgetting (Cao and Schwartz, A directional forgetting algorithm based on the decomposition of
 /// the information matrix, Automatica 36, 2000, doi:10.1016/S0005-1098(00)00093-5). A measurement
-/// makes older ones count for less only where it tells the same: many frames of one load leave what
-/// is known of how the time changes with the load. Where nothing is known of that, or loads differ
-/// by less than times scatter, each part takes half of what is unexpected.
+/// makes older ones count for less only where both tell the same: many frames with one load do not
+/// wipe out what is known about how the time changes with the load. Where nothing is known about
+/// this change, or loads differ by less than times scatter, an unexpected time is charged to pixels
+/// and cells in equal shares.
 class DrawCost {
   public:
     void add(const DrawLoad& load, Milliseconds time);

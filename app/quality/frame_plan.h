@@ -18,12 +18,12 @@ struct FramePlan {
     bool measure = false;        ///< draw even if nothing has changed, so that the cost gets known
     bool mesh = false;           ///< the sets asked for from now on come with a mesh
     index::DetailQuery detail{}; ///< of the sets asked for from now on
-    /// Footprint of the picture at rest that is made in parts, or shown; empty: none is.
+    /// Footprint of the picture at rest while it is made in parts, or shown; empty: there is none.
     std::optional<render::Footprint> in_parts{};
     bool shows_parts = false; ///< parts are whole everywhere, and shown
     bool holds_finer = false; ///< finer cells of the same picture come in parts alone
     bool all_at_rest = false; ///< all cells are wanted for this picture at rest
-    /// Footprint to measure where nobody sees it, in the time that frames leave; empty: none.
+    /// Footprint to measure off screen, in the time that frames leave; empty: none.
     std::optional<render::Footprint> unseen{};
     bool operator==(const FramePlan&) const = default;
 };

@@ -15,7 +15,7 @@ Milliseconds period_of(const Config& config, std::optional<double> refresh_rate)
 /// Time without motion after which a picture that still changes, as the head sways, is not expected
 /// to become still.
 constexpr interaction::Seconds kNeverStill{1};
-/// Longest time at rest in which footprints are tried before parts begin.
+/// Longest time at rest that goes into trying footprints before parts begin.
 constexpr interaction::Seconds kTrialsAtRest{0.15};
 
 } // namespace
@@ -138,7 +138,8 @@ Milliseconds FrameQuality::left_of_frame(Milliseconds taken) const {
 }
 
 Milliseconds FrameQuality::part_budget() const {
-    // Shorter parts would take longer in all, and longer ones would be felt in what comes next.
+    // Shorter parts would take longer in all; longer parts would delay the answer to the next
+    // input.
     constexpr Milliseconds kLeast{8}, kMost{50};
     return std::min(still_budget_, std::clamp(steady_.budget(), kLeast, kMost));
 }

@@ -26,8 +26,9 @@ namespace isochron::app {
 
 /// What the choice of a footprint depends on: on measured times, or (`by_pace`) only on whether the
 /// picture moves. A fixed-step replay must repeat exactly, so it ignores measurements and draws a
-/// settled picture with the configured footprint, else the best one. Live frames are measured; a
-/// picture at rest ends at that footprint, too: it is drawn in parts over several frames.
+/// settled picture with the configured footprint, or with the best one if none is configured. Live
+/// frames are measured; a picture at rest ends at the same footprint, drawn in parts over several
+/// frames.
 enum class Choosing : std::uint8_t { with_parts, by_pace };
 
 /// Frames that change have the frame budget. A picture in which nothing has moved for a while is
@@ -43,7 +44,8 @@ class FrameQuality {
     /// @param refresh_rate [Hz] of the display, if it is known
     FrameQuality(const render::Gl& gl, const Config& config, std::optional<double> refresh_rate);
 
-    /// While a headset paces the frames, its period replaces that of display and configuration.
+    /// While a headset paces the frames, its period replaces the period of display and
+    /// configuration.
     /// @param period of the headset; empty: no headset paces the frames
     void set_headset_period(std::optional<Milliseconds> period);
 
@@ -54,8 +56,8 @@ class FrameQuality {
 
     /// Load of one cell in every view of the last frame: the number of views, and their pixels.
     const DrawLoad& view() const { return view_; }
-    /// Sets the load per cell for the next choice: in a cluster that of the process which draws
-    /// most, as all draw with the same footprint.
+    /// Sets the load per cell for the next choice: in a cluster the load of the process which draws
+    /// most, as all processes draw with the same footprint.
     void charge(const DrawLoad& of_cell) { charged_ = of_cell; }
 
     /// Advances by one frame and plans how it is drawn, at its report's time and pace and with its
@@ -82,7 +84,8 @@ class FrameQuality {
     /// @param processor time to give the commands, including the upload
     void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
-    /// Time that a frame may spend on what nobody sees; 0: none. @param taken by the frame itself
+    /// Time that a frame may spend on measuring footprints off screen; 0: none.
+    /// @param taken by the frame itself
     Milliseconds left_of_frame(Milliseconds taken) const;
     /// Time that a frame may spend on parts.
     Milliseconds part_budget() const;

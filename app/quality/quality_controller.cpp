@@ -14,17 +14,18 @@ using interaction::QualityMode;
 using render::Footprint;
 
 constexpr double kMargin =
-    0.8; ///< share of the budget: most that a new footprint may be expected at
+    0.8; ///< share of the budget that a new footprint may be expected to take at most
 constexpr double kFallen = 0.7; ///< share of the failed cost: below it the load counts as fallen
 constexpr double kDearest = 8;  ///< most budgets that a failed trial counts
 constexpr double kGrown = 1.1;  ///< times the measured cost: above it the load counts as grown
 constexpr double kRoom = 0.75;  ///< share of the budget below which motion takes up a footprint
 constexpr double kLeast = 0.95; ///< share of the budget above which motion leaves it again
 
-constexpr double kBounded = 3; ///< budgets: most that a trial may take which is only due by time
+/// Most budgets that a trial may take if nothing but the time since the last trial speaks for it.
+constexpr double kBounded = 3;
 
 /// Assumed upper limits of the footprints' times, as multiples of quads, until they are measured:
-/// far above any GPU's, and close to those of software GL.
+/// far above the multiples of any GPU, and close to what software GL takes.
 constexpr std::array<double, render::kFootprints> kAtMost{1, 8, 5, 12};
 
 /// The next better footprint that is available; `footprint` itself if there is none.
@@ -102,7 +103,7 @@ void QualityController::learn(Candidate& candidate, const DrawLoad& load, Millis
     candidate.age = 0;
 }
 
-/// What a footprint that is not drawn now is expected to cost by its earlier times.
+/// The expected cost of a footprint that is not drawn now, from its earlier times.
 std::optional<Milliseconds> QualityController::before(Footprint footprint,
                                                       const DrawLoad& load) const {
     const Candidate& candidate = of(footprint);
@@ -278,7 +279,8 @@ bool QualityController::returns(Footprint footprint, const QualityInput& input) 
 /// Whether it is known if the footprint fits.
 bool QualityController::decided(Footprint footprint, const QualityInput& input) const {
     const Candidate& candidate = of(footprint);
-    // The current one may be known from another picture, and not be drawn again.
+    // The current footprint counts as decided, too, if another picture has told its cost: it may
+    // not be drawn again.
     return candidate.fits || candidate.failed ||
            (candidate.known &&
             (footprint == current_ || *candidate.cost.predict(input.load) > kMargin * budget_));
@@ -293,8 +295,8 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
     candidate.fits = false;
     candidate.failed_cost = cost;
     candidate.age = 0;
-    // After lasting for a while it may have failed by accident. A failed trial that took several
-    // budgets is followed by a longer wait.
+    // A footprint that has lasted for a while may have failed by accident. A failed trial that took
+    // several budgets is followed by a longer wait.
     const double dear =
         candidate.lasted < kShortestWait ? std::clamp(cost / budget_, 1.0, kDearest) : 1.0;
     candidate.wait = static_cast<unsigned>(
@@ -303,7 +305,7 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
 
 QualityChoice QualityController::describe(const QualityInput& input) const {
     const Candidate& now = of(current_);
-    // There is nothing coarser than quads: it is enough to know their time at some load.
+    // Nothing is coarser than quads, so it is enough to know the time of quads at any load.
     const bool measured_here = current_ == Footprint::quad
                                    ? now.cost.predict(input.load).has_value()
                                    : now.sampled == input.load;

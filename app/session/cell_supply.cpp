@@ -110,15 +110,16 @@ void CellSupply::report_cells(FrameReport& report) const {
     report.gather = shown->gather_time;
 }
 
-/// Whether the set for pictures at rest lacks its volume, and the one for moving pictures shows the
-/// same: until then the finer one would be drawn in one frame, as a moving picture is.
+/// Whether the volume of the resting set is still on its way to the GPU while the moving set shows
+/// the same surfaces. Without its volume the resting set would be drawn in one frame, as moving
+/// pictures are.
 bool CellSupply::is_half_sent(const Frame& frame) const {
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     return !frame.is_kept && shows(moving, frame) && !sets_.is_complete(CellSets::Use::at_rest);
 }
 
-/// Whether a set takes so much longer to draw than the one at rest that is still being drawn in
-/// parts that this one is to be seen first.
+/// Whether the new set is slow to draw compared with the resting picture in progress, so that the
+/// resting picture should be finished first.
 bool CellSupply::waits_its_turn(const index::ExtractionPtr& set, const Frame& frame) const {
     constexpr std::size_t kManyMore = 8;
     const index::ExtractionPtr& resting = sets_.held(CellSets::Use::at_rest);
@@ -128,8 +129,8 @@ bool CellSupply::waits_its_turn(const index::ExtractionPtr& set, const Frame& fr
            set->cells() > kManyMore * resting->cells();
 }
 
-/// Whether a set for moving pictures, asked for before the picture came to rest, has fewer cells than
-/// the one that is there: a picture at rest only gets better.
+/// Whether a moving set that was asked for before the picture came to rest has fewer cells than the
+/// moving set on the GPU: a picture at rest only gets better.
 bool CellSupply::comes_too_late(const index::ExtractionPtr& set, const Frame& frame) const {
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     return frame.is_live() && rests_ && set && moving && !set->query.detail.at_rest &&
@@ -144,8 +145,8 @@ bool CellSupply::set_comes() const {
     return newest && newest != refused_ && newest != sets_.held(use_of(newest));
 }
 
-/// Asks for fewer cells from now on, as these could not be shown. @return false if there is nothing
-/// coarser
+/// Asks for fewer cells from now on, as the cells of this set could not be shown.
+/// @return false if there is nothing coarser
 bool CellSupply::give_way(const index::ExtractionPtr& set, FramePlan& plan) {
     const std::uint64_t before = details_.most();
     details_.limit(std::min<std::uint64_t>(set->cells(), before) / 2);
@@ -238,8 +239,9 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
                           std::max(moving.most_cells, held->query.detail.most_cells));
 }
 
-/// First as many cells as quads would show in the pause that a picture at rest may take, in steps,
-/// so that it gets better soon; then, where parts draw them, all, which are looked for meanwhile.
+/// The first resting set has as many cells as quads can draw in the pause that a picture at rest
+/// may take; its size grows in steps, so that the picture soon gets better. The last resting set,
+/// where it can be drawn in parts, has all cells: they are searched for meanwhile.
 /// @param moving cells of moving pictures
 index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQuality& quality,
                                               std::uint64_t moving) {
@@ -252,7 +254,7 @@ index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQua
     const std::uint64_t drawn =
         (seen ? resting : sets_.held(CellSets::Use::always))->query.detail.most_cells;
     const auto fit = quality.cells_that_fit(interaction::Pace::settled);
-    // A time that was measured late, or while others worked, takes back nothing of this picture.
+    // A draw time that was measured late, or beside other work, must not make this picture coarser.
     const double most = std::min(fit.value_or(0), static_cast<double>(kFarthest * drawn));
     cells_at_first_ = std::max(cells_at_first_,
                                std::bit_floor(std::max(moving, static_cast<std::uint64_t>(most))));
@@ -282,7 +284,7 @@ index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQua
     return stays ? resting->query.detail : first;
 }
 
-/// Whether a set for pictures at rest has so many cells that another one is to be shown before it.
+/// Whether a set for pictures at rest has so many cells that a smaller set is to be shown first.
 bool CellSupply::comes_late(const index::ExtractionPtr& set) const {
     const std::uint64_t many = 2 * cells_at_first_;
     return set && set->query.detail.most_cells > many && set->cells() > many;

@@ -43,18 +43,18 @@ class CellSupply {
 
     /// The set for pictures at rest takes longer to draw than a frame may. So it is drawn once
     /// nothing has changed for a while: a head that sways is shown the set for motion.
-    /// @param now picture of this frame @return whether the other set is shown in it from now on
+    /// @param now picture of this frame @return whether it shows another set than the last picture
     bool choose_set(const Frame& frame, const Picture& now);
     /// Whether the set for pictures at rest may be drawn in this frame.
     bool rests() const { return rests_; }
-    /// Whether no finer cells than those that are drawn will come for this picture.
+    /// Whether no cells finer than the drawn ones will come for this picture.
     bool is_finest(const Frame& frame) const;
     /// Whether a set that was asked for is not on the GPU yet.
     bool set_comes() const;
 
     /// The detail of the sets that are asked for next.
     index::DetailQuery wanted_detail(const Frame& frame, const FrameQuality& quality);
-    /// The views of the last pictures, where the volume's regions are seen in.
+    /// Views of the last pictures: they tell how large each region of the volume is seen.
     void forget_views() { views_.clear(); }
     void note_views(std::span<const render::View> views) {
         views_.insert(views_.end(), views.begin(), views.end());

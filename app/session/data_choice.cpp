@@ -1,4 +1,4 @@
-// A window with nothing but the choice of data, or the progress of those that are indexed.
+// A window with nothing but the choice of data, or the progress of indexing them.
 #include "app/session/data_choice.h"
 
 #include "app/config/series_names.h"

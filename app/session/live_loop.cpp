@@ -188,8 +188,8 @@ bool LiveLoop::may_wait(const FrameSharing& frames, const stereo::Headset* heads
 }
 
 /// The windows' events since the last frame. The first frame after a wait gets none: it ends the
-/// time in which nothing happened, so that what is new begins a moment before the frame that gets
-/// it, and not when the wait began.
+/// time without events, so that a new event begins a moment before the frame that gets it, and not
+/// when the wait began.
 std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows& windows) {
     acted_ = false;
     if (waited_)
@@ -202,7 +202,7 @@ std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows
     return events;
 }
 
-/// What the devices, and work that goes on beside the frames, tell about the next frame.
+/// What the devices, and the work in the background, tell about the next frame.
 FrameOutlook LiveLoop::outlook(const InputState& input) const {
     constexpr Seconds kLookForWords{0.1}; // of another process or of a thread that ends
     constexpr Seconds kLookForProgress{0.25};

@@ -44,7 +44,7 @@ struct LiveOptions {
     /// and the loop ends. A null function: the user cannot open other data.
     /// Called on a thread of its own.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
-    /// Returns a note that the picture shows as long as it is returned. Each frame; may be null.
+    /// Called in each frame: the picture shows the note that it returns. May be null.
     std::function<std::string()> standing = {};
     /// Returns the session time, for tests; null: the time since the loop was constructed.
     std::function<interaction::Seconds()> clock = {};

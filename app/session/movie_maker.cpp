@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 using interaction::Seconds;
 
-/// The first name of which nothing is there yet. @return without its suffix
+/// The first name that no file has yet. @return without its suffix
 fs::path free_movie_name(const fs::path& folder) {
     for (int number = 1;; ++number) {
         fs::path stem = folder / fmt::format("isochron_movie_{:04}", number);

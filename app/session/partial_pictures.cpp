@@ -46,7 +46,7 @@ void PartialPictures::draw_pieces(Parts& parts) {
     }
 }
 
-/// Draws the next of: what comes before the cells of a viewport, some of the cells, what comes
+/// Draws the next part of a viewport: what comes before the cells, some of the cells, or what comes
 /// after them. @param done work that was done, of at most `work` @return whether it was the last
 bool PartialPictures::draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
                                 std::size_t& done) {

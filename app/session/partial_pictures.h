@@ -1,5 +1,5 @@
-// Pictures that are drawn over several frames beside the one that is shown: the exact one at rest,
-// and those that only tell what a footprint would cost.
+// Pictures that are drawn over several frames beside the one that is shown: the exact picture at
+// rest, and pictures that only tell what a footprint would cost.
 #pragma once
 
 #include "app/frame/stop_watch.h"
@@ -32,9 +32,9 @@ class PartialPictures {
     /// Gives up the picture at rest: another one is drawn.
     void give_up() { parts_.reset(); }
 
-    /// A footprint that might serve moving pictures is drawn where nobody sees it, to find out its
-    /// time: in the time that frames leave, each piece for the views of its own frame. Where light
-    /// shines through, every view needs an order of its own: then it is not done.
+    /// Draws a footprint that might serve moving pictures off screen, to find out its time: in the
+    /// time that frames leave, and each piece for the views of the frame that it is drawn in. Not
+    /// for translucent surfaces, whose cells are sorted anew for every view.
     /// @param begun with the frame, which is on show now
     void measure_unseen(const Frame& frame, const Picture& now, const StopWatch& begun);
 

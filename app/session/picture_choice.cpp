@@ -47,8 +47,8 @@ FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
 
 /// Takes over rank 0's plan.
 void PictureChoice::agree(const Frame& frame, FramePlan plan) {
-    // More cells than a frame can draw come in parts alone, which may begin some frames later; also
-    // far more than those that were drawn, of which the time is not known well.
+    // More cells than a frame can draw come in parts alone, which may begin some frames later. So
+    // do far more cells than the last frame drew: their time is not known well.
     constexpr std::size_t kFarMore = 4;
     FrameReport& report = frame.report;
     const bool near = !frame.drawn || !frame.drawn->cells ||

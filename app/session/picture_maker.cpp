@@ -55,7 +55,8 @@ bool PictureMaker::on_desktop(const Audience& audience) const {
            !outputs_.room() && screens.front().screen.fit_aspect;
 }
 
-/// Where mouse and keyboard play the wand, it points while the cursor does.
+/// Where mouse and keyboard play the wand, the wand points only while the cursor is over the
+/// window.
 Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerState& state) const {
     const bool touched = panel_.in_room().touched();
     const bool points = !panel_.head_is_emulated() || touched || input.find("pointer") != nullptr;
@@ -65,7 +66,7 @@ Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerStat
             picker_.pointed(input, !touched, state, sets_.shown())};
 }
 
-/// At a desktop only the cursor moves for long: the picture below it stays as it is.
+/// At a desktop often nothing but the cursor moves: the picture below the cursor stays as it is.
 bool PictureMaker::aids_lie_over(const ExplorerState& state) const {
     const bool one_picture_each =
         !stereo::Multiplex::shows(state.stereo_mode()) &&

@@ -1,4 +1,5 @@
-// Replays a recording: obeys its commands; can report where its devices would now give others.
+// Replays a recording: obeys its commands; can report frames whose devices would now give other
+// commands.
 #pragma once
 
 #include "app/session/pattern_show.h"

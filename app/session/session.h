@@ -45,7 +45,7 @@ class Session {
     /// @param windows of the configured installation, or a context for its only window that
     /// outlives the session; the drawing context is current on this thread
     /// @param extract replaces the extraction from `file`, for tests; empty: the real one
-    /// @param headset to draw for instead of the installation's windows, the first of which mirrors
+    /// @param headset to draw for instead of the installation's windows; the first window mirrors
     /// it; null: none
     /// @throws render::Error as Outputs, or when a shader does not compile
     Session(Config config, std::shared_ptr<const index::IndexFile> file, stereo::Windows windows,
@@ -88,9 +88,9 @@ class Session {
     /// Size of the panel in the room, for the emulation of a wand.
     interaction::PanelSize room_panel_size() const { return panel_.in_room().size(); }
 
-    /// Commands that a replay could not compute from the devices: those of the operator's panel
-    /// during the last frame, and what `commands_from` found in the shown picture. Take them once,
-    /// before the next frame.
+    /// Commands that a replay could not compute from the devices: the commands that the operator's
+    /// panel gave during the last frame, and what `commands_from` found in the shown picture. Take
+    /// them once, before the next frame.
     interaction::Commands take_panel_commands();
 
     OperatorPanel& panel() { return panel_.over(); }
@@ -101,8 +101,8 @@ class Session {
         return panel_.feed(events, state_);
     }
 
-    /// Draws once what nobody sees, before the first frame: drivers compile what they draw with
-    /// when it is first used, which takes longer than a frame may.
+    /// Draws everything once off screen, before the first frame: drivers compile shaders when these
+    /// are first used, and that takes longer than a frame may.
     void warm_up();
     /// Makes one frame, from commands to the presented picture.
     /// @param latch returns where the heads are when the views are made; empty: as in `input`
@@ -122,8 +122,8 @@ class Session {
     void set_wake(const std::function<void()>& wake);
     /// What the last frame tells about the next one.
     FrameOutlook outlook() const;
-    /// Tells that nothing was to be done since the last frame, so that the time until the next one
-    /// says nothing about either.
+    /// Tells that the loop has waited for something to do since the last frame, so that the time
+    /// between the two frames says nothing about how long frames take.
     void has_waited() { waited_ = true; }
 
     /// Shows the last of these messages on the panel until there is a newer one.

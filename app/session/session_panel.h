@@ -75,11 +75,11 @@ class SessionPanel {
     int covered(const ExplorerState& state) const;
     /// Whether mouse and keyboard play the head, before a screen that it carries along.
     bool head_is_emulated() const;
-    /// Where the panel in the room stands beside such a screen, in the head's frame: as far away as
-    /// it has to be for the share of the window that it gets.
+    /// Where the panel in the room stands beside such a screen, in the head's frame: so far away
+    /// that it fills its share of the window.
     std::optional<interaction::Pose> place() const;
-    /// Whether the panel in the room is where such a window has room for it. Who turns away from it
-    /// has the window to themselves.
+    /// Whether the panel in the room stands where such a window has room for it. A user who turns
+    /// away from the panel has the whole window for the data.
     bool stands_beside(const interaction::Pose& head, const ExplorerState& state) const;
 
   private:

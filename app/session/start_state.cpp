@@ -24,8 +24,8 @@ index::IndexStats stats_of(const IndexFile& array, std::uint32_t step, std::size
     return stats;
 }
 
-/// The same at the coarsest level of detail at which the step is not constant; nothing if there is
-/// none that is small enough.
+/// The same at the coarsest level of detail where the step is not constant; nothing if no such
+/// level is small enough.
 std::optional<index::IndexStats> stats_of(const IndexFile& array, std::uint32_t step) {
     constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 24;
     for (std::size_t level = array.detail_levels(); level-- > 0;) {

@@ -19,7 +19,7 @@ struct PictureOverlay {
 class WindowContents {
   public:
     void begin_frame() { composed_ = true; }
-    /// The eyes' pictures are those of the last frame. @param overlay of this frame
+    /// The eyes' pictures are the same as in the last frame. @param overlay of this frame
     /// @return whether the windows show all of it, so that nothing is composed
     bool stay(const PictureOverlay& overlay) { return !(composed_ = overlay != shown_); }
     /// @param overlay of this frame @param drawn the eyes' pictures are new

@@ -32,8 +32,8 @@ std::uint64_t taken_memory() {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Free memory [bytes] at the first call; read only once, as that takes as long as opening a small
-/// file.
+/// Free memory [bytes] at the first call; read only once, as reading it takes as long as opening a
+/// small file.
 std::uint64_t free_memory() {
     static std::uint64_t found = 0;
     if (found > 0)

@@ -7,7 +7,7 @@
 
 namespace isochron::index {
 
-/// Limits the memory and time of this process by the size of the file on which it works. Beyond the
+/// Limits the memory and time of this process by the size of the file that it reads. Beyond the
 /// limit of memory allocations fail; beyond the limit of time the process is ended with SIGXCPU.
 class ReaderBudget {
   public:

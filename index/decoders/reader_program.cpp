@@ -48,7 +48,8 @@ void go_first() {
 }
 
 /// Answers that nothing is read without the fence, and waits until the program has closed the
-/// socket: were this process to end before the program asks, the program would see only that.
+/// socket: if this process ended before the program asks, the program would see only an ended
+/// reader.
 void refuse(MessageSocket& socket) {
     if (!socket.send(
             encoded(ReaderReply(Refused{"its reader cannot be fenced in: the system refuses "

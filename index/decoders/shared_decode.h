@@ -31,7 +31,7 @@ class SharedDecode {
     }
 
   private:
-    /// What it was made of and how; which array the options choose does not matter.
+    /// What the decoded thing was made of, and how; which array the options choose does not matter.
     struct Made {
         std::filesystem::path path;
         FileState state;

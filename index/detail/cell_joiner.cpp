@@ -21,8 +21,8 @@ constexpr std::uint64_t kPlace = (1u << kBitsOfPlace) - 1;
 constexpr std::uint64_t kHalved = (kPlace >> 1) * (1 | (std::uint64_t{1} << kBitsOfPlace) |
                                                    (std::uint64_t{1} << 2 * kBitsOfPlace));
 
-/// The cell of a level in which a smaller one lies: its doubled center lies within that cell's doubled
-/// ends.
+/// The cell of a level around a smaller one: the doubled center of the smaller cell lies within the
+/// doubled ends of the larger.
 std::uint64_t parent_of(const CellPoint& point, unsigned level) {
     std::uint64_t cell = 0;
     for (const std::uint32_t at : {point.z, point.y, point.x})
@@ -45,13 +45,13 @@ void sort_cells(std::vector<std::uint64_t>& cells, const std::stop_token& stop) 
     cells.erase(std::ranges::unique(cells).begin(), cells.end());
 }
 
-/// Calls back for each point that is smaller than the cells of a level, with its number and that of
-/// its parent among all.
+/// Calls back for each point that is smaller than the cells of a level, with the point's number and
+/// its parent's number among all parents.
 template <class Callback>
 void for_each_small(const std::vector<CellPoint>& points, unsigned level,
                     const std::vector<std::uint64_t>& parents, const std::stop_token& stop,
                     Callback&& small) {
-    auto at = parents.begin(); // those of cells beside each other are the same or near
+    auto at = parents.begin(); // cells beside each other have the same parent, or near ones
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (i % kCellsAtATime == 0)
             stop_if_asked(stop);

@@ -21,14 +21,15 @@ struct JoinedCells {
     std::vector<std::uint16_t> colors;
 };
 
-/// All cells that are smaller than those of its level and lie in the same cell of that level are
-/// replaced by that cell. Its plane has the direction of the sum of their normals, and no offset. If
-/// this sum is shorter than half their number, they surround something: then the cell gets no plane
-/// and is drawn as a ball. Its color is that of the middle one of them.
+/// Joins small cells: all that lie in the same cell of the joiner's level and are smaller than it
+/// are replaced by that large cell. The large cell's plane has the direction of the sum of the
+/// small cells' normals, and no offset. If this sum is shorter than half the number of small cells,
+/// they surround something: then the large cell gets no plane and is drawn as a ball. Its color is
+/// the color of the middle one of the small cells.
 /// It is fastest with cells in order of z. Functions throw Stopped when asked to stop.
 class CellJoiner {
   public:
-    /// Begins at level 0, at which no cell is small. @param cells with a color each
+    /// Begins at level 0, where no cell is small. @param cells with a color each
     CellJoiner(JoinedCells cells, std::stop_token stop);
 
     unsigned level() const { return level_; }

@@ -22,7 +22,7 @@ class DetailRegions {
     explicit DetailRegions(const Grid& grid);
 
     std::uint32_t edge() const { return edge_; } ///< [cells of level 0]
-    /// The coarsest level of which a cell fits into a region.
+    /// The coarsest level whose cells fit into a region.
     unsigned coarsest() const { return static_cast<unsigned>(std::countr_zero(edge_)); }
     const std::array<std::uint32_t, 3>& counts() const { return counts_; } ///< along x, y and z
     std::size_t size() const { return std::size_t{counts_[0]} * counts_[1] * counts_[2]; }
@@ -48,12 +48,12 @@ class DetailRegions {
     std::vector<std::uint32_t> from_the_middle() const;
 
     /// Whether a cell of a level is drawn: if its region has this level; or if its region is finer,
-    /// but one beside the cell has this level. So the cells of a region reach one cell into the
-    /// finer regions around it, and no gap shows between the two surfaces.
+    /// but a region beside the cell has this level. So the cells of a region reach one cell into
+    /// the finer regions around it, and no gap shows between the two surfaces.
     bool draws(std::span<const std::uint8_t> levels, unsigned level,
                const std::array<std::uint32_t, 3>& cell) const;
 
-    /// The chunks of a level, layer by layer, that hold cells which it draws.
+    /// The chunks of a level, layer by layer, that hold drawn cells of this level.
     std::vector<bool> chunks_of(std::span<const std::uint8_t> levels, unsigned level,
                                 const ChunkGrid& chunks) const;
 

@@ -23,9 +23,9 @@ constexpr double kFiner = 1 << kBitsFiner;
 constexpr double kLeastOfChunk = 64;
 /// How many more cells than asked for are better than another search.
 constexpr double kTolerated = 1.5;
-/// Cells of the largest grid of which it is kept when they were first active: two bytes each.
+/// Most cells of a grid for which the first activity of each cell is kept, in two bytes a cell.
 constexpr std::uint64_t kMostCrossings = std::uint64_t{1} << 28;
-/// Part of the cells asked for that those may be which levels have lost.
+/// At most one in so many of the cells asked for may be cells that levels have lost.
 constexpr std::uint64_t kPartOfLost = 4;
 
 bool all_at(std::span<const std::uint8_t> levels, unsigned level) {

@@ -20,7 +20,7 @@ constexpr std::uint32_t low_vertex(std::uint32_t doubled) {
     return (doubled - (1u << level_of_center(doubled))) / 2;
 }
 
-/// The cells of a level that hold drawn ones: a bit for each, rows begin with a new word.
+/// Which cells of a level hold drawn cells: a bit for each, rows begin with a new word.
 class HoldsDrawn {
   public:
     HoldsDrawn(const Grid& volume, unsigned level) : level_(level) {
@@ -51,7 +51,7 @@ class HoldsDrawn {
                1;
     }
 
-    /// Which of the cells that hold some of the volume's cells hold drawn ones.
+    /// How many of the level's cells around a box of the volume's cells hold drawn cells.
     enum class Share : std::uint8_t { none, some, all };
     /// @param low, high the first and the last of the volume's cells
     Share share(const Place& low, const Place& high) const {
@@ -165,7 +165,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
     }
     cells_found.ids.resize(kept);
     cells_found.points.resize(kept);
-    cells_found.rows.clear(); // they are those of all
+    cells_found.rows.clear(); // they count the removed cells, too
     return true;
 }
 

@@ -18,9 +18,9 @@ namespace isochron::index {
 /// and the cell of that coarser level around it holds no part of any drawn cell.
 class LostCells {
   public:
-    /// Chunks that are read at most. If more chunks may hold lost cells, only those are read in
-    /// which nothing at all is drawn; and if these are still too many, each of them counts as one
-    /// lost cell as large as the chunk.
+    /// Chunks that are read at most. If more chunks may hold lost cells, only the chunks without
+    /// any drawn cell are read; and if these are still too many, each of them counts as one lost
+    /// cell as large as the chunk.
     static constexpr std::size_t kMostChunks = std::size_t{1} << 14;
 
     /// @param finest level that the index has chunks of
@@ -32,7 +32,7 @@ class LostCells {
 
     struct Found {
         CellSet cells; ///< ids and points of the finest level's grid, ascending
-        /// Unread chunks as cells: the points' places are those of mixed levels.
+        /// Unread chunks as cells: points at places of mixed levels.
         std::vector<CellPoint> chunks;
     };
     /// @param drawn the cells of the query's surface in a picture, at places of mixed levels

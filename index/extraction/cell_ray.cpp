@@ -235,7 +235,7 @@ std::optional<EvenRay> in_even(const Grid& grid, const Ray& ray) {
     return result;
 }
 
-/// How far a cell's plane counts beyond the cell, in its sides: as far as quads overlap.
+/// How far a cell's plane reaches beyond the cell, in cell sides: as far as drawn quads overlap.
 constexpr double kBeyond = 0.3;
 
 /// Hits the planes of cells of mixed levels.
@@ -245,8 +245,8 @@ class PlaneRay {
         : grid_(grid), ray_(ray), even_(!grid.rectilinear()),
           even_from_normal_(glm::transpose(glm::dmat3(grid.physical_from_index()))) {}
 
-    /// Where the ray hits the plane of a cell, or passes the middle of one without a plane; along
-    /// the ray.
+    /// How far along the ray it hits the plane of a cell, or passes the middle of a cell that has
+    /// no plane.
     std::optional<double> hit(const CellPoint& point) const {
         glm::dvec3 low, high;
         const std::array<std::uint32_t, 3> doubled{point.x, point.y, point.z};

@@ -55,7 +55,7 @@ class Extracting {
         return query.detail.most_cells > 0 && cells > query.detail.most_cells;
     }
 
-    /// @return null when stopped; empty if all cells should be those of the volume itself
+    /// @return null when stopped; empty if all cells should be the volume's own
     std::optional<ExtractionPtr> make_of_levels(const std::shared_ptr<Extraction>& result,
                                                 const std::stop_token& stop) {
         DetailCells found;

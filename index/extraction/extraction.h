@@ -26,9 +26,9 @@ struct Extraction {
     std::vector<std::uint16_t> colors;
     VolumeBlocks blocks;           ///< of the step, for all surfaces
     SurroundingField surroundings; ///< of all surfaces; none where there are no cells
-    /// The level of each region's cells (detail_regions.h). Empty: all cells are those of the
-    /// volume itself. Else cells come as points only, as detail_regions.h has them, and without the
-    /// volume around them.
+    /// The level of each region's cells (detail_regions.h). Empty: all cells are the volume's own.
+    /// Else cells come as points only, as detail_regions.h has them, and without the volume around
+    /// them.
     std::vector<std::uint8_t> detail;
     unsigned coarsest = 0; ///< level of its largest cells, which may be larger than their region's
     /// Number of active cells of the volume itself; empty while it is not known.

@@ -121,7 +121,7 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
         running.reset();
         const bool stopped = job.stop.stop_requested();
         const bool is_answer = answers(job.query, wanted->query) && !answered;
-        // What was asked for before something that was at hand comes too late.
+        // The result of an older request comes too late once the newest request is answered.
         const bool shows = is_answer || (!job.prefetch && !answered);
         if (job.times_forgotten != times_forgotten) {
             // Started before `forget`: its result is not wanted.
@@ -140,7 +140,7 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
             if (is_answer)
                 answered = true;
         }
-        // No second try for a step that failed, and none after a single step is there.
+        // Prefetching ends after a step that failed, and once the only step asked for is there.
         if (job.prefetch && !stopped && wanted->ahead)
             prefetch_done = outcome.extraction
                                 ? wanted->ahead->steps == 0 && wanted->ahead->next == job.query.step

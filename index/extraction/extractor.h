@@ -50,7 +50,7 @@ class Extractor {
     /// The newest finished extraction; null before the first.
     ExtractionPtr newest() const;
 
-    /// Steps of which extractions for the newest request's surfaces are kept, ascending.
+    /// Steps whose extractions for the newest request's surfaces are kept, ascending.
     std::vector<std::uint32_t> at_hand() const;
 
     /// The message of the last failure; none once a later query has succeeded.

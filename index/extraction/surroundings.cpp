@@ -18,7 +18,7 @@ namespace {
 
 using Size = std::array<std::uint32_t, 3>;
 
-/// A sum is that of a place and its two neighbors on either side along an axis.
+/// A sum takes in a place and its two neighbors on either side along an axis.
 constexpr std::uint32_t kHalf = kSurroundingsReach / 2;
 constexpr std::uint32_t kWidth = 2 * kHalf + 1;
 
@@ -56,7 +56,8 @@ class Blur {
     }
 
   private:
-    /// The k-th of the five about the i-th of `count`; those beyond the ends are like the last ones.
+    /// The k-th of the five places around place i, of `count` in a row; a place beyond an end
+    /// counts as the place at the end.
     static std::uint32_t neighbor(std::uint32_t i, std::uint32_t k, std::uint32_t count) {
         return std::min(std::max(i + k, kHalf) - kHalf, count - 1);
     }
@@ -109,7 +110,7 @@ class Blur {
     std::size_t plane_;
     std::vector<std::uint8_t> along_z_; ///< five planes, each summed once along z
     std::vector<std::uint8_t> bytes_;   ///< a plane summed twice along z, and once along y
-    std::size_t row_;                   ///< places of a row, with those beyond its ends
+    std::size_t row_;                   ///< places of a row, with the places beyond its ends
     std::vector<std::uint16_t> words_;  ///< a plane summed twice along y, too, in such rows
     std::vector<std::uint16_t> words_again_;
 };

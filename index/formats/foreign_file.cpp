@@ -91,7 +91,7 @@ class ForeignFile final : public VolumeFile {
             throw Error(fmt::format("{}: has changed since it was opened", name_));
     }
 
-    /// What to do before the next piece is there, of which the size is known.
+    /// What to do before the next piece is there; only the size of that piece is known.
     using Meanwhile = std::function<void(std::size_t bytes)>;
 
     void take_step(std::size_t step, const TakePiece& take, const Meanwhile& meanwhile) {

@@ -58,12 +58,13 @@ struct Format {
     /// Whether the reader's library decodes all arrays of a file together.
     bool decodes_all_arrays = false;
 
-    /// How several files are put together whose numbers or contents say what each holds; null: each
-    /// has steps of its own. @throws Error naming a file that does not fit
+    /// How several files are put together, where their numbers or contents say which part each file
+    /// holds; null: each file has steps of its own. @throws Error naming a file that does not fit
     std::vector<SeriesFile> (*join)(const Format& format,
                                     const std::vector<std::filesystem::path>& files,
                                     const ReadOptions& options) = nullptr;
-    /// What a file names that is a list of files; null: it holds values. @throws Error naming it
+    /// Reads a file that is a list of files; null: files of this format hold values.
+    /// @throws Error naming the list
     ListedFiles (*list)(const std::filesystem::path& path) = nullptr;
     /// Whether files of the same time in a list are parts of one volume.
     bool lists_parts = false;

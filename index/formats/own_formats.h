@@ -22,7 +22,7 @@ std::unique_ptr<VolumeFile> open_bov(const std::filesystem::path& path, const Re
 std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
                                       const ReadOptions& options);
 
-/// NIfTI-1 and -2, and Analyze 7.5: .nii, .nii.gz, .hdr with .img, either of which names the pair.
+/// NIfTI-1 and -2, and Analyze 7.5: .nii, .nii.gz, .hdr with .img; either file names the pair.
 /// The fourth axis is time. Space is RAS.
 std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
                                        const ReadOptions& options);

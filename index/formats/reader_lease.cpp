@@ -59,7 +59,7 @@ ReaderLease::ReaderLease(ReaderPool& pool, std::string program, std::filesystem:
 
 ReaderLease::~ReaderLease() {
     if (lent_->in_use.exchange(true))
-        return; // by another file, with which it is closed
+        return; // another file uses the reader, and closes it in the end
     lent_->close(number_);
     lent_->in_use = false;
 }

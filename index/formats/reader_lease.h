@@ -42,20 +42,20 @@ class LentReader {
 /// A file's right to a reader. Any failure of the reader becomes an Error that names the file.
 class ReaderLease {
   public:
-    /// @param shared with the leases of the same file that this thread has taken before: for
-    ///   libraries that decode all arrays together, which can do it once for all of them
+    /// @param shared whether the reader is shared with the leases of the same file that this thread
+    ///   has taken before: for libraries that decode all arrays of a file in one go
     ReaderLease(ReaderPool& pool, std::string program, std::filesystem::path path, bool shared);
     ~ReaderLease();
     ReaderLease(const ReaderLease&) = delete;
     ReaderLease& operator=(const ReaderLease&) = delete;
 
     ReaderProcess& reader() { return *lent_->reader; }
-    /// The number by which the reader knows the file.
+    /// The reader's number for the file.
     std::uint64_t number() const { return number_; }
 
     /// Does work with the reader; `prepare` opens the file in a reader that does not have it open.
-    /// If a reader that has had other files ends, one of those may be the cause: then a new reader
-    /// tries again. If another lease is using the reader, this one gets its own.
+    /// If a reader that has had other files ends, one of the other files may be the cause: then a
+    /// new reader tries again. If another lease is using the reader, this lease gets its own.
     template <class Prepare, class Work>
     void work(const Prepare& prepare, const Work& work) {
         bool again = false;

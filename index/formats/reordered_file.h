@@ -11,8 +11,8 @@ std::unique_ptr<VolumeFile> open_interleaved_steps(const std::filesystem::path& 
                                                    SeriesInfo info, const StoredLayout& layout,
                                                    const ReadOptions& options);
 
-/// Stacked components: all steps of the first component, then those of the next. @param layout with
-/// the number of components, and of steps of each
+/// Stacked components: all steps of the first component, then all steps of the next.
+/// @param layout with the number of components, and of steps of each
 /// @throws Error as `choose_scalar` when `options` do not say which component is wanted
 std::unique_ptr<VolumeFile> open_stacked_components(const std::filesystem::path& header,
                                                     SeriesInfo info, const StoredLayout& layout,

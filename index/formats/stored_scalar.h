@@ -46,7 +46,7 @@ struct StoredArray {
     std::optional<StoredType> type; ///< none: a type that no volume can have (strings, bits, ...)
     std::uint32_t components = 1;
     bool on_cells = false;    ///< one tuple per cell rather than per vertex
-    bool gaps = false;        ///< values may be missing, for which there is only NaN
+    bool gaps = false;        ///< values may be missing; only NaN can stand for these
     std::string shape = {};   ///< where a list of arrays has it: `64 x 64 x 32`
     bool maybe_steps = false; ///< the axis of components can be read as time instead
 };

@@ -20,8 +20,8 @@ struct CellPlane {
 
     /// A little more than the distance of the cell's corners.
     static constexpr double kFarthest = 0.87;
-    /// Least squared cosine between the cell's own slope and the normal for which there is an
-    /// offset.
+    /// Where the squared cosine between the cell's own slope and the normal is less than this, the
+    /// plane gets no offset.
     static constexpr double kLeastCosine2 = 1e-6;
 };
 

@@ -9,12 +9,13 @@
 
 namespace isochron::index {
 
-/// A level has the means of the level before, and a cell's plane lies by the mean of its eight
-/// values. Both make a ball smaller and a hollow shallower, by what the surface bends: in voxels,
-/// by a sixth of its bend (a twenty-fourth for the level's means, an eighth for the cell's), the
-/// sum of its two curvatures. Seen from outside, every outline bends away from the eye, so that
-/// without this the picture of a coarse level is too small. The bend is what the normals of a cell
-/// and of those beside it in the same chunk differ by.
+/// Moves planes outwards where the surface bends. A level holds means of the level before, and a
+/// cell's plane lies by the mean of its eight values: both make a ball smaller and a hollow
+/// shallower. In voxels, a plane is off by a sixth of the bend, which is the sum of the surface's
+/// two curvatures (a twenty-fourth for the level's means, an eighth for the cell's mean). Seen from
+/// outside, every outline bends away from the eye, so that without this the picture of a coarse
+/// level is too small. The bend is measured by the difference between a cell's normal and the
+/// normals of the cells beside it in the same chunk.
 /// @param points of a level's own grid, ascending; cells without a normal stay as they are
 /// @param spacing of the level's grid
 void move_planes_out(std::span<CellPoint> points, const glm::dvec3& spacing);

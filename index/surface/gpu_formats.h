@@ -1,4 +1,4 @@
-// The packed formats in which a GPU gets cells and vertices of meshes.
+// The packed formats of cells and mesh vertices on their way to a GPU.
 #pragma once
 
 #include <cstdint>

@@ -20,10 +20,10 @@ struct MeshCase {
 };
 
 /// All cases, by the bits of the vertices on the upper side: bit 4 z + 2 y + x. The polygons are
-/// those of marching cubes (Lorensen and Cline, 1987, doi:10.1145/37402.37422) as in VTK: on a face
-/// with four cut edges, each of the two upper vertices is cut off separately. Sides of triangles
-/// lie in a face of the cell only if they are sides of the polygon, so neighboring cells fit
-/// together.
+/// the ones of marching cubes (Lorensen and Cline, 1987, doi:10.1145/37402.37422) as in VTK: on a
+/// face with four cut edges, each of the two upper vertices is cut off separately. Sides of
+/// triangles lie in a face of the cell only if they are sides of the polygon, so neighboring cells
+/// fit together.
 const std::array<MeshCase, 256>& mesh_cases();
 
 } // namespace isochron::index

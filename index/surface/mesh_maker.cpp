@@ -51,7 +51,7 @@ void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
         if (walk.to(id))
             of_row = volume + walk.z() * slice + walk.y() * row;
         const T* const v = of_row + walk.x();
-        // The slice behind the cell is first read for normals, soon: it is fetched meanwhile.
+        // Normals will soon read the slice behind the cell for the first time: fetch it meanwhile.
         __builtin_prefetch(reinterpret_cast<const char*>(v) + ahead);
         __builtin_prefetch(reinterpret_cast<const char*>(v) + ahead + row * sizeof(T));
         const auto pair = [least](const T* at) {

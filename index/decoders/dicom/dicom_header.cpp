@@ -26,7 +26,7 @@ glm::dvec3 vec3_at(const std::vector<double>& numbers, std::size_t first) {
     return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
-/// Looks in the data set of a frame, then in that which all frames share, then at the root.
+/// Looks in the data set of a frame, then in the data set that all frames share, then at the root.
 class FrameTags {
   public:
     FrameTags(const DicomTags& root, std::uint32_t frame)

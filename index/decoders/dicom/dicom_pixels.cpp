@@ -19,7 +19,7 @@ std::size_t frame_bytes(const DicomFile& file) {
     return std::size_t{file.columns} * file.rows * file.samples * size_of(file.type);
 }
 
-/// Takes the value's bits out of those that are stored, with its sign.
+/// Leaves only the value of each stored number, with its sign: other bits may stand around it.
 template <class T>
 void keep_value(T* values, std::size_t count, const DicomFile& file) {
     constexpr unsigned kBits = 8 * sizeof(T);

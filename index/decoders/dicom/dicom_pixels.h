@@ -16,7 +16,7 @@ class DicomPixels {
     /// Whether a frame can be read without the others.
     static bool by_frame(const DicomFile& file) { return file.pixels_at != 0; }
 
-    /// One sample of every pixel of a frame, without the bits that are none of its value.
+    /// One sample of every pixel of a frame; stored bits that do not belong to the value are gone.
     /// @param out columns * rows values of the file's type, native byte order
     /// @throws Error naming the file: damaged, or other pixels than its header has
     void read(const std::filesystem::path& path, const DicomFile& file, std::uint32_t frame,

@@ -128,7 +128,7 @@ void Hdf5Values::read(std::span<const std::uint64_t> start, std::span<const std:
     file_.expect(H5Sselect_hyperslab(space_.id(), H5S_SELECT_SET, from.data(), nullptr, size.data(),
                                      nullptr) >= 0,
                  what);
-    // Of the same shape as in the file: HDF5 goes through other shapes value by value.
+    // The memory has the same shape as the file: HDF5 copies between other shapes value by value.
     const Hdf5Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
                             H5Sclose);
     file_.expect(H5Dread(open_.id(), memory_type(*dataset_.type), memory.id(), space_.id(),

@@ -21,8 +21,8 @@ class Hdf5Values {
 
     /// Number of values of a chunk along each dimension; empty if there are no chunks.
     const std::vector<std::uint64_t>& chunk() const { return chunk_; }
-    /// Whether a part of a chunk costs no more than its share: it has no filters and is larger than
-    /// HDF5's cache, or it is large, a whole step, and kept.
+    /// Whether a part of a chunk costs no more than its share of the chunk: the chunk has no
+    /// filters and is larger than HDF5's cache, or it is large, a whole step, and kept.
     bool in_parts() const { return in_parts_; }
 
     /// Reads the box of values at `start` with `count` values along each dimension, in the

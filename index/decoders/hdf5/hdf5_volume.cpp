@@ -81,8 +81,9 @@ class Hdf5Decoder final : public DecodedFile {
         return volume_.layout.time ? first().dimensions[*volume_.layout.time] : 1;
     }
 
-    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it; but of
-    /// chunks of whole planes that need no decompressing as many planes as fit the processor's cache.
+    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it. Where
+    /// chunks hold whole planes and need no decompressing: as many planes as fit the processor's
+    /// cache.
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info().grid.vertices[2], worth = slices_worth_asking(info());
         if (volume_.on_cells)

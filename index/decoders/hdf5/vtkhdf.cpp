@@ -51,8 +51,8 @@ std::array<std::uint64_t, 3> place_vtkhdf(const Hdf5File& file, SeriesInfo& info
     return {info.grid.vertices[0], info.grid.vertices[1], info.grid.vertices[2]};
 }
 
-/// The layout of a dataset whose last dimensions, before components, are those of the vertices or
-/// cells; none if they are not.
+/// The layout of a dataset whose last dimensions, before components, match the vertices or cells;
+/// none if they do not.
 std::optional<Hdf5Layout> vtkhdf_layout(const Hdf5Dataset& dataset,
                                         std::array<std::uint64_t, 3> sizes, bool on_cells,
                                         bool in_steps) {

@@ -104,7 +104,8 @@ class XdmfFile final : public DecodedFile {
         return std::uint64_t{places[0]} * places[1] * chosen_.array.components;
     }
 
-    /// Blocks that have all vertices may leave the cells between them.
+    /// Checks that no cell is missing: blocks may hold all vertices, but not the cells between two
+    /// blocks.
     void expect_all_cells() const {
         for (const XdmfGrid& step : steps_) {
             std::vector<Grid> cells;
@@ -184,7 +185,7 @@ class XdmfFile final : public DecodedFile {
                 fmt::format("{}: the grid of step {} is not as in step 0", name_, items_.size()));
     }
 
-    /// The chosen array of a part, which must be as that of the first.
+    /// The chosen array of a part; it must be like the chosen array of the first part.
     XdmfItem item_in(const XdmfPart& part) const {
         const std::size_t step = items_.size() - 1;
         const auto found = std::ranges::find_if(part.attributes, [&](const XdmfAttribute& one) {
@@ -274,7 +275,7 @@ class XdmfFile final : public DecodedFile {
             within = start[i] + count[i] <= dataset_.dimensions[i];
         const std::uint64_t all_layers = places_of(grid)[2], of_layer = layer_values(grid);
         const std::uint64_t layers = out.size() / size_of(*chosen_.array.type) / of_layer;
-        // The axis of the layers, behind axes of length 1; of a flat dataset there is one axis.
+        // The axis of the layers is the first that is longer than 1; a flat dataset has one axis.
         std::size_t axis = 0;
         while (axis + 1 < count.size() && count[axis] == 1 && all_layers > 1)
             ++axis;

@@ -110,7 +110,7 @@ class XdmfParser {
             give_xdmf_times(*time, first);
     }
 
-    /// Adds the steps of the grids in an element, also of those that it includes.
+    /// Adds the steps of the grids in an element, included grids too.
     /// @return number of grids
     std::size_t add_children(const XMLElement& parent, int depth) {
         std::size_t grids = 0;
@@ -159,7 +159,7 @@ class XdmfParser {
         return *referred(found);
     }
 
-    /// Makes one step of those from `first` on, which are blocks of its grid.
+    /// Joins the grids from `first` on into one step: they are the blocks of its grid.
     void join(std::size_t first, std::size_t grids) {
         const std::span<XdmfGrid> blocks = std::span(steps_).subspan(first);
         std::vector<Grid> places;

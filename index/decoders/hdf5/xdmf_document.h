@@ -27,7 +27,7 @@ struct XdmfItem {
     std::string text;                      ///< the numbers, `file.h5:/path`, or the file
     std::uint64_t seek = 0;                ///< [bytes] in a plain file
     bool big_endian = false;
-    /// Of a hyperslab, where it begins in the dataset, and its sizes; empty: all of it.
+    /// Where a hyperslab begins in the dataset, and its sizes; empty: the whole dataset.
     std::vector<std::uint64_t> start = {}, count = {};
 };
 
@@ -49,7 +49,7 @@ struct XdmfGrid {
     Grid grid;
     std::vector<std::string> notes;
     std::optional<double> time;
-    std::vector<XdmfPart> parts; ///< one, or those of a spatial collection
+    std::vector<XdmfPart> parts; ///< one, or the parts of a spatial collection
 };
 
 /// All steps of a document and of those that it includes. Coordinates that are not in the document

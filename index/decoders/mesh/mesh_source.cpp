@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 MeshSource exodus_source(const fs::path& path) {
-    // NetCDF, classic or on HDF5: VTK asks a file of neither kind for its sizes all the same.
+    // Exodus files are NetCDF, classic or on HDF5. VTK would ask any other file for its sizes, too.
     const std::string head = head_of(path, 8);
     if (!head.starts_with("CDF") && !head.starts_with("\x89HDF"))
         throw Error(fmt::format("{}: not Exodus: expected NetCDF", path.string()));
@@ -60,7 +60,7 @@ MeshSource cgns_source(const fs::path& path) {
     return {reader.GetPointer(), select, "", "", {}};
 }
 
-/// The last of the times that are folders of a case; below all numbers if there are none.
+/// The last time of a case, whose times are folders; below all numbers if there is none.
 double last_time_in(const fs::path& folder) {
     double last = -std::numeric_limits<double>::infinity();
     std::error_code ignored;
@@ -83,7 +83,7 @@ bool is_divided(const fs::path& folder) {
             last_time_in(folder / "processor0") > last_time_in(folder));
 }
 
-/// Whether they lie in one folder for all processors, which VTK's reader does not know.
+/// Whether the results of all processors lie in one folder: VTK's reader does not know this form.
 bool is_collated(const fs::path& folder) {
     std::error_code ignored;
     return std::ranges::any_of(fs::directory_iterator(folder, ignored), [](const auto& entry) {

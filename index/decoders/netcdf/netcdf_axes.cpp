@@ -73,7 +73,7 @@ std::string with_blank(const std::string& unit) {
     return unit.empty() ? "" : " " + unit;
 }
 
-/// An attribute of the variable, or else of its group, of which it is a component.
+/// An attribute of the variable, or else of the group that it is a component of.
 std::vector<double> of_the_grid(const NetcdfFile& file, const NetcdfVariable& variable,
                                 const char* attribute) {
     std::vector<double> numbers = file.numbers(variable, attribute);
@@ -137,7 +137,8 @@ Positions positions_along(const NetcdfFile& file, const NetcdfVariable& variable
     return positions;
 }
 
-/// The factor that brings coordinates into the unit, or at least the proportion, of those along x.
+/// The factor that brings coordinates along another axis into the unit of the coordinates along x,
+/// or at least into proportion with them.
 double to_go_with(const Positions& x, const Positions& other) {
     if (x.unit == other.unit)
         return 1;
@@ -177,8 +178,8 @@ const NetcdfVariable* time_variable(const NetcdfFile& file, const NetcdfVariable
     return nullptr;
 }
 
-/// The sizes of cells that a model of the weather writes for the whole file (WRF: DX, DY). They say
-/// nothing of heights, so that they are not taken without the user.
+/// Notes the sizes of cells that a weather model writes for the whole file (WRF: DX, DY). They say
+/// nothing about heights, so they are not used unless the user gives them.
 void offer_cell_sizes(const NetcdfFile& file, const NetcdfVariable& variable,
                       const NetcdfLayout& layout, SeriesInfo& info) {
     const std::vector<double> dx = of_the_grid(file, variable, "DX"),

@@ -1,4 +1,4 @@
-// The words of the CF conventions by which axes are recognized.
+// How axes are recognized: by words of the CF conventions.
 #include "index/decoders/netcdf/netcdf_roles.h"
 
 #include "index/formats/text_header.h"

@@ -108,7 +108,7 @@ class OmePlanes {
         fill(other, number("IFD", 0), place, count);
     }
 
-    /// So many planes from a place in the file's order on, one page after the other.
+    /// Places `count` planes, from `place` on in the file's order: one page after the other.
     void fill(const std::string& file, std::size_t page, std::size_t place, std::size_t count) {
         for (std::size_t i = 0; i < count && place + i < planes_.size(); ++i) {
             std::map<char, std::size_t> at;

@@ -99,7 +99,7 @@ class VtiFile final : public DecodedFile {
             reader_->SetFileName(path_.c_str());
             reader_->UpdateInformation();
         });
-        // Separately, since VTK's information is complete only if it has reported no error.
+        // A second call, since VTK's information is complete only if the first reported no error.
         with_vtk(path_, [&] { describe(options); });
         if (markup.find("vtkLZ4DataCompressor") != markup.npos)
             info_.notes.push_back(

@@ -42,7 +42,8 @@ void each_grid(vtkDataObject& data, const std::function<void(vtkDataSet&)>& take
             take(*one);
 }
 
-/// Flags of what lay within a grid, of an earlier resampling, too: ghost flags say the same.
+/// Removes the flags of the vertices and cells that lay within a grid: VTK writes them when it
+/// resamples, and ghost flags say the same.
 void remove_masks(vtkDataSet& grid) {
     for (const char* mask : {"vtkValidPointMask", "vtkValidCellMask"}) {
         grid.GetPointData()->RemoveArray(mask);
@@ -50,8 +51,8 @@ void remove_masks(vtkDataSet& grid) {
     }
 }
 
-/// Checks what VTK takes for granted, and crashes on otherwise. Masks of the data's own would take
-/// the place of those that it writes.
+/// Checks what VTK takes for granted: it crashes on other data. Removes masks that the data bring
+/// along, as these would take the place of the masks that VTK writes.
 void make_sound(vtkDataObject& data, const std::string& file) {
     const auto check = [&](vtkFieldData& arrays, vtkIdType tuples) {
         for (int i = 0; i < arrays.GetNumberOfArrays(); ++i) {

@@ -171,7 +171,7 @@ class ZarrVolume final : public DecodedFile {
             options.array.reset();
             return;
         }
-        if (!image.is_null()) { // the finest level; a name is that of a channel
+        if (!image.is_null()) { // the finest level; a name means a channel
             const std::string path = image.at("datasets").at(0).at("path");
             auto finest = ZarrArray::open(*store_, path);
             if (!finest)

@@ -166,14 +166,15 @@ void ZarrArray::read_from_chunk(const std::vector<std::uint64_t>& at,
             place = place * count[i] + (p[i] - off - start[i]);
         return place;
     };
-    // What lies in one piece both in the box and in a chunk that is plain goes straight there.
+    // Values that lie in one piece both in the box and in a plain chunk are read straight into the
+    // box.
     const std::size_t from_low = place_in_chunk(low, 0), to_low = place_in_box(low, 0);
     const std::size_t stretch = place_in_chunk(high, 1) + 1 - from_low;
     if (plain() && stretch == wanted && place_in_box(high, 1) + 1 - to_low == wanted &&
         load_part(at, from_low, out.subspan(to_low * size, wanted * size)))
         return;
-    // Of a chunk that is wanted as a whole nothing is left to keep it for; of one that is
-    // stored as it is, only what is wanted is read.
+    // A chunk that is wanted as a whole need not be kept: nothing of it is left to ask for. Of a
+    // plain chunk only the wanted values are read.
     const std::size_t begin = all || !plain() ? 0 : from_low;
     if (all) {
         load(at, chunk_values_);

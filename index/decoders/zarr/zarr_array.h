@@ -36,8 +36,8 @@ class ZarrArray {
                said_.pipeline.order.empty() && !said_.pipeline.big_endian;
     }
 
-    /// Whether a chunk spans these dimensions, and is large, but small enough to be kept: pieces of
-    /// it then need less room beside it than all of it.
+    /// Whether a chunk spans these dimensions, and is large, but small enough to be kept: then it
+    /// takes less memory to copy pieces out of the kept chunk than to copy all of it.
     bool keeps_whole(std::span<const std::size_t> dimensions) const;
 
     /// The box of values from `start`, `count` along each dimension, as stored, in the machine's

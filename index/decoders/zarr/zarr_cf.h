@@ -1,4 +1,5 @@
-// What xarray's conventions (those of CF) say of an array in Zarr: coordinates, packing, gaps.
+// What xarray's conventions, which are the CF conventions, say of an array in Zarr: coordinates,
+// packing, gaps.
 #pragma once
 
 #include "index/decoders/zarr/zarr_array.h"

@@ -44,7 +44,7 @@ struct ZarrDescription {
 /// @throws Error naming store and array: damaged, or it uses a feature that is not supported
 std::optional<ZarrDescription> description_of_zarr(const ZarrStore& store, const std::string& path);
 
-/// The key of something in a group; that of the root is empty.
+/// The key of something in a group; the root's key is empty.
 std::string zarr_key(const std::string& group, const std::string& name);
 
 } // namespace isochron::index

@@ -114,7 +114,7 @@ class ZipStore final : public ZarrStore {
         return found->second.bytes;
     }
 
-    /// Its check is that of the whole value, which is therefore read once and kept.
+    /// A checksum covers a whole value, so the whole value is read once and kept.
     void part(const std::string& key, std::uint64_t at, std::span<std::byte> into) const override {
         if (kept_key_ != key) {
             kept_key_.clear();

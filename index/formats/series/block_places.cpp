@@ -25,7 +25,7 @@ bool near(const glm::dvec3& a, const glm::dvec3& b) {
     return true;
 }
 
-/// From the first vertex of the first block to that of another one, in vertices.
+/// The way from the first block's first vertex to another block's first vertex, in vertices.
 Begin way_to(const Grid& block, const std::string& name, const Grid& first,
              const std::string& first_name) {
     if (block.rectilinear())

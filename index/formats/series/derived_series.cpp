@@ -46,7 +46,8 @@ std::string per_length(const std::string& value, const std::string& length) {
     return several ? fmt::format("({})/{}", value, length) : fmt::format("{}/{}", value, length);
 }
 
-/// Of speeds in the unit of length it is a rate: `1/s` of `m/s` and m.
+/// Derivatives of speeds are rates where the speed has the grid's unit of length: `m/s` and m give
+/// `1/s`.
 std::string unit_of_derived(Derived derived, const SeriesInfo& input) {
     const std::string &value = input.value_unit, &length = input.length_unit;
     if (derived == Derived::magnitude)

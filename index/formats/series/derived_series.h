@@ -21,16 +21,16 @@ enum class Derived : std::uint8_t {
 /// By its name: `gradient`, `vorticity`, `q-criterion`; none for `magnitude`, which readers handle.
 std::optional<Derived> derived_from_name(const std::optional<std::string>& component);
 
-/// The inputs' components as values of `--component`; an empty one: the input is a scalar.
+/// The inputs' components, as values of `--component`; an empty value: the input is a scalar.
 std::vector<std::optional<std::string>> components_for(Derived derived);
 
 /// Derivatives are differences along each axis, in physical space and units of length: between both
 /// neighbors, weighted by their distances, and at borders to the one neighbor, as numpy.gradient
 /// has them. Components of vectors are along x, y and z of physical space. Values are f32, or f64
-/// where those of the inputs have more than 24 bits; NaN where one of the values around is.
+/// where the inputs' values have more than 24 bits; NaN where one of the values around is NaN.
 /// @param inputs one for each of `components_for`, of the same files; of a magnitude two or three
-/// @param name of the vector; empty: that of the inputs
-/// @param unit of the result; none: made of those of values and lengths
+/// @param name of the vector; empty: the inputs' name
+/// @param unit of the result; none: made of the unit of the values and the unit of length
 std::unique_ptr<VolumeSeries> derived_series(std::vector<std::unique_ptr<VolumeSeries>> inputs,
                                              Derived derived, const std::string& name,
                                              const std::optional<std::string>& unit);

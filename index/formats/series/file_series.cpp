@@ -28,7 +28,8 @@ bool close(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& tolerance
     return true;
 }
 
-/// Of grids with as many vertices; one may be even but for rounding, and the other not.
+/// Compares grids with the same number of vertices. One grid may be even up to rounding, and the
+/// other not.
 bool same_positions(const Grid& a, const Grid& b, std::size_t axis) {
     constexpr double kSlack = 1e-4; // of the spacing
     if (a.positions[axis] == b.positions[axis])
@@ -262,7 +263,8 @@ class FileSeries final : public VolumeSeries {
         }
     }
 
-    /// What was chosen of the first file is read of all, in whatever order they have their arrays.
+    /// Reads from all files the array that was chosen in the first one, in whatever order a file
+    /// has its arrays.
     void choose_as_in(const SeriesInfo& first) {
         constexpr std::string_view kMagnitude = ".magnitude";
         if (!options_.any_array || options_.array || options_.component || files_.size() == 1)

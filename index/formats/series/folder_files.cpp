@@ -73,7 +73,7 @@ bool is_list(const KnownFile& file) {
     return file.format && file.format->list;
 }
 
-/// All files with values, hidden ones left out; of a folder that is one volume itself alone.
+/// All files with values, without hidden ones. A folder that is one volume stands for itself.
 std::vector<KnownFile> values_within(const fs::path& folder, const ReadOptions& options) {
     constexpr std::size_t kMost = 1'000'000;
     constexpr int kDeepest = 3;

@@ -15,9 +15,9 @@ struct FoundFiles {
     std::optional<std::string> note; ///< which files of values were left out
 };
 
-/// Puts in the place of each folder the files in it, but for a folder that is one volume: all DICOM
-/// files, or else the series that it holds. Files with the same name but for numbers belong together,
-/// also in folders within, three deep. Hidden files, unknown ones, and files that others name (the
+/// Replaces each folder, unless it is one volume, by the files in it: by all DICOM files, or else
+/// by the series that it holds. Files whose names differ only in numbers belong together, also in
+/// folders within, three deep. Hidden files, unknown ones, and files that others name (the
 /// .raw of a .mhd, the pieces of a .pvti, all files beside one .pvd) do not count. A single file
 /// beside one series is left out, which the note says.
 /// @param options with `dims`, files whose sizes fit are raw values

@@ -1,4 +1,4 @@
-// How far interpolated values are from those of the source.
+// How far interpolated values are from the values of the source.
 #pragma once
 
 #include <fmt/format.h>

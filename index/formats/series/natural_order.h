@@ -6,7 +6,7 @@
 
 namespace isochron::index {
 
-/// A strict weak order in which two different names are never equivalent.
+/// A strict weak order; two different names are never equivalent.
 bool natural_less(std::string_view a, std::string_view b);
 
 /// The last number in a name: 30 in `run2_t_0030`, 0.25 in `t_0.25s`; none if there is no number.

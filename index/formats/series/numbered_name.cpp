@@ -51,7 +51,7 @@ std::optional<std::string> note_on_missing(std::span<const std::filesystem::path
     if (varying.size() != 1)
         return std::nullopt;
     const auto number = [&](std::size_t file) { return names[file].numbers[varying.front()]; };
-    // The smallest distance is what steps are apart where none is missing.
+    // The smallest distance is the distance of two steps with no missing step between them.
     std::uint64_t least = UINT64_MAX;
     for (std::size_t i = 1; i < files.size(); ++i)
         if (number(i) < number(i - 1)) // in an order of their own

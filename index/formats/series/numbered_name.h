@@ -11,7 +11,7 @@
 
 namespace isochron::index {
 
-/// A name taken apart: the texts between its numbers, and these.
+/// A name taken apart into its numbers and the texts around them.
 struct NumberedName {
     std::vector<std::string> texts; ///< one more than there are numbers
     std::vector<std::uint64_t> numbers;

@@ -21,12 +21,13 @@ struct Between {
     double share = 0; ///< of the upper one
 };
 
-/// A value of which nothing is taken may be missing.
+/// A value whose share is 0 may be missing: it is not looked at.
 double mix(double lower, double upper, double share) {
     return share == 0 ? lower : share == 1 ? upper : lower + share * (upper - lower);
 }
 
-/// The vertices of `to` along an axis between those of `from`, which span the same distance.
+/// Where each vertex of `to` lies between two vertices of `from`, along an axis on which both grids
+/// span the same distance.
 std::vector<Between> between(const Grid& to, const Grid& from, int axis) {
     const auto a = static_cast<std::size_t>(axis);
     std::vector<Between> places;
@@ -202,7 +203,7 @@ class ResampledSeries final : public VolumeSeries {
     std::array<std::vector<Between>, 3> places_; ///< of the new vertices between the old ones
 };
 
-/// As many as the least distance between neighbors asks for along each axis.
+/// Vertices along each axis: so many that they are as close as the closest two of the old grid.
 std::array<std::uint32_t, 3> vertices_by_gaps(const Grid& grid) {
     constexpr double kMostVertices = 1 << 30, kRounding = 1e-6;
     std::array<std::uint32_t, 3> vertices = grid.vertices;

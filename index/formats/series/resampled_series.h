@@ -9,7 +9,7 @@
 
 namespace isochron::index {
 
-/// A `ReadOptions::resample`: the cells of the new grid are as small as the smallest one was.
+/// A `ReadOptions::resample`: the cells of the new grid are as small as the smallest old cell.
 inline constexpr std::array<std::uint32_t, 3> kBySmallestCell{0, 0, 0};
 
 /// Values between the vertices of `series` are interpolated along each axis; vertices of the new

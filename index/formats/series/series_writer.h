@@ -34,7 +34,7 @@ class SeriesWriter {
 
     /// @param values stored values of one step, [z][y][x], x fastest, native byte order,
     ///               exactly `info.step_bytes()` long
-    /// @param time physical time, greater than that of the step before
+    /// @param time physical time, greater than the time of the step before
     /// @throws Error when the file cannot be written, or size or time are not as above
     void append(std::span<const std::byte> values, double time);
 

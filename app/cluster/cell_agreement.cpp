@@ -1,4 +1,4 @@
-// Agreement of the processes of a cluster on which set of cells they all show.
+// Lets the processes of a cluster agree on the set of cells that they all show.
 #include "app/cluster/cell_agreement.h"
 
 #include <algorithm>

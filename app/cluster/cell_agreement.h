@@ -1,7 +1,7 @@
-// Agreement of the processes of a cluster on which set of cells they all show.
+// Lets the processes of a cluster agree on the set of cells that they all show.
 //
-// Every process extracts and uploads its own cells. Queries are numbered in the order in which they
-// are asked. With every frame rank 0 sends three numbers: the query to ask, the one to upload and
+// Every process extracts and uploads its own cells. Queries are numbered in the order of asking.
+// With every frame rank 0 sends three numbers: the query to ask, the one to upload and
 // the one to show. So all processes ask the same query and switch to a new set in the same frame.
 // No process waits: until all of them have a set on their GPUs, all show the previous one.
 #pragma once

@@ -68,7 +68,7 @@ class FrameSharing {
     virtual bool parts_are_whole() const = 0;
     /// The time of that picture in the process that took longest.
     virtual Milliseconds parts_took(Milliseconds mine) const = 0;
-    /// @param mine used on rank 0 @return rank 0's plan, by which all processes draw
+    /// @param mine used on rank 0 @return rank 0's plan, which all processes follow
     virtual FramePlan agree(const FramePlan& mine) = 0;
 
     /// Returns when all processes have drawn the frame.

@@ -306,7 +306,7 @@ std::vector<std::string> arguments_from(const CLI::App& program, int argc,
     return arguments;
 }
 
-/// Errors of the commands pass through; those of the parser become an exit status.
+/// Errors of the commands pass through; errors of the parser become an exit status.
 int parse_and_run(const ProgramText& text,
                   std::initializer_list<void (*)(Command& program)> commands, int argc,
                   const char* const* argv) {

@@ -89,7 +89,7 @@ class Command {
     template <class T>
     Option option(const std::string& names, T& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);
-    /// Commands with which the command's help begins, as a user types them.
+    /// Examples at the beginning of the command's help: commands as a user types them.
     void examples(const std::vector<std::string>& lines);
     /// Text below the options in the command's help.
     void footer(const std::string& text);

@@ -30,8 +30,8 @@ bool asks_for_tracker(const ConfigProblem& problem) {
     return problem.key == "viewers.head";
 }
 
-/// Checks an imported configuration as it will be checked when it is used. Its line numbers are not
-/// those of the imported file, so messages leave them out.
+/// Checks an imported configuration as it will be checked when it is used. Messages leave line
+/// numbers out, as the lines differ from the lines of the imported file.
 Config sound_config(const std::string& text, const std::string& source) {
     const std::string name = "import";
     try {

@@ -20,7 +20,7 @@ void warn(const Config& config);
 /// Warns if the data lack the array that the configuration colors by.
 void warn_of_colors(const Config& config, const index::IndexFile& file);
 
-/// @param steps of the whole series, of which the file may have the first only
+/// @param steps of the whole series; the file may have only the first of them
 /// @throws UsageError when the session cannot start as it was asked to
 void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps);
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Most steps that are waited for: the step to start at, with those before it.
+/// Most steps that are waited for: the step to start at, and all steps before it.
 std::size_t awaited_steps(const ExploreOptions& options) {
     return std::size_t{options.step.value_or(0)} + 1;
 }

@@ -45,7 +45,7 @@ class FrameLog {
     unsigned missed() const; ///< sum over all kept frames
     std::uint64_t frames_with(render::Footprint footprint) const;
 
-    /// Frames that moved and showed cells, and those of them that showed the surface itself.
+    /// Frames that moved and showed cells, and how many of these frames showed the surface itself.
     struct Moving {
         std::uint64_t frames = 0, as_surface = 0; ///< as mesh or exact surface
     };

@@ -13,8 +13,8 @@ namespace {
 
 constexpr interaction::Seconds kPause{0.4}; ///< without a change ends a drag without a button
 
-/// The settings in which two states differ, one bit each, and those of them that drags change. Time
-/// steps while playing do not count.
+/// The settings that differ between two states, one bit each; `dragged` has only the settings that
+/// a drag changes. Time steps while playing do not count.
 struct Changed {
     std::uint64_t all = 0, dragged = 0;
 };

@@ -19,7 +19,7 @@ struct FrameOutlook {
     interaction::Seconds until = kNever; ///< session time at which it changes by itself
 };
 
-/// Both of two outlooks, such as that of the picture and that of the panel over it.
+/// Two outlooks as one: the picture's outlook and the outlook of the panel over it, for example.
 FrameOutlook both(const FrameOutlook& one, const FrameOutlook& other);
 
 /// After a change a few more frames are made, as the panel lays some things out a frame late. A

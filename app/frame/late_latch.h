@@ -9,10 +9,9 @@
 
 namespace isochron::app {
 
-/// Returns the newest poses, see `interaction::TrackedInput::latch`; their time is that of the
-/// call.
+/// Returns the newest poses, see `interaction::TrackedInput::latch`, at the time of the call.
 /// Called once per frame, right before its views are made (in a cluster: when the frame begins, so
-/// that all walls get the same).
+/// that all walls get the same poses).
 using Latch = std::function<interaction::InputState()>;
 
 /// The latched heads of viewers, if they have a pose. Hands are left out: they must stay where the

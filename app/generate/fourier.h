@@ -60,8 +60,7 @@ class Fourier {
     std::size_t field_size() const { return n_ * n_ * n_; }
     std::size_t spectrum_size() const { return n_ * n_ * (n_ / 2 + 1); }
 
-    /// The coefficients (divided by n^3) with which the field is the sum of coefficient * exp(i k
-    /// x).
+    /// The coefficients (divided by n^3) whose sum of coefficient * exp(i k x) is the field.
     Spectrum spectrum_of(const Field& field) const;
 
     /// @param spectrum passed by value, as the transform overwrites it

@@ -39,7 +39,7 @@ void add_generate(Command& program) {
 
 } // namespace
 
-/// Its messages are those of the program that its user has called.
+/// The messages name `isochron`, the program that the user has called.
 int main(int argc, char** argv) {
     return run_program(
         {.name = "isochron", .description = "Make demo series.", .version_details = nullptr},

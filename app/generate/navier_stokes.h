@@ -39,7 +39,7 @@ class NavierStokes {
     double time() const { return time_; }
     double energy() const;     ///< kinetic, mean of |u|^2 / 2
     double enstrophy() const;  ///< mean of |curl u|^2 / 2; energy falls at 2 nu enstrophy
-    double divergence() const; ///< root mean square of div u over that of the velocity gradient
+    double divergence() const; ///< div u over the velocity gradient, root mean squares
     VectorField velocity() const;
     Field vorticity_magnitude() const; ///< |curl u| at the points
 

@@ -91,8 +91,8 @@ double coherence(const index::IndexFile& file) {
             static_cast<double>(file.info().steps()));
 }
 
-/// The level map of the cells if the index has them, else of the bricks; for wide value types that
-/// of the last step.
+/// The level map of the cells if the index has cells, else of the bricks; for wide value types the
+/// last step's level map.
 index::LevelMapPtr levels_of(const index::IndexFile& file) {
     if (file.cells())
         return std::make_shared<index::LevelMap>(file.levels());

@@ -29,8 +29,9 @@ struct Output {
     std::string content = {}; ///< of a configuration: what is to be written
 };
 
-/// Whether a regular file is one that this program wrote as an output of this kind; an empty file
-/// counts as one, but for recordings and movies. Reads as much of it as that takes.
+/// Whether this program wrote a regular file, as an output of this kind. An empty file counts as
+/// written by the program, except where recordings and movies are expected. Reads only as much of
+/// the file as the answer takes.
 bool is_known(const std::filesystem::path& file, const Output& output);
 
 /// What a file is, for people: `an index`, `a folder`, `a file of 1234 bytes`.

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A temporary name in the folder where it will lie, with its suffix, by which ffmpeg knows the
-/// format.
+/// A temporary name in the folder where the movie will lie. It keeps the suffix, which tells ffmpeg
+/// the format.
 fs::path temporary_of(const fs::path& path) {
     return index::end_of_links(path).parent_path() /
            fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());

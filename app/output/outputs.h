@@ -47,7 +47,7 @@ class Outputs {
     /// @param config outlives the outputs
     /// @param windows of the configured installation, or a context for its only window that
     /// outlives the outputs; the drawing context is current on this thread
-    /// @param headset to draw for instead of the installation's windows, the first of which mirrors
+    /// @param headset to draw for instead of the installation's windows; the first window mirrors
     /// it; null: none
     /// @throws render::Error when this GL has fewer samples than configured for displays or for
     /// pictures, or the headset cannot use it
@@ -136,12 +136,12 @@ class Outputs {
 
     /// The last frame's pictures, drawn once more to be kept.
     KeptPictures kept_pictures();
-    /// Where screenshots go. They are called `isochron_0001.png`, of several windows
-    /// `isochron_0001_front.png`, and are counted on from those that are there now: all processes
-    /// of a cluster must ask for the folder before the first screenshot.
+    /// Where screenshots go. They are called `isochron_0001.png`, or with several windows
+    /// `isochron_0001_front.png`. Their numbers follow the highest number that is in the folder
+    /// now: all processes of a cluster must ask for the folder before the first screenshot.
     void set_screenshots(const std::filesystem::path& folder);
     /// Writes a picture of the room, of the headset's mirror, or of every window of this process.
-    /// @param frame note about the last frame, from which each picture's own note is made
+    /// @param frame note about the last frame; each picture's own note is made from it
     void take_screenshots(const PictureNote& frame);
     /// Writes a picture in the background. @param note stored in the file; empty: none
     void write_image(render::Image image, const std::filesystem::path& path,

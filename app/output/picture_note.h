@@ -1,5 +1,5 @@
-// The note inside a written picture: what it shows, of which data, and all settings that are needed
-// to draw it again.
+// The note inside a written picture: what the picture shows, the data, and all settings that are
+// needed to draw it again.
 #pragma once
 
 #include "interaction/recording/recorded_frame.h"

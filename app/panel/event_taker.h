@@ -1,4 +1,4 @@
-// Takes the events of a frame into ImGui's state, and says which of them the panel uses.
+// Takes the events of a frame into ImGui's state, and says which events the panel uses.
 #pragma once
 
 #include "app/panel/number_entry.h"

@@ -1,4 +1,4 @@
-// Characters that the user types into the panel's fields, all of which hold one number.
+// Characters that the user types into the panel's fields: every field holds one number.
 #include "app/panel/number_entry.h"
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ bool is_separator(char32_t character) {
     return character == U'.' || character == U',';
 }
 
-/// The text of a field, of which only ASCII matters. ImGui 1.91 no longer keeps it as wide
-/// characters.
+/// The text of a field; only its ASCII characters matter. ImGui 1.91 no longer keeps the text as
+/// wide characters.
 template <class Field>
 std::string text_of(const Field& field) {
     std::string text;

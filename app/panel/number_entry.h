@@ -1,4 +1,4 @@
-// Characters that the user types into the panel's fields, all of which hold one number.
+// Characters that the user types into the panel's fields: every field holds one number.
 #pragma once
 
 #include "interaction/input/window_event.h"
@@ -7,8 +7,8 @@
 
 namespace isochron::app {
 
-/// ImGui::SliderInt with clamped input, of which NumberEntry knows that it takes whole numbers, and
-/// which one it had. @param low at least 0
+/// ImGui::SliderInt with clamped input. NumberEntry knows this slider as one for whole numbers, and
+/// remembers the number that it had. @param low at least 0
 bool whole_number_slider(const char* label, int* value, int low, int high, const char* format);
 
 /// Passes typed characters to the field of ImGui that has the keyboard. A comma is a decimal point

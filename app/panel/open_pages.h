@@ -29,7 +29,7 @@ class OpenPages {
         recent_ = std::move(recent);
     }
     bool offers_files() const { return static_cast<bool>(recent_); }
-    /// Opens the page on which they choose.
+    /// Opens the page where the user chooses data.
     void open_files() { files_.open(recent_()); }
     /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }

@@ -34,7 +34,8 @@ constexpr ImU32 kAskedColor = IM_COL32(255, 196, 92, 255);
 constexpr ImU32 kShownColor = IM_COL32(120, 220, 160, 255);
 const ImVec4 kPaper(0.115f, 0.125f, 0.145f, 1.0f);
 
-/// The picked surface as one of the shown ones, of which there may be fewer.
+/// The number of the picked surface among the shown surfaces; fewer may be shown than are asked
+/// for.
 std::size_t shown_surface(const PanelModel& model) {
     return std::min<std::size_t>(model.asked.picked, model.frame.shown->isovalues.size() - 1);
 }

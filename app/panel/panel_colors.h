@@ -15,9 +15,9 @@ void array_section(const PanelModel& model, interaction::Commands& commands);
 /// The list of isosurfaces: the user picks, colors, adds and removes them.
 void surfaces_section(const PanelModel& model, interaction::Commands& commands);
 
-/// Lets a new surface and those inside it be seen. Surfaces of lower isovalues lie around those of
-/// higher ones: what lies around the new one becomes translucent, and so does the new one where it
-/// lies around others.
+/// Lets a new surface be seen, and the surfaces inside it. Surfaces of lower isovalues lie around
+/// surfaces of higher isovalues. So the surfaces around the new one become translucent, and the new
+/// surface becomes translucent where it lies around others.
 /// @param added its place among the surfaces
 void let_see(std::vector<interaction::Isosurface>& surfaces, std::size_t added);
 

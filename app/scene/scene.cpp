@@ -215,7 +215,7 @@ std::size_t Scene::work(const Picture& picture, std::size_t views) {
 }
 
 std::size_t Scene::prepare_parts(const Picture& picture, std::size_t most) {
-    // The corners of so many cells are computed in about the time in which one of them is drawn.
+    // Computing the corners of so many cells takes about as long as drawing one cell.
     constexpr std::size_t kCorners = 8;
     if (!render::CellPass::needs_corners(
             cells_.drawn(), cells_.footprints().best(picture.footprint), appearance_of(picture)))

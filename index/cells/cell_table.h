@@ -1,4 +1,4 @@
-// Cells of one stretch sorted in span space, so that those of any isovalue are a few contiguous runs.
+// Cells of one stretch sorted in span space: the cells of any isovalue are a few contiguous runs.
 #pragma once
 
 #include "index/cells/cell_table_head.h"

@@ -21,7 +21,7 @@ class CellTableBuilder {
     /// The entries of the next table, to be filled.
     CellEntries& entries() { return entries_; }
 
-    /// Appends the table and forgets its entries, of which there must be at least one. The size of
+    /// Appends the table and forgets its entries; there must be at least one entry. The size of
     /// `bytes` stays a multiple of CellTableHead::kAlignment.
     /// @return the table's head
     CellTableHead append_to(std::vector<std::byte>& bytes);

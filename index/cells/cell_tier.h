@@ -74,8 +74,8 @@ class CellTier {
     std::vector<TimeNodeCells> nodes() const;
     /// Checks everything, even what no search has needed yet. @throws Error when damaged
     void verify() const;
-    /// Checks one unit, all of which must have been read. @param unit by epoch and stretch, stretches
-    ///        faster @throws Error when damaged
+    /// Checks one unit, which must have been read as a whole.
+    /// @param unit by epoch and stretch, stretches faster @throws Error when damaged
     void verify_unit(std::size_t unit) const;
 
   private:

@@ -60,7 +60,7 @@ class UnitUnderWay {
 /// The cells of one unit, from the leaves of the time tree up.
 struct CellUnitBuilder::Cells {
     const StretchRanks& ranks;
-    std::uint32_t first; ///< step among those of the ranks
+    std::uint32_t first; ///< number of the first step in the ranks
     bool lossless;
     CellTableBuilder& table;
     UnitUnderWay& unit;

@@ -15,8 +15,9 @@ namespace isochron::index {
 /// Keeps its work space: one for each thread.
 class CellUnitBuilder {
   public:
-    /// @param lossless whether the level map is @param first the epoch's first step among those of
-    ///   `ranks`, whose last step is the epoch's last
+    /// @param first number of the epoch's first step in `ranks`; the last step of `ranks` is the
+    ///   epoch's last step
+    /// @param lossless whether the level map is lossless
     void build_cells(const StretchRanks& ranks, std::uint32_t first, bool lossless,
                      std::vector<std::byte>& out);
     /// The level map must be lossless.

@@ -1,4 +1,4 @@
-// An index as a series from which another index can be built; also an index of file version 2.
+// Reads an index as a series, to build another index from it; also an index of file version 2.
 #pragma once
 
 #include "index/file/sections/index_contents.h"
@@ -23,7 +23,7 @@ std::optional<std::string> color_of_index(const std::filesystem::path& path);
 std::vector<std::string> arrays_of_index(const std::filesystem::path& path);
 
 /// The first array of an index, or the one that `options.array` names, also its array to color by.
-/// Grid, times and units in `options` override those of the index.
+/// Grid, times and units in `options` override the index's own.
 /// @throws Error: damaged, neither version 2 nor this version, refers to its sources, no such array
 std::unique_ptr<VolumeSeries> open_index_series(const std::filesystem::path& path,
                                                 const ReadOptions& options);

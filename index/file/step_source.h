@@ -30,7 +30,7 @@ class StepSource {
 
     std::filesystem::path beside_index(const std::filesystem::path& file) const;
     void open_sources();
-    /// Memory for a step: that of the oldest kept step if nobody else holds it, else new.
+    /// Memory for a step: the memory of the oldest kept step if nobody else holds it, else new.
     std::shared_ptr<std::uint64_t[]> room_for_a_step();
 
     std::filesystem::path index_;

@@ -82,7 +82,7 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
     if (given.grid != held.grid || given.type != held.type || given.scaling != held.scaling ||
         given.array != held.array)
         refuse("the files differ from it in grid, type, scaling or array");
-    // One source of all steps may have another name now: a scan has that of its first file.
+    // A single source of all steps may have another name now: a scan is named after its first file.
     const bool named_alike = begins_with(given.sources, held.sources);
     const bool one_source = given.sources.size() == 1 && held.sources.size() == 1;
     if (!(named_alike || one_source) || !begins_with(given.times, held.times))

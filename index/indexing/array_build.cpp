@@ -1,5 +1,5 @@
-// Builds one array of an index: plans the pass over its values, then makes the tiers from those
-// that were kept.
+// Builds one array of an index: plans the pass over its values, then makes the tiers from the
+// values that the pass has kept.
 #include "index/indexing/array_build.h"
 
 #include "index/file/detail_levels.h"

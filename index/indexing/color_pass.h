@@ -33,7 +33,7 @@ class ColorPass {
 
     VolumeSeries& series() { return series_; }
 
-    /// Takes the next layer. @param parts those of the pass that this is part of
+    /// Takes the next layer. @param parts where the whole pass, this one included, writes its parts
     void take(const LayerView& layer, PartWriter& parts);
 
     /// @param begin where this member's parts lie in the file

@@ -28,8 +28,8 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
 /// Appends, in place, the steps that an index does not hold yet. It writes after the end of the
 /// file and where the present header names nothing, and writes the header last. If it is killed at
 /// any moment, the old index or the new one is left; programs that have the old one open can go on
-/// with it. Queries and the content hash are those of an index built anew. Cells are added for
-/// whole epochs: if an epoch has fewer new steps than old ones, its cells wait until it is
+/// with it. Queries and the content hash are the same as of an index built anew. Cells are added
+/// for whole epochs: if an epoch has fewer new steps than old ones, its cells wait until it is
 /// complete, and searches use bricks there meanwhile.
 /// @param series all steps; steps that the index holds are read only if cells need their values
 /// @param held the newest state of the file, with as many arrays as are given

@@ -13,7 +13,7 @@
 namespace isochron::index {
 
 /// Every member of a team writes its parts one after the other. In the file, the parts of rank 0
-/// come first, then those of rank 1, and so on. Rank 0 writes its parts to their final place at
+/// come first, then the parts of rank 1, and so on. Rank 0 writes its parts to their final place at
 /// once; the other ranks write to temporary files until the sizes of all parts before theirs are
 /// known. All members call `place` together.
 class PartWriter {

@@ -9,14 +9,14 @@
 namespace isochron::index {
 namespace {
 
-/// All sections as they lie in the file, and where those of the first array begin there.
+/// All sections as they lie in the file, and where the sections of the first array begin there.
 struct SectionBlock {
     std::vector<std::byte> bytes; ///< with the gaps, so that old bytes in them are overwritten
     std::array<Section, kSectionNames.size()> sections{};
 };
 
-/// The sections of the first array lie around those of the others: its metadata, which lists these,
-/// come last.
+/// The sections of the first array lie around the sections of the other arrays: the first array's
+/// metadata lists the other arrays, and comes last.
 /// @param begin offset of the block in the file
 SectionBlock block_at(std::uint64_t begin, std::vector<ArraySections>& arrays) {
     SectionBlock block;

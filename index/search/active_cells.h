@@ -19,7 +19,7 @@ struct ActiveCellsOrder {
     ChunkFilter only = {};  ///< with bricks and by chunks: search these chunks alone
 };
 
-/// Parts of which the results are added.
+/// Number of parts of a search; the results of all parts are put together.
 std::uint32_t parts_to_search(const StepView& step, bool by_bricks);
 /// @param results of `parts_to_search`; may count only
 /// @return false when stopped @throws Error, Stopped as ChunkStore does

@@ -9,7 +9,7 @@
 
 namespace isochron::index {
 
-/// The changes that turn the active cells of the first query into those of the second.
+/// The changes that turn the active cells of the first query into the active cells of the second.
 struct CellChange {
     /// True if few cells stay: then `added` holds all cells of the second query, and all cells of
     /// the first are dropped.

@@ -22,8 +22,8 @@ class ChunkCube {
     /// Copies what the cube holds of the chunk at an offset (bit of ChunksAround).
     void copy(unsigned bit, const Chunk& chunk);
 
-    /// All of it, as a grid of its own whose borders are those of the whole grid where it reaches
-    /// them. What was not copied has no meaning.
+    /// The whole cube, as a grid of its own. Where the cube reaches the border of the whole grid,
+    /// its border counts as one. Values that were not copied have no meaning.
     const StepValues& values() const { return values_; }
     /// The place in it of the chunk's first vertex.
     const std::array<std::uint32_t, 3>& first() const { return first_; }

@@ -1,4 +1,5 @@
-// Compares the vertices of a cube, and combines their bits to those of cells.
+// Compares the vertices of a cube with the isovalue, and combines the vertices' bits into cells'
+// bits.
 #include "index/search/cube_cells.h"
 #include "index/volume/ordinal.h"
 

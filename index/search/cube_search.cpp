@@ -31,8 +31,8 @@ void CubeSearch::search(const StepView& step, const LayerCandidates& candidates,
     shading = shaded ? shading_ + (Clock::now() - found) : shading_;
 }
 
-/// Finds the chunks with active cells, and the cells as bits. Shades those of which all that lies
-/// around is there, while they are in the nearest cache.
+/// Finds the chunks with active cells, and the cells as bits. Shades the cells whose neighborhood
+/// has been read, while their values are in the nearest cache.
 void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut,
                       bool shaded, const std::stop_token& stop, CellSet& out) {
     layer_ = candidates.layer();
@@ -105,7 +105,7 @@ void CubeSearch::take_places(Found& found) {
     found.count = append_places(found.rows, places_);
 }
 
-/// Writes the found cells in the order of the layer: first counts those of each row.
+/// Writes the found cells in the order of the layer: first counts the cells of each row.
 void CubeSearch::write(bool shaded, CellSet& out) {
     next_.clear();
     for (std::size_t i = 0; i < found_.size(); ++i) {

@@ -53,8 +53,8 @@ class IndexSearch {
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// The method for a query: appended steps may not have cells yet, and those of a step may not
-    /// have been read.
+    /// The method for a query: appended steps may not have cells yet, and the cells of a step may
+    /// not have been read.
     SearchMethod method_at(const Query& query) const {
         if (method_ != SearchMethod::cells)
             return method_;

@@ -36,7 +36,7 @@ class LayerSearch {
     /// @param only with bricks and by chunks: search these chunks alone
     bool search(const StepView& step, CellSet& set, bool by_bricks, bool shaded,
                 const std::stop_token& stop, const ChunkFilter& only = {});
-    /// The number of active cells, none of which is kept; empty when stopped.
+    /// The number of active cells, without keeping the cells; empty when stopped.
     std::optional<std::uint64_t> count(const StepView& step, const Query& query, bool by_bricks,
                                        const std::stop_token& stop);
     /// @param ids ascending

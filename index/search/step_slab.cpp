@@ -14,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-/// Planes of a slab: those of a chunk, one below, and two above, which cells and normals need.
+/// Planes of a slab: a chunk's planes, and for cells and normals one below and two above.
 constexpr std::uint32_t kMostPlanes = kChunkEdge + 3;
 
 /// Chunks next to each other along x: the addresses of their values, and their number.

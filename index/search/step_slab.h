@@ -56,7 +56,7 @@ class StepSlab {
     void fill_around(std::span<const CellId> cells, bool normals);
     void fill_all();
 
-    /// Moves to a layer of which all chunks will be `put`; nothing more is read.
+    /// Moves to a layer; the caller will `put` all its chunks, and nothing more is read.
     void begin_whole(const StepView& step, std::uint32_t layer, std::stop_token stop);
     /// Copies a chunk of this layer to its place. Several threads may do so at once.
     /// @param candidates its bricks that may hold active cells

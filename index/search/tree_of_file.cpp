@@ -12,7 +12,7 @@
 namespace isochron::index {
 namespace {
 
-/// A tree, and the bytes in which it lies.
+/// A tree, and the bytes that hold it.
 struct OpenTree {
     explicit OpenTree(std::vector<std::uint64_t> read)
         : bytes(std::move(read)), tree(std::as_bytes(std::span(bytes))) {}

@@ -1,5 +1,5 @@
-// Slabs of neighboring layers of which most is needed: each chunk is decoded once, straight to its
-// place, and kept nowhere else.
+// Slabs of neighboring layers, for searches that need most of them: each chunk is decoded once,
+// straight to its place, and kept nowhere else.
 #pragma once
 
 #include "index/file/chunks/record_stream.h"

@@ -1,5 +1,5 @@
-// Finds the program's own modules and helper programs, in which heavy libraries are loaded when
-// they are needed.
+// Finds the program's own modules and helper programs: they load heavy libraries when these are
+// needed.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,12 @@
 
 namespace isochron::index {
 
-/// Says which folder is the program's: for a program in which this library is a guest, such as an
-/// interpreter, whose own folder has none of the files. Called before the first of them is needed.
-/// @param folder empty: that of the running program again
+/// Sets the program's folder: for interpreters and other programs that only host this library, as
+/// their own folders have none of its files. Called before the first file is needed.
+/// @param folder empty: the folder of the running program again
 void set_program_folder(const std::filesystem::path& folder);
 
-/// The folder that was set, or that of the running program.
+/// The folder that was set, or else the folder of the running program.
 std::filesystem::path program_folder();
 
 /// The path of one of the program's files, `isochron-reader-vtk` or `libisochron_mpi.so`: in the

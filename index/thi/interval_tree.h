@@ -54,7 +54,7 @@ struct IntervalNode {
 static_assert(sizeof(IntervalNode) == 20);
 
 /// Builds the tree of the intervals, each with `low < high`; reorders them.
-/// @param nodes to which its nodes are appended, root first
+/// @param nodes gets the tree's nodes appended, root first
 /// @param lists for its lists, exactly as long as `intervals`
 /// @param begin added to the nodes' `begin` and `end`
 /// @return number of the root, kNone when there are no intervals
@@ -73,8 +73,8 @@ void visit_interval_tree(std::span<const IntervalNode> nodes, std::uint32_t root
             high(node);
             number = node.right;
         } else {
-            // If the threshold is the split, no other intervals contain it: those to the left end
-            // below it, and those to the right begin at or above it.
+            // If the threshold is the split, no other intervals contain it: intervals to the left
+            // end below it, and intervals to the right begin at or above it.
             low(node);
             number = threshold < node.split ? node.left : IntervalNode::kNone;
         }

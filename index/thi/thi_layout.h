@@ -25,7 +25,7 @@ struct ThiHeader {
 };
 static_assert(sizeof(ThiHeader) == 40);
 
-/// Where the parts of a time node begin; they end where those of the next begin.
+/// Where the parts of a time node begin; they end where the parts of the next node begin.
 struct ThiNodeStart {
     std::uint64_t entry;
     std::uint64_t interval_node;

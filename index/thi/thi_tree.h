@@ -26,8 +26,8 @@
 namespace isochron::index {
 
 /// Builds the tree. The bytes are position-independent, little-endian, a multiple of 8 long, and
-/// the same for every number of threads. The entries are those of ThiEntries. An entry takes 16
-/// bytes, and 12 more while the tree is built.
+/// the same for every number of threads. ThiEntries describes the entries. An entry takes 16 bytes,
+/// and 12 more while the tree is built.
 /// @param progress called from the calling thread only
 /// @param threads 0: one for each processor
 /// @throws Error when an option is out of its range, or there is no step

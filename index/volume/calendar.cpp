@@ -37,7 +37,7 @@ std::int64_t floored(std::int64_t a, std::int64_t b) {
     return a / b - (a % b < 0);
 }
 
-/// Days from January 1st of year 0 to that of another year.
+/// Days from January 1st of year 0 to January 1st of another year.
 std::int64_t days_before(std::int64_t year, Calendar calendar) {
     // Leap years from 0 up to the year before, or, for years before 0, less than 0.
     const auto multiples = [&](std::int64_t of) { return floored(year - 1, of) + 1; };

@@ -7,7 +7,7 @@
 
 namespace isochron::index {
 
-/// The moment of which a query asks for the cells. Work on values takes an Instant from the query to
+/// The moment whose cells a query asks for. Work on values takes an Instant from the query to
 /// the places where the values of chunks are copied (`ChunkCube::copy`, `StepSlab::copy`), through
 /// StepView (index/file/step_view.h). A moment between two steps needs a fraction here, and a blend
 /// of two steps' values there.

@@ -15,8 +15,8 @@ namespace isochron::index {
 enum class SearchMethod : std::uint8_t { cells, bricks, tree, scan };
 constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", "tree", "scan"};
 
-/// Asks for the active cells: those with min < isovalue <= max over their 8 scaled vertex values,
-/// of which none is NaN. An isovalue that is NaN or infinite has no active cells.
+/// Asks for the active cells: a cell is active if min < isovalue <= max over its 8 scaled vertex
+/// values and none of these is NaN. An isovalue that is NaN or infinite has no active cells.
 struct Query {
     Instant step = {};
     double isovalue = 0.0;
@@ -37,7 +37,7 @@ constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "f
 /// How many cells an extraction may hold, and how fine it needs to be. By default it holds all
 /// cells of the volume itself.
 struct DetailQuery {
-    /// More cells than this are replaced by those of coarser levels; 0: never.
+    /// If there are more cells than this, cells of coarser levels replace them; 0: never.
     std::uint64_t most_cells = 0;
     bool at_rest = false; ///< for a picture at rest: a renderer holds it beside one for motion
     /// Parts of a level in which wishes are given: they order the regions that share one level.

@@ -22,8 +22,8 @@ std::optional<std::vector<double>> times_in(const std::string& wanted, const std
 std::string with_calendar(const std::string& unit, const std::string& calendar);
 
 /// The date of a step where the unit has a reference date, else its time and the unit:
-/// `2009-09-09 17:00`, `2000-02-30 (360_day)`, `0.25 s`. It is as short as possible while different
-/// from those of the steps before and after; dates are rounded to a millisecond.
+/// `2009-09-09 17:00`, `2000-02-30 (360_day)`, `0.25 s`. The text is as short as it can be while it
+/// differs from the texts of the steps before and after; dates are rounded to a millisecond.
 /// @param times of all steps, increasing
 std::string time_text(std::span<const double> times, std::size_t step, const std::string& unit);
 

@@ -52,9 +52,9 @@ struct ReadOptions {
     /// Takes the first array, and the length of vectors, where a user would have to choose: for
     /// describing files.
     bool any_array = false;
-    bool allow_surplus = false; ///< --allow-surplus: values may follow those that the header has
+    bool allow_surplus = false; ///< --allow-surplus: more values may follow than the header says
     bool extra_axis_is_time =
-        false;                     ///< --extra-axis-is-time: an axis beside those of space is time
+        false;                     ///< --extra-axis-is-time: an axis besides space is time
     bool times_from_names = false; ///< --times-from-names: the last number in each file's name
     /// --resample NX NY NZ: grids that are not regular become one of so many vertices.
     std::optional<std::array<std::uint32_t, 3>> resample;

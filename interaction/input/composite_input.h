@@ -28,7 +28,7 @@ class CompositeInput final : public TrackedInput {
     std::vector<std::unique_ptr<TrackedInput>> sources_;
 };
 
-/// The devices of `first`, then those of `second`, merged.
+/// The devices of `first` and then the devices of `second`, merged.
 InputState merged(InputState first, const InputState& second);
 
 } // namespace isochron::interaction

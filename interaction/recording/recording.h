@@ -24,8 +24,8 @@ namespace isochron::interaction {
 /// with neither has the devices of the frame before. Left out are: a device's `valid` if true,
 /// `buttons` if 0, `valuators` if empty, `lost` if false, and `velocity` ([v, w]), `measured` and
 /// `device_time` if the tracker does not give them; a frame's `commands` and `panel` if empty,
-/// `footprint` if it is that of the frame before, and `latched` ({"t":..,"devices":[..]}) if the
-/// views were made from `devices`. Numbers round-trip.
+/// `footprint` if it is the same as in the frame before, and `latched` ({"t":..,"devices":[..]}) if
+/// the views were made from `devices`. Numbers round-trip.
 struct Recording {
     RecordingHeader header;
     std::vector<RecordedFrame> frames;

@@ -10,8 +10,8 @@ namespace isochron::interaction {
 
 enum class DTrackKind : std::uint8_t { body, flystick, marker };
 
-/// A body, Flystick or marker of DTrack as a device. A marker has a position only; its orientation
-/// is that of the tracker's axes.
+/// A body, Flystick or marker of DTrack as a device. A marker has a position only; it is oriented
+/// along the tracker's axes.
 struct DTrackDevice {
     DeviceOptions device;
     DTrackKind kind = DTrackKind::body;

@@ -1,4 +1,4 @@
-// Decides which of a tracker's samples are accepted.
+// Accepts or refuses a tracker's samples.
 #include "interaction/trackers/pose_filter.h"
 
 #include <cmath>

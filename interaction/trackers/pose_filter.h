@@ -1,4 +1,4 @@
-// Decides which of a tracker's samples are accepted, and how far the last good pose can be trusted.
+// Accepts or refuses a tracker's samples, and tells how far the last good pose can be trusted.
 //
 //     PoseFilter filter({});
 //     filter.add({now, pose});

@@ -97,7 +97,7 @@ class CellBuffers {
 
     /// Number of drawn cells; a cell counts once for each surface that passes through it.
     std::size_t size() const { return slots_->places.size(); }
-    /// Which cell has which slot.
+    /// The slot of each cell.
     const Slots& slots() const { return *slots_; }
 
     /// GL_TEXTURE_BUFFER by slot, one RGB32UI texel each: the words of an index::CellPoint.

@@ -30,7 +30,7 @@ Wake::~Wake() {
 void Wake::operator()() const noexcept {
     const int before = errno; // a signal handler must leave it as it is
     const std::uint64_t one = 1;
-    // It fails only when nobody has taken 2^64 calls, of which one is enough.
+    // It fails only when 2^64 calls wait to be taken. One waiting call is enough, so no matter.
     [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
     errno = before;
 }

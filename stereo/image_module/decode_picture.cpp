@@ -149,7 +149,7 @@ struct Channels {
     std::optional<int> alpha;
 };
 
-/// @param values those of all pixels, `channels.count` each
+/// @param values of all pixels, `channels.count` each
 template <typename Value, typename ByteOfColor, typename ByteOfAlpha>
 render::Image image_of(const OIIO::ImageSpec& spec, const Channels& channels,
                        const std::vector<Value>& values, ByteOfColor byte_of_color,

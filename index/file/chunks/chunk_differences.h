@@ -13,8 +13,9 @@ namespace isochron::index {
 /// Keeps its work space: one for each thread.
 class ChunkDifferences {
   public:
-    /// Takes differences of the bit patterns, as unsigned numbers, along x, then of these along y,
-    /// then of these along z, and finds which of the three is likely to take the fewest bits.
+    /// Takes differences of the bit patterns, as unsigned numbers, along x; then differences of
+    /// these differences along y, and of the results along z. Finds which of the three results is
+    /// likely to take the fewest bits.
     /// @param size values along x, y and z @param word bytes of a value: 1, 2, 4 or 8
     /// @return the number of axes of the best one: 1 (x), 2 (x, y) or 3 (x, y, z)
     unsigned find(const std::array<std::uint32_t, 3>& size, std::size_t word,

@@ -16,8 +16,8 @@ namespace isochron::index {
 /// Vertices along each side of a chunk; chunks at the upper borders are clipped.
 constexpr std::uint32_t kChunkEdge = 16;
 
-/// Number of bricks of a chunk along x, y and z (stored x fastest): those of the cells whose lowest
-/// vertex the chunk holds.
+/// Number of bricks of a chunk along x, y and z (stored x fastest). They hold the cells whose
+/// lowest vertex is in the chunk.
 constexpr std::array<std::uint32_t, 3> kChunkBricks{kChunkEdge / BrickGrid::kCells[0],
                                                     kChunkEdge / BrickGrid::kCells[1],
                                                     kChunkEdge / BrickGrid::kCells[2]};

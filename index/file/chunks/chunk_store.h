@@ -64,8 +64,8 @@ class ChunkStore {
     /// until it has come from the disk.
     std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::uint32_t> places, const std::stop_token& stop) const;
-    /// Whether `fetch` of so many chunks of a layer, of which none is in the cache, reads all of it:
-    /// a sixth of the chunks are so spread that, with their neighbors, most are needed.
+    /// Whether `fetch` of so many chunks of a layer, none of them in the cache, reads the whole
+    /// layer: a sixth of the chunks are so spread that, with their neighbors, most are needed.
     bool fetches_all(std::size_t places) const { return 6 * places >= grid_.chunks_of_layer(); }
 
     /// The values and bricks of one whole step, for work that needs all of it.

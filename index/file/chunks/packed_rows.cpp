@@ -74,7 +74,7 @@ unsigned planes_of(const std::uint8_t* numbers, std::array<std::uint16_t, kMostB
     return bits;
 }
 
-/// Vectors of which the half of a half has a whole number of rows.
+/// Vectors so long that a quarter of one holds a whole number of rows.
 using Rows = hn::CappedTag<std::uint8_t, HWY_HAVE_SCALABLE ? kRow : 4 * kRow>;
 
 /// By number of bits: all ones in the bytes of a row's planes, zeros in what follows them.
@@ -85,9 +85,9 @@ alignas(kRow) constexpr auto kOwnPlanes = [] {
     return own;
 }();
 
-/// The planes of as many rows as a vector holds. Reads the bytes of eight planes for each, even
-/// those of the next row: testing at each costs more.
-/// @param at of the planes of `row`; moves behind those of the last one
+/// The planes of as many rows as a vector holds. Reads the bytes of eight planes for each row, even
+/// if some belong to the next row: a test at each row costs more.
+/// @param at of the planes of `row`; moves behind the planes of the last row
 template <class D>
 HWY_INLINE hn::Vec<D> planes_of_rows(D d, const std::byte* widths, std::size_t row,
                                      const std::byte*& at) {
@@ -105,7 +105,7 @@ HWY_INLINE hn::Vec<D> planes_of_rows(D d, const std::byte* widths, std::size_t r
     }
 }
 
-/// Exchanges the bits of `mask` with those `kBack` above them.
+/// Exchanges the bits of `mask` with the bits that are `kBack` higher.
 template <int kBack, class D>
 HWY_INLINE hn::Vec<D> exchange(D d, hn::Vec<D> words, std::uint64_t mask) {
     const auto changed = hn::And(hn::Xor(words, hn::ShiftRight<kBack>(words)), hn::Set(d, mask));
@@ -115,7 +115,7 @@ HWY_INLINE hn::Vec<D> exchange(D d, hn::Vec<D> words, std::uint64_t mask) {
 /// Numbers from the planes of rows.
 template <class D>
 HWY_INLINE hn::Vec<D> numbers_of_planes(D d, hn::Vec<D> planes) {
-    // The bytes of the first eight numbers, then those of the others: two squares of 8 x 8 bits.
+    // The bytes of the first eight numbers, then of the other eight: two squares of 8 x 8 bits.
     alignas(kRow) static constexpr std::array<std::uint8_t, kRow> kHalves{
         0, 2, 4, 6, 8, 10, 12, 14, 1, 3, 5, 7, 9, 11, 13, 15};
     const hn::Repartition<std::uint64_t, D> squares;

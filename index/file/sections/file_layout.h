@@ -98,7 +98,7 @@ FileHeader checked_header(const ByteSource& file);
 /// @throws Error when a section lies outside the file @param called the header's name, for this
 void check_sections(const ByteSource& file, const FileHeader& header, const char* called);
 
-/// The other slot than that of the header that counts.
+/// The slot beside the slot of the header that counts.
 struct OtherSlot {
     bool sound = false; ///< it holds an older, intact header
     bool blank = false; ///< all zeros: it was never written

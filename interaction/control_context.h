@@ -48,8 +48,8 @@ struct ControlledSeries {
 /// The arrays to color by.
 struct ColorArrays {
     const std::vector<std::string>* names = nullptr; ///< may be null or empty
-    std::size_t chosen = 0; ///< number of the one whose values are the colors, or would be if
-                            ///< surfaces were colored by an array
+    std::size_t chosen = 0; ///< number of the array that gives the colors, or that would give them
+                            ///< if surfaces were colored by an array
 };
 
 /// Where the room's panel appears when it is called.

@@ -18,7 +18,7 @@
 
 namespace isochron::interaction {
 
-/// What a setting is at first where `Holds<T>` is a value; where it is a change: none.
+/// The first value of a setting where `Holds<T>` is a value; nothing where `Holds<T>` is a change.
 template <template <class> class Holds, class T>
 constexpr Holds<T> at_first(T value) {
     if constexpr (std::same_as<Holds<T>, T>)

@@ -47,7 +47,8 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
 }
 
 /// Appends in place where that can be, else builds anew.
-/// @param file null where nothing is appended to @return what a user should know, or nothing
+/// @param file the index that grows; null where a new one is built
+/// @return what a user should know, or nothing
 std::string write_index(const BuildSources& sources, const BuildArguments& arguments,
                         const index::BuildOptions& options, const index::IndexFile* held,
                         index::GrowingFile* file, const index::Progress& progress,

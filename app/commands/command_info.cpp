@@ -21,7 +21,7 @@ struct InfoArguments {
     bool json = false, tree = false;
 };
 
-/// What no command but this one makes of files: a description, whatever they leave open.
+/// Describes files, even where they leave open which array is meant: only `info` needs no choice.
 void describe_sources(BuildArguments arguments, bool in_json) {
     arguments.read.any_array = true;
     const auto files = expand_patterns(arguments.files);

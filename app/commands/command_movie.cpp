@@ -91,7 +91,7 @@ class Movies {
             movie = open(path, note, glm::ivec2(image.width, image.height));
         }
         writing_.wait_for_room();
-        // All that is said there is what keeps the movie from being written: nobody draws the rest.
+        // A message there means that the movie cannot be written: the other frames are not drawn.
         if (const auto said = writing_.messages(); !said.empty())
             throw index::Error(said.front());
         writing_.post([movie = movie, image = std::move(image), times, text = text_of(note)] {
@@ -226,7 +226,7 @@ void add_movie(Command& program) {
     command
         .option("--eyes", options->eyes,
                 "window: one movie, composed by the stereo mode; each: one movie per eye and "
-                "viewport, whose names are added to that of --out")
+                "viewport, with their names added to the name of --out")
         .one_of({"window", "each"})
         .shows_default();
     command.flag("--force", options->force, "Replace an existing movie");

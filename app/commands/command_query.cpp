@@ -230,8 +230,8 @@ void add_query(Command& program) {
         .shows_default();
     command
         .option("--level", arguments->level,
-                "Level of detail, 0 is the finest; `isochron info` lists them. Ids are those of "
-                "the level's own grid")
+                "Level of detail, 0 is the finest; `isochron info` lists them. Ids count "
+                "the cells of the level's own grid")
         .shows_default();
     command
         .option("--method", arguments->method,

@@ -31,7 +31,7 @@ void run_verify(const std::filesystem::path& path) {
     if (const auto lost = index::lost_state(*file))
         throw index::Error(*lost);
     fmt::print("{}: every checksum matches{}\n", path.string(),
-               file->referral() ? ", those of its sources too" : "");
+               file->referral() ? ", in its sources too" : "");
 }
 
 } // namespace

@@ -27,7 +27,7 @@
 namespace isochron::app {
 namespace {
 
-/// Number of the array to begin with. What an index was made for is its first.
+/// Number of the array to begin with. An index has the array that it was made for as its first.
 std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file) {
     const auto& arrays = options.sources.arrays;
     const bool made_before = options.data_name == *options.data;

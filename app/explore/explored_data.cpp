@@ -58,7 +58,7 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
         throw UsageError("no folder for indexes: neither HOME nor XDG_CACHE_HOME is set; "
                          "isochron build makes an index anywhere");
     auto indexing = std::make_unique<Indexing>(options.sources, *folder);
-    // What cannot be read is nearly always told before a window opens for it.
+    // Nearly all data that cannot be read are refused here, before a window opens for them.
     indexing->wait_for_opening(std::chrono::milliseconds(500));
     indexing->check();
     return indexing;

@@ -70,8 +70,8 @@ class FrameLog {
     /// second frame.
     double frames_per_second(std::size_t count) const;
 
-    /// The speed of the newest 120 frames when a picture was drawn anew last. It stays the same while
-    /// frames show the same: it would be all that changes.
+    /// The speed of 120 frames, up to the last picture that was drawn anew. While frames show the
+    /// same picture the speed stays as it is: otherwise the number alone would change the panel.
     const FrameSpeed& speed() const { return speed_; }
 
     /// Writes JSON with a summary per stage and a row per frame; the file appears when complete.

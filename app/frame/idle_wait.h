@@ -24,7 +24,7 @@ FrameOutlook both(const FrameOutlook& one, const FrameOutlook& other);
 
 /// After a change a few more frames are made, as the panel lays some things out a frame late. A
 /// picture that is not final gets more of them: some choices count frames, and a few wait for a
-/// moment of rest. If nothing at all has come of those, nothing will.
+/// moment of rest. If none of these frames has changed anything, no later one will.
 class IdleWait {
   public:
     static constexpr int kFramesAfter = 3;

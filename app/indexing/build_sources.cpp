@@ -71,7 +71,7 @@ void open_all(const Open& open, const index::ReadOptions& options,
                 sources.component = source.component;
             } else if (info.grid != sources.volume->info().grid ||
                        info.times != sources.volume->info().times) {
-                throw index::Error(fmt::format("its shape or its times are not those of {}",
+                throw index::Error(fmt::format("its shape or its times differ from {}",
                                                sources.volume->info().array));
             } else {
                 sources.further.push_back(std::move(source));

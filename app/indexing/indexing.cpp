@@ -18,8 +18,8 @@ namespace {
 /// Ends the work from its progress.
 struct IndexingStopped {};
 
-/// What is shown goes first: the threads and processes that this thread starts from now on get
-/// what it leaves of the processors.
+/// Pictures go first: the threads and processes that this thread starts from now on get only the
+/// processor time that drawing leaves.
 void give_way_to_pictures() {
     constexpr int kPolite = 10;
     setpriority(PRIO_PROCESS, 0, kPolite);

@@ -43,7 +43,7 @@ std::string state_of_folder(const fs::path& folder) {
     return fmt::format("{} {} {}", files, bytes, newest.time_since_epoch().count());
 }
 
-/// Renewed where the same version of the program reads the same files in another way.
+/// Counted up when a change makes the program read the same files in another way.
 constexpr int kReading = 2;
 
 /// Up to this many bytes of values, an index is made as a whole in less than a second or two.

@@ -57,7 +57,7 @@ Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
     return displays_[cursor.window].ray_at(viewers, {cursor.x, 1.0f - cursor.y});
 }
 
-/// Whether the first window's screens take on the shape of what they have.
+/// Whether the first window's screens adapt to the shape of the window.
 bool Outputs::adapts() const {
     return !room_ && !displays_.empty() &&
            std::ranges::all_of(

@@ -95,7 +95,8 @@ class Outputs {
     /// Keeps the left side of the first window free for the panel over it, if all of its screens
     /// adapt to the shape of the rest. @param pixels width in each eye's part
     void leave_free(int pixels);
-    /// Widens the views of the first window to the left, for a panel there, in the same case.
+    /// Widens the views of the first window to the left, for a panel there, where all of its
+    /// screens adapt to the shape of the rest.
     /// @param share of each eye's width that shows what lies to the left of the screen
     void show_aside(float share);
 

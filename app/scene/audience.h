@@ -1,5 +1,5 @@
-// For whom a picture is drawn: the viewers, how they are shown the scene, and what of theirs is in
-// the room.
+// For whom a picture is drawn: the viewers, their stereo mode, and their wand and panel in the
+// room.
 #pragma once
 
 #include "app/scene/shown_panel.h"
@@ -20,7 +20,7 @@ struct Audience {
     std::optional<interaction::Pose> wand;   ///< where it is shown
     std::optional<ShownPanel> panel;         ///< that stands in the room
     stereo::StereoMode stereo{};             ///< chosen live
-    /// A wand's ray or what is under a cursor is shown, which pictures to keep leave out.
+    /// A wand's ray, or the value under a cursor, is shown; pictures to keep leave these out.
     bool aids = false;
     bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
     bool operator==(const Audience&) const = default;

@@ -31,7 +31,7 @@ class CellSets {
 
     /// Makes ready for an array of values. Call it before the first frame.
     void prepare_for(const index::SeriesInfo& array);
-    /// Makes ready for a set for pictures at rest: that takes longer than a frame may.
+    /// Makes ready for a resting set ahead of time, as this takes longer than a frame may.
     void prepare_for_rest();
 
     /// Uploads the newest set to the GPU, at most the configured number of bytes per call; shows it

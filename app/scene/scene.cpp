@@ -24,7 +24,7 @@ namespace {
 constexpr float kWandLength = 1.2f;             // meters
 constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
 constexpr float kToolLine = 2.0f;               ///< [pixel]
-/// Depth of what no cell hides: the first of it hides what is drawn after it.
+/// Depth of things that no cell hides: among them, the first that is drawn hides the others.
 constexpr double kOverCells = 1e-6;
 constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kBoxOnLight(0.25f, 0.28f, 0.32f, 0.8f);
@@ -84,7 +84,8 @@ bool hidden_by_panel(const Picture& picture, const render::View& view, const glm
     return panel && render::hides(panel->quad, view.eye_in_room(), at);
 }
 
-/// Whether the wand's ray ends on the panel: then it is before all that the panel is before.
+/// Whether the wand's ray ends on the panel: then the ray is in front of everything that is behind
+/// the panel.
 bool points_at_panel(const Picture& picture) {
     return picture.audience.panel && picture.audience.panel->ray && !picture.pointed;
 }
@@ -174,8 +175,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     if (const auto background = background_of(picture.look); background && part.begins)
         for (const render::View& view : views)
             background_pass_.draw(view, *background);
-    // Soft edges blend with what is drawn before them. What splats may hide must come before these
-    // all the same, since they write no depth.
+    // Lines have soft edges, which blend with the pixels below, so lines come after the cells. Only
+    // splats write no depth: lines that splats may hide are drawn before the splats.
     render::CellAppearance appearance = appearance_of(picture);
     const bool depth = writes_depth(footprint, appearance);
     if (!depth && part.begins)

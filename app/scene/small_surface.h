@@ -18,8 +18,9 @@ index::Grid small_grid(bool rectilinear);
 /// mesh and the volume around it.
 index::ExtractionPtr small_surface(const index::Grid& grid);
 
-/// Draws such a surface with each of these footprints, opaque and translucent: as small as the
-/// voxels in the middle of a volume, of many pixels, and as large as on a way through it.
+/// Draws such a surface with each of these footprints, opaque and translucent, in three sizes: as
+/// small as voxels in the middle of a volume, many pixels large, and as large as for a viewer
+/// inside the volume.
 void draw_small_surface(const render::Gl& gl, render::CellPass& pass,
                         std::span<const render::View> views, const index::Grid& volume,
                         const glm::dmat4& room_from_physical,

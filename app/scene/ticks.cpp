@@ -65,7 +65,7 @@ Ticks logarithmic_ticks(double low, double high, int most) {
     };
     const auto count = [](const Ticks& ticks) { return static_cast<int>(ticks.values.size()); };
     if (Ticks dense = within({1, 2, 5}, 1); count(dense) <= most)
-        // Within one decade there may be none of them: then as on a straight axis.
+        // A range within one decade may hold none of these: then ticks are as on a linear axis.
         return count(dense) < 2 ? nice_ticks(low, high, most) : dense;
     for (int every = 1;; ++every)
         if (Ticks ticks = within({1}, every); count(ticks) <= most)

@@ -179,7 +179,8 @@ class IndexFile {
     std::vector<std::uint64_t> epoch_begins_; ///< file offsets of the units of each epoch
     CellTier::Pages units_;                   ///< by epoch
     std::optional<CellTier> cells_;
-    /// Of what is read when it is first asked for; a failure leaves it for the next to ask.
+    /// Guards the parts that are read when they are first asked for; after a failure the next
+    /// caller tries again.
     mutable std::mutex reading_;
     mutable std::shared_ptr<std::byte> all_;
     mutable StepValues values_;

@@ -67,7 +67,7 @@ RoomPanel called(const RoomPanel& panel, const Pose& head, float distance,
                             : beside(head, distance);
     const glm::vec3 to_panel = panel.pose.position - head.position;
     const float away = glm::length(to_panel);
-    // In sight is what is ahead, and what is near the place at which the panel would appear.
+    // A panel is in sight if it is ahead, or near the place where it would appear.
     const glm::vec3 ahead = ahead_of(head, 1.0f).position - head.position;
     const glm::vec3 there = glm::normalize(next.position - head.position);
     const bool in_sight = away > 0.0f && (glm::dot(to_panel, ahead) > kInSight * away ||

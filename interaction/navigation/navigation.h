@@ -14,7 +14,8 @@ glm::dvec3 in_physical(const Similarity& similarity, const glm::dvec3& p);
 /// Unit normal, in the room, of a plane whose physical unit normal is `normal`; and the other way.
 glm::dvec3 normal_in_room(const Similarity& similarity, const glm::dvec3& normal);
 glm::dvec3 normal_in_physical(const Similarity& similarity, const glm::dvec3& normal);
-/// How far a plane moves along its physical unit normal where it moves 1 m along that in the room.
+/// How far a plane moves along its physical unit normal if it moves 1 m along its normal in the
+/// room.
 double physical_per_meter(const Similarity& similarity, const glm::dvec3& normal);
 
 /// Turned by `angle` [rad] about the room line through `center` along the unit vector `axis`.

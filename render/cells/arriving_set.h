@@ -19,8 +19,8 @@ struct SendBudget {
     std::size_t left() const { return bytes - sent; }
 };
 
-/// Sends what says which cells a set has. Blocks of its volume and its mesh are sent beside it, by
-/// CellBuffers.
+/// Sends the cells of a set: their points, or the differences from the shown set. CellBuffers sends
+/// the blocks of its volume and its mesh.
 class ArrivingSet {
   public:
     explicit ArrivingSet(const Gl& gl);

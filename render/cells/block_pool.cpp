@@ -68,7 +68,7 @@ void BlockPool::forget() {
 std::uint32_t BlockPool::take_slot() {
     if (free_.empty()) {
         const std::size_t before = held_.size();
-        // Of a first set all are missing: growing step by step would copy them again and again.
+        // A first set lacks all its blocks: growing step by step would copy them again and again.
         const std::size_t first_set = shown_.empty() ? blocks_->ids.size() : 0;
         values_.reserve(std::max({before + 1, first_set, kFirstCapacity}),
                         DeviceArray::Contents::kept);

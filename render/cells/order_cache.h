@@ -29,7 +29,8 @@ class OrderCache {
 
     /// Work of sorting an order ahead of its first use; 0 if it is there.
     std::size_t work(const CellBuffers& cells, const TraversalKey& key);
-    /// Sorts it on until so much of that work is done. One order at a time is sorted so.
+    /// Goes on sorting an order until `to` of its work is done. Only one order at a time is sorted
+    /// in this way.
     void advance(const CellBuffers& cells, const TraversalKey& key, std::size_t to);
 
     /// Number of orders sorted so far.

@@ -11,7 +11,8 @@
 
 namespace isochron::render {
 
-/// One surface's field upon the other's, as GL_TEXTURE_3D; without a set that nothing surrounds.
+/// The fields of all surfaces, one above the other, as GL_TEXTURE_3D. Before the first set the
+/// field of a surface that nothing surrounds.
 class Surroundings {
   public:
     explicit Surroundings(const Gl& gl);

@@ -52,10 +52,10 @@ struct EvenSides {
     HWY_INLINE V largest() const { return size; }
     /// From voxels to even coordinates.
     HWY_INLINE V3 stretched(const V3& v) const { return scaled(v, {size, size, size}); }
-    /// Half axes of a shape of this radius, and a vector in the units that these are in.
+    /// Half axes of a shape of this radius; then a vector in the units of these half axes.
     HWY_INLINE V half_axes(float radius) const { return hn::Mul(hn::Set(Floats(), radius), size); }
     HWY_INLINE V3 in_form(const V3& v) const { return v; }
-    /// From what that form leads to, to voxels.
+    /// From results in the units of `in_form` to voxels.
     HWY_INLINE V3 in_voxels(const V3& v) const {
         const V share = hn::Div(hn::Set(Floats(), 1.0f), size);
         return scaled(v, {share, share, share});

@@ -93,7 +93,8 @@ class TiledCut {
     HWY_INLINE hn::Vec<Ints> tile(SpanV at) const {
         return hn::ShiftRightSame(pixel_at(at), tiles_.bits);
     }
-    /// What is in all stripes somewhere between two heights above `y_`, or everywhere.
+    /// The columns that are in all stripes, at some height between two heights above `y_`
+    /// (`kSomewhere`) or at every height between them.
     template <bool kSomewhere>
     HWY_INLINE Sides sides_within(SpanV low, SpanV high) const {
         const auto middle = hn::Mul(hn::Add(low, high), set(0.5f));

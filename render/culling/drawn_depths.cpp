@@ -40,7 +40,7 @@ void DrawnDepths::read(const Gl& gl, const View& view) {
 }
 
 bool DrawnDepths::hide(const BoxBounds& bounds) const {
-    // Only what is in the middle of a pixel is drawn, if that is its one sample.
+    // With one sample a pixel, in its middle, only cells over the middles of pixels are drawn.
     const float beside = one_sample_ ? 0.5f : 0.0f;
     const auto first = [beside](float pixel) {
         return static_cast<int>(std::ceil(std::max(pixel, 0.0f) - beside));

@@ -13,7 +13,8 @@ namespace isochron::render {
 /// Miller 1993, doi:10.1145/166117.166147).
 class DrawnDepths {
   public:
-    /// Takes nothing to be drawn in this view of the framebuffer that is bound for drawing.
+    /// Begins with an empty picture: nothing is drawn yet in this view of the framebuffer that is
+    /// bound for drawing.
     void clear(const Gl& gl, const View& view);
     /// Reads the depths of that framebuffer in the same view; with several samples a pixel, goes on
     /// as before.

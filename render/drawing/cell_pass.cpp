@@ -157,7 +157,8 @@ std::size_t CellPass::views_at_once(Footprint footprint) const {
     return apart ? 1 : 2;
 }
 
-/// Whether its cells' order needs no texture: of what is in sight, or of triangles.
+/// Whether the order of cells needs no texture: cells in sight are ordered window by window, and
+/// meshes by their triangles.
 bool CellPass::wants_order_only(Footprint footprint, bool blended) {
     return footprint == Footprint::mesh || comes_in_windows(footprint, blended);
 }
@@ -282,8 +283,8 @@ void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence,
     frame.order_begin = sequences[0].begin;
     frame.order_step = sequences[0].step;
     frame.corners_by_slot = corners_by_slot;
-    // Meshes have a color of their own in each pixel: the target converts these faster to display
-    // values than the shader.
+    // A mesh has another color in each pixel, and the target converts colors to display values
+    // faster than the shader.
     if (footprint == Footprint::mesh && !blended)
         frame.linear_light = 1;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
@@ -291,7 +292,8 @@ void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence,
     gl_->BindTextureUnit(0, cells.texture());
     gl_->BindTextureUnit(kSurroundingsUnit, cells.surroundings().texture());
     cells.axes().bind();
-    // Where there is no map, a texture of the same kind: llvmpipe compiles shaders anew for others.
+    // Without a color map, binds a texture of the same kind: for another kind llvmpipe would
+    // compile its shaders anew.
     gl_->BindTextureUnit(kColorMapUnit,
                          appearance.values ? appearance.values->map : no_colors_.name());
     // Without linear light the shader writes display values, which the target must not convert.

@@ -8,7 +8,7 @@
 namespace isochron::render {
 namespace {
 
-/// Of five equal parts of the work, those that sorting takes where cells are left out then.
+/// Where hidden cells are left out after sorting: sorting is two of five equal parts of the work.
 constexpr std::size_t kSorting = 2, kAllParts = 5;
 
 } // namespace

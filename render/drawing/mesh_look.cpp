@@ -41,8 +41,8 @@ MeshLook mesh_look(const View& view, const Placement& placement, const AxisTable
         surface.opacity = 1.0f;
     const VoxelInView largest = largest_voxel(view, placement, axes);
     constexpr float kFewPixels = 8.0f; // so that light within a triangle is seen to be straight
-    // Highlights are off by at most 2 % if the ways from a triangle to the eye are those in between
-    // the ways from its vertices.
+    // Highlights are off by at most 2 % if the directions from a triangle to the eye are
+    // interpolated between the directions at its vertices.
     constexpr float kEven = 0.05f, kLeastShininess = 4.0f; // see mesh.frag
     const bool even = largest.angle * largest.angle * appearance.shininess <= kEven &&
                       appearance.shininess >= kLeastShininess;

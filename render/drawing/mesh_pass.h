@@ -28,7 +28,8 @@ class MeshPass {
     /// Draws one view with the frame and viewport that CellPass has bound, and its depth and blend
     /// state. (Two in one pass take software GL a third longer.)
     /// @param cells with a mesh, see `CellBuffers::has_mesh`
-    /// @param order in which most is hidden by what comes before; unless there are too many
+    /// @param order of planes, near ones first, so that most triangles are hidden when their turn
+    ///   comes; ignored if there are too many triangles
     /// @param part of the triangles of the surfaces that are drawn
     void draw(const CellBuffers& cells, const MeshLook& look, PlaneOrder order, DrawPart part);
     /// Triangles of the surfaces that `draw` draws.

@@ -103,8 +103,8 @@ glm::vec3 light_of(const Msh& msh) {
         {msh.m * std::cos(msh.s), chroma * std::cos(msh.h), chroma * std::sin(msh.h)});
 }
 
-/// The hue that an unsaturated color gets on the way to a saturated one, which is the darker: a
-/// spin that makes up for the change of magnitude.
+/// The hue that an unsaturated color gets on the way to a saturated, darker color: it is turned as
+/// far as makes up for the change of magnitude.
 float spun_hue(const Msh& saturated, float unsaturated_m) {
     if (saturated.m >= unsaturated_m)
         return saturated.h;

@@ -46,8 +46,8 @@ std::string one_line(std::string text) {
     return text.empty() ? "the picture cannot be read" : text;
 }
 
-/// A file that a picture is read from. OpenImageIO loses memory where a PNG ends early: that one goes
-/// on with zeros, which are no PNG either, and is refused afterwards.
+/// A file that a picture is read from. OpenImageIO loses memory where a PNG ends early. So such a
+/// file seems to go on with zeros, which are no PNG either, and is refused afterwards.
 class PictureFile final : public OIIO::Filesystem::IOFile {
   public:
     explicit PictureFile(const std::string& path) : IOFile(path, IOProxy::Read) {}
@@ -170,7 +170,7 @@ template <typename Value>
 std::vector<Value> read_values(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int count,
                                OIIO::TypeDesc type) {
     std::vector<Value> values(static_cast<std::size_t>(spec.width) * spec.height * count);
-    // A file that is cut is read to its end by some formats' libraries, with an error beside.
+    // Some libraries read a truncated file to its end without failing, and only note an error.
     if (!input.read_image(0, 0, 0, count, type, values.data()) || input.has_error())
         throw std::runtime_error(one_line(input.geterror()));
     return values;

@@ -34,9 +34,9 @@ int exponent_for(ValueType type, double low, double high) {
     }
 }
 
-/// Counts each byte. Counts pairs of bytes where they are many: half as many counters are changed.
-/// Equal bytes often follow each other, and increments of one counter wait for each other, so there
-/// are four sets of counters for the others.
+/// Counts each byte. Of many bytes it counts pairs, which changes half as many counters. Of few
+/// bytes it counts single ones, in four sets of counters: equal bytes often follow each other, and
+/// increments of one counter wait for each other.
 std::array<std::uint64_t, 256> numbers_of_bytes(std::span<const std::byte> bytes) {
     constexpr std::size_t kWorthPairs = 1 << 20; ///< their counters have to be cleared and summed
     constexpr std::size_t kPairs = 1 << 16;

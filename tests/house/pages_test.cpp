@@ -193,6 +193,27 @@ TEST(Pages, OfTheGuideAreAllInItsContentsAndInTheSite) {
         }
 }
 
+/// Pages of the guide that take more than two screens to read.
+Findings long_pages(const std::filesystem::path& root) {
+    Findings found;
+    for (const std::string& page : pages_of(root)) {
+        const std::string text = text_of_page(root / page);
+        if (page.starts_with("docs/guide/") &&
+            (std::ranges::count(text, '\n') > 150 || text.size() > 7500))
+            found.push_back(page);
+    }
+    return found;
+}
+
+TEST(Pages, OfTheGuideTakeAtMostTwoScreens) {
+    EXPECT_EQ(long_pages(checkout()), Findings{});
+    const PlantedTree tree("long_pages");
+    tree.plant("docs/guide/long.md", std::string(151, '\n'));
+    tree.plant("docs/guide/wide.md", std::string(7501, 'x'));
+    tree.plant("docs/guide/short.md", std::string(150, '\n'));
+    EXPECT_EQ(long_pages(tree.root()), (Findings{"docs/guide/long.md", "docs/guide/wide.md"}));
+}
+
 TEST(Pages, TheReadmeIsAFrontPage) {
     const std::string page = text_of_page(checkout() / "README.md");
     EXPECT_LE(std::ranges::count(page, '\n'), 150);

@@ -33,9 +33,9 @@ struct DetailCells {
 /// last regions that would change, those nearest to the middle of the volume stay finer as long as
 /// there is room. Levels depend on the query and the data alone. Cells are counted on the coarsest
 /// level, then on finer ones until there are too many; each level below is assumed to have four
-/// times as many. What the levels lose (lost_cells.h) is added as cells of level 0: if
-/// these are more than a quarter of `most_cells`, they are joined to cells of the finest level at
-/// which they are not. Not thread-safe: keeps its work space.
+/// times as many. What the levels lose (lost_cells.h) is added as cells of level 0, drawn as large as
+/// they are. They are thinned (cell_thinning.h) to what the levels leave of `most_cells`, but not to
+/// less than a quarter. Not thread-safe: keeps its work space.
 class DetailSearch {
   public:
     explicit DetailSearch(std::shared_ptr<const IndexFile> file);

@@ -246,8 +246,14 @@ void coloring_section(const PanelModel& model, Commands& commands) {
         const std::size_t own = names.size();
         for (const LoadedColorMap& map : model.colors.own_maps)
             names.push_back(map.name);
-        choice("map", coloring.map, names, "color map, from the lowest to the highest value",
-               [&](std::size_t i) {
+        std::vector<std::string> shown_names = names;
+        for (std::size_t i = 0; i < own; ++i)
+            shown_names[i] = render::shown_name_of(static_cast<render::ColorMap>(i));
+        const auto now = std::ranges::find(names, coloring.map);
+        choice("map",
+               now == names.end() ? coloring.map
+                                  : shown_names[static_cast<std::size_t>(now - names.begin())],
+               shown_names, "color map, from the lowest to the highest value", [&](std::size_t i) {
                    coloring.map = names[i];
                    coloring.colors = i < own ? std::vector<std::uint32_t>()
                                              : model.colors.own_maps[i - own].colors;

@@ -1,7 +1,7 @@
 // Chooses levels of detail by counting cells, and puts cells of mixed levels together.
 #include "index/detail/detail_search.h"
 
-#include "index/detail/cell_joiner.h"
+#include "index/detail/cell_thinning.h"
 #include "index/detail/lost_cells.h"
 #include "index/surface/cell_colors.h"
 #include "index/surface/coarse_planes.h"
@@ -23,9 +23,9 @@ constexpr double kFiner = 1 << kBitsFiner;
 constexpr double kLeastOfChunk = 64;
 /// How many more cells than asked for are better than another search.
 constexpr double kTolerated = 1.5;
-/// Most cells of a grid for which the first activity of each cell is kept, in two bytes a cell.
+/// Cells of the largest grid of which it is kept when they were first active: two bytes each.
 constexpr std::uint64_t kMostCrossings = std::uint64_t{1} << 28;
-/// At most one in so many of the cells asked for may be cells that levels have lost.
+/// Part of the cells asked for that those may be which levels have lost, however many are drawn.
 constexpr std::uint64_t kPartOfLost = 4;
 
 bool all_at(std::span<const std::uint8_t> levels, unsigned level) {
@@ -269,47 +269,32 @@ bool DetailSearch::add_lost(const SurfacesQuery& query, unsigned finest, DetailC
     if (!by_bricks_ || std::ranges::max(result.levels) <= finest)
         return true;
     LostCells lost(*file_, regions_, finest, searcher(finest));
-    std::vector<JoinedCells> of_surface(query.isovalues.size());
+    std::vector<CellSet> of_surface(query.isovalues.size());
+    std::vector<std::vector<std::uint16_t>> colors(of_surface.size());
+    std::uint64_t all = 0;
     for (std::size_t i = 0; i < of_surface.size(); ++i) {
-        CellSet& set = result.surfaces[i];
-        LostCells::Found found;
+        CellSet &set = result.surfaces[i], &found = of_surface[i];
         if (!std::isfinite(set.query.isovalue))
             continue;
         if (!lost.find(set.query, set.points, result.levels, found, stop) ||
-            !color(set.query, finest, found.cells, of_surface[i].colors, stop))
+            !color(set.query, finest, found, colors[i], stop))
             return false;
-        std::vector<CellPoint>& points = of_surface[i].points;
-        points = std::move(found.cells.points);
-        for (CellPoint& point : points)
-            point = centered(point, finest);
-        points.insert(points.end(), found.chunks.begin(), found.chunks.end());
-        of_surface[i].colors.resize(points.size(), kNoColor);
-        set.candidates += found.cells.candidates;
-        set.search_time += found.cells.search_time;
-        set.shading_time += found.cells.shading_time;
+        all += found.points.size();
+        set.candidates += found.candidates;
+        set.search_time += found.search_time;
+        set.shading_time += found.shading_time;
     }
     searchers_[finest].reset(); // its work space is the largest
-    std::vector<CellJoiner> joiners;
-    for (JoinedCells& surface : of_surface)
-        joiners.emplace_back(std::move(surface), stop);
-    const auto cells = [&] {
-        std::size_t all = 0;
-        for (const CellJoiner& joiner : joiners)
-            all += joiner.cells();
-        return all;
-    };
-    for (unsigned level = 0;
-         level < regions_.coarsest() && cells() > query.detail.most_cells / kPartOfLost; ++level)
-        for (CellJoiner& joiner : joiners)
-            joiner.rise();
-    for (std::size_t i = 0; i < joiners.size(); ++i) {
-        const JoinedCells more = joiners[i].join();
-        for (const CellPoint& point : more.points)
-            result.coarsest = std::max(result.coarsest, level_of_center(point.x));
-        std::vector<CellPoint>& points = result.surfaces[i].points;
-        points.insert(points.end(), more.points.begin(), more.points.end());
-        colors_[i].insert(colors_[i].end(), more.colors.begin(), more.colors.end());
-    }
+    const std::uint64_t most = query.detail.most_cells, drawn = result.cells();
+    const CellThinning thinning(all, std::max(most / kPartOfLost, most - std::min(most, drawn)));
+    for (std::size_t i = 0; i < of_surface.size(); ++i)
+        for (std::size_t n = 0; n < of_surface[i].points.size(); ++n) {
+            const CellPoint& point = of_surface[i].points[n];
+            if (!thinning.keeps({point.x, point.y, point.z}))
+                continue;
+            result.surfaces[i].points.push_back(centered(point, finest));
+            colors_[i].push_back(colors[i][n]);
+        }
     return true;
 }
 

@@ -29,14 +29,13 @@ struct DetailCells {
 };
 
 /// Every region gets the level that the query wishes. While that makes too many cells, all wishes
-/// become coarser by a part of a level; a region whose wish reaches the next level takes it. Among
-/// the regions that the last change would make coarser, the nearest to the middle of the volume
-/// stay finer as long as there is room. Levels depend on the query and the data alone. Cells are
-/// counted on the coarsest level, then on finer levels until there are too many; each finer level
-/// is assumed to have four times as many. Cells that the levels lose (lost_cells.h) are added as
-/// cells of level 0. If there are more lost cells than a quarter of `most_cells`, they are joined
-/// to cells of the finest level that brings their number below this quarter. Not thread-safe: keeps
-/// its work space.
+/// become coarser by a part of a level; a region whose wish reaches the next level takes it. Of the
+/// last regions that would change, those nearest to the middle of the volume stay finer as long as
+/// there is room. Levels depend on the query and the data alone. Cells are counted on the coarsest
+/// level, then on finer ones until there are too many; each level below is assumed to have four
+/// times as many. What the levels lose (lost_cells.h) is added as cells of level 0, drawn as large as
+/// they are. They are thinned (cell_thinning.h) to what the levels leave of `most_cells`, but not to
+/// less than a quarter. Not thread-safe: keeps its work space.
 class DetailSearch {
   public:
     explicit DetailSearch(std::shared_ptr<const IndexFile> file);
@@ -94,7 +93,7 @@ class DetailSearch {
     bool by_bricks_;
     std::vector<std::unique_ptr<LayerSearch>> searchers_; ///< by level
     std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
-    unsigned counted_ = 0;               ///< the finest level whose cells are all known
+    unsigned counted_ = 0;               ///< the finest level of which all is known
     std::vector<std::size_t> in_region_; ///< cells of that level
     double level_zero_ = 1; ///< expected cells of level 0, divided by those in in_region_
     std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface

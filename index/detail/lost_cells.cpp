@@ -1,9 +1,10 @@
 // Finds active cells where a coarser level draws none.
 #include "index/detail/lost_cells.h"
 
+#include "index/detail/cell_thinning.h"
+
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <optional>
 
 namespace isochron::index {
@@ -20,7 +21,7 @@ constexpr std::uint32_t low_vertex(std::uint32_t doubled) {
     return (doubled - (1u << level_of_center(doubled))) / 2;
 }
 
-/// Which cells of a level hold drawn cells: a bit for each, rows begin with a new word.
+/// The cells of a level that hold drawn ones: a bit for each, rows begin with a new word.
 class HoldsDrawn {
   public:
     HoldsDrawn(const Grid& volume, unsigned level) : level_(level) {
@@ -51,7 +52,7 @@ class HoldsDrawn {
                1;
     }
 
-    /// How many of the level's cells around a box of the volume's cells hold drawn cells.
+    /// Which of the cells that hold some of the volume's cells hold drawn ones.
     enum class Share : std::uint8_t { none, some, all };
     /// @param low, high the first and the last of the volume's cells
     Share share(const Place& low, const Place& high) const {
@@ -83,10 +84,10 @@ class HoldsDrawn {
 } // namespace
 
 bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
-                     std::span<const std::uint8_t> levels, Found& found,
+                     std::span<const std::uint8_t> levels, CellSet& found,
                      const std::stop_token& stop) {
     found = {};
-    found.cells.query = query;
+    found.query = query;
     const StepView step = step_in_chunks(file_, query.step, finest_);
     const auto cut = step.cut(query.isovalue);
     if (!cut)
@@ -134,38 +135,28 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
     };
     if (count(only) > most_chunks_)
         only = wholly;
-    if (count(only) > most_chunks_) {
-        const unsigned level = finest_ + static_cast<unsigned>(std::countr_zero(kChunkEdge));
-        const auto middle_of = [level](std::uint32_t chunk) {
-            return static_cast<std::uint16_t>(doubled_center(chunk, level));
-        };
-        for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer)
-            for (const std::uint32_t place :
-                 LayerCandidates::places_of(*step.layer(layer), *cut, layer, wholly)) {
-                const auto [x, y] = chunks.at(place);
-                found.chunks.push_back({middle_of(x), middle_of(y), middle_of(layer), 0, 0});
-            }
-        return !stop.stop_requested();
-    }
-
-    CellSet& cells_found = found.cells;
-    if (!search_.search(step, cells_found, true, true, stop, only))
+    const CellThinning thinning(count(only), most_chunks_);
+    const ChunkFilter read = [&](std::uint32_t layer, std::uint32_t place) {
+        const auto [x, y] = chunks.at(place);
+        return thinning.keeps({x, y, layer}) && only(layer, place);
+    };
+    if (!search_.search(step, found, true, true, stop, thinning.keeps_all() ? only : read))
         return false;
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < cells_found.points.size(); ++i) {
-        const Place cell = place_of(cells_found.points[i]);
+    for (std::size_t i = 0; i < found.points.size(); ++i) {
+        const Place cell = place_of(found.points[i]);
         const unsigned level = level_at(cell);
         if (level <= finest_)
             continue;
         const unsigned down = level - finest_;
         if (drawn_in[level]->at({cell[0] >> down, cell[1] >> down, cell[2] >> down}))
             continue;
-        cells_found.ids[kept] = cells_found.ids[i];
-        cells_found.points[kept++] = cells_found.points[i];
+        found.ids[kept] = found.ids[i];
+        found.points[kept++] = found.points[i];
     }
-    cells_found.ids.resize(kept);
-    cells_found.points.resize(kept);
-    cells_found.rows.clear(); // they count the removed cells, too
+    found.ids.resize(kept);
+    found.points.resize(kept);
+    found.rows.clear(); // they are those of all
     return true;
 }
 

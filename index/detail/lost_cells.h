@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <span>
 #include <stop_token>
-#include <vector>
 
 namespace isochron::index {
 
@@ -18,9 +17,8 @@ namespace isochron::index {
 /// and the cell of that coarser level around it holds no part of any drawn cell.
 class LostCells {
   public:
-    /// Chunks that are read at most. If more chunks may hold lost cells, only the chunks without
-    /// any drawn cell are read; and if these are still too many, each of them counts as one lost
-    /// cell as large as the chunk.
+    /// Chunks that are read, about, at most. If more chunks may hold lost cells, only those are read
+    /// in which nothing at all is drawn; and if these are still too many, they are thinned.
     static constexpr std::size_t kMostChunks = std::size_t{1} << 14;
 
     /// @param finest level that the index has chunks of
@@ -30,17 +28,13 @@ class LostCells {
         : file_(file), regions_(regions), finest_(finest), search_(search),
           most_chunks_(most_chunks) {}
 
-    struct Found {
-        CellSet cells; ///< ids and points of the finest level's grid, ascending
-        /// Unread chunks as cells: points at places of mixed levels.
-        std::vector<CellPoint> chunks;
-    };
     /// @param drawn the cells of the query's surface in a picture, at places of mixed levels
     /// @param levels of the regions in that picture
+    /// @param found gets ids and points of the finest level's grid, ascending
     /// @return false when stopped
     /// @throws Error as ChunkStore does
     bool find(const Query& query, std::span<const CellPoint> drawn,
-              std::span<const std::uint8_t> levels, Found& found, const std::stop_token& stop);
+              std::span<const std::uint8_t> levels, CellSet& found, const std::stop_token& stop);
 
   private:
     const IndexFile& file_;

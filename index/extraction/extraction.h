@@ -30,7 +30,7 @@ struct Extraction {
     /// Else cells come as points only, as detail_regions.h has them, and without the volume around
     /// them.
     std::vector<std::uint8_t> detail;
-    unsigned coarsest = 0; ///< level of its largest cells, which may be larger than their region's
+    unsigned coarsest = 0; ///< level of its largest cells
     /// Number of active cells of the volume itself; empty while it is not known.
     std::optional<std::uint64_t> volume_cells;
     std::chrono::nanoseconds gather_time{0};

@@ -156,6 +156,8 @@ std::vector<glm::vec3> color_map(ColorMap map) {
     case ColorMap::cividis: return color_map_between(lights_of(kCividis));
     case ColorMap::coolwarm: return made_by(coolwarm);
     case ColorMap::turbo: return color_map_between(lights_of(kTurbo));
+    case ColorMap::grayscale:
+        return made_by([](float share) { return linear_from_srgb(glm::vec3(share)); });
     case ColorMap::gray: break;
     }
     return made_by([](float share) {

@@ -20,12 +20,17 @@ enum class ColorMap : std::uint8_t {
     cividis,  ///< blue to yellow, ever lighter: alike with and without red-green blindness
     coolwarm, ///< blue over light gray to red: for values about a middle
     turbo,    ///< the hues of a rainbow, lightest in the middle: tells most values apart
-    gray      ///< lightness alone
+    gray,     ///< lightness alone, lifted off the dark background
+    grayscale ///< black to white
 };
-inline constexpr std::array<std::string_view, 6> kColorMapNames{"viridis",  "inferno", "cividis",
-                                                                "coolwarm", "turbo",   "gray"};
+inline constexpr std::array<std::string_view, 7> kColorMapNames{
+    "viridis", "inferno", "cividis", "coolwarm", "turbo", "gray", "grayscale"};
 constexpr std::string_view name_of(ColorMap map) {
     return kColorMapNames[static_cast<std::size_t>(map)];
+}
+/// What a user reads: the name, and of `gray` how it differs from black to white.
+constexpr std::string_view shown_name_of(ColorMap map) {
+    return map == ColorMap::gray ? "gray, lifted" : name_of(map);
 }
 /// Knows the names of older versions too: `lagoon`, `dusk`, `polar`, `grey`.
 std::optional<ColorMap> color_map_from_name(std::string_view name);
@@ -34,7 +39,7 @@ inline constexpr std::size_t kColorMapSize = 256;
 
 /// The map from low to high, linear light. Lightness L* grows all the way, except in `coolwarm` and
 /// `turbo`, where it grows up to the middle and then falls. `gray` starts at 32, so that low values
-/// still show their shape before a dark background.
+/// still show their shape before a dark background; `grayscale` goes evenly through display values.
 std::vector<glm::vec3> color_map(ColorMap map);
 
 /// A map of kColorMapSize colors, interpolated in L*a*b* between these, which are evenly spaced.

@@ -17,7 +17,7 @@
 #include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
-#include "index/detail/cell_joiner.h"
+#include "index/detail/cell_thinning.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
@@ -93,8 +93,8 @@ void level_choice_example(ValueType type, std::size_t step, std::span<const std:
 #include "index/indexing/level_choice.example"
 }
 
-void cell_joiner_example(JoinedCells cells, const std::stop_token& stop, std::size_t most) {
-#include "index/detail/cell_joiner.example"
+void cell_thinning_example(std::vector<CellPoint> cells, std::uint64_t most) {
+#include "index/detail/cell_thinning.example"
 }
 
 void cell_ray_example(const ExtractionPtr& shown, const Grid& grid, glm::dvec3 wand,

@@ -40,11 +40,11 @@ class LostCellsTest : public testing::Test {
         build_index(series, folder_.path() / "a", {.tiers = TierSet().with(Tier::bricks)});
         file_ = IndexFile::open(folder_.path() / "a", 1);
     }
-    LostCells::Found find(std::span<const CellPoint> drawn, std::span<const std::uint8_t> levels,
-                          std::size_t most) {
+    CellSet find(std::span<const CellPoint> drawn, std::span<const std::uint8_t> levels,
+                 std::size_t most) {
         const DetailRegions regions(file_->info().grid);
         LayerSearch search(file_);
-        LostCells::Found found;
+        CellSet found;
         EXPECT_TRUE(
             LostCells(*file_, regions, 0, search, most).find({0, 0.0}, drawn, levels, found, {}));
         return found;
@@ -55,12 +55,16 @@ class LostCellsTest : public testing::Test {
     std::shared_ptr<const IndexFile> file_;
 };
 
-TEST_F(LostCellsTest, SpecksAndTubesThatNoLevelHasAreDrawn) {
+TEST_F(LostCellsTest, SpecksAndTubesThatNoLevelHasAreDrawnAsLargeAsTheyAre) {
     SurfacesQuery query{0, {0.0}};
-    query.detail.most_cells = 600;
+    query.detail.most_cells = 3000;
+    query.detail.wished.assign(DetailRegions(field_.view().grid).size(),
+                               2 * DetailQuery::kPartsOfLevel);
     const ExtractionPtr found = extract_from(file_)(query, {});
     ASSERT_TRUE(found->coarse());
     ASSERT_GE(std::ranges::min(found->detail), 2);
+    for (const CellPoint& p : found->surfaces[0].points)
+        EXPECT_TRUE(slow_level(p) == 0 || found->detail[0] == slow_level(p));
     const auto drawn_at = [&](double x, double y, double z) {
         return std::ranges::any_of(found->surfaces[0].points, [&](const CellPoint& p) {
             const double half = std::exp2(slow_level(p)) / 2;
@@ -78,7 +82,7 @@ TEST_F(LostCellsTest, SpecksAndTubesThatNoLevelHasAreDrawn) {
     }
 }
 
-TEST_F(LostCellsTest, WhereTheyAreTooManyChunksWithNothingDrawnAreReadOrCountAsCells) {
+TEST_F(LostCellsTest, OfTooManyChunksThoseWithNothingDrawnAreReadOrSomeOfThem) {
     const DetailRegions regions(file_->info().grid);
     const std::vector<std::uint8_t> levels(regions.size(), 2);
     CellSet coarse;
@@ -107,25 +111,35 @@ TEST_F(LostCellsTest, WhereTheyAreTooManyChunksWithNothingDrawnAreReadOrCountAsC
     ASSERT_GT(all.size(), alone.size());
     ASSERT_GT(alone.size(), 100u);
 
-    LostCells::Found found = find(coarse.points, levels, 1000);
-    EXPECT_EQ(places(found.cells.points, 2), places(all));
-    EXPECT_EQ(found.cells.ids.size(), found.cells.points.size());
-    EXPECT_TRUE(found.chunks.empty());
-    found = find(coarse.points, levels, 1);
-    EXPECT_TRUE(found.cells.points.empty());
-    std::set<SlowPlace> whole;
-    for (const CellPoint& p : found.chunks) {
-        EXPECT_EQ(slow_level(p), 4u);
-        EXPECT_EQ(p.plane, 0u);
-        whole.insert({p.x / 32u, p.y / 32u, p.z / 32u});
+    CellSet found = find(coarse.points, levels, 1000);
+    EXPECT_EQ(places(found.points, 2), places(all));
+    EXPECT_EQ(found.ids.size(), found.points.size());
+    std::vector<std::size_t> read; // chunks of which there are cells, by how many may be read
+    std::multiset<LostPlace> fewer;
+    for (const std::size_t most :
+         {std::size_t{0}, chunks.size() / 4, chunks.size() / 2, chunks.size()}) {
+        found = find(coarse.points, levels, most);
+        std::set<SlowPlace> of;
+        for (const CellPoint& p : found.points)
+            of.insert({p.x / 16u, p.y / 16u, p.z / 16u});
+        std::vector<CellPoint> wanted; // all of a chunk's lost cells or none of them
+        for (const CellPoint& p : alone)
+            if (of.contains({p.x / 32u, p.y / 32u, p.z / 32u}))
+                wanted.push_back(p);
+        const auto more = places(found.points, 2);
+        EXPECT_EQ(more, places(wanted)) << most;
+        EXPECT_TRUE(std::ranges::includes(more, fewer)) << "the same chunks, and others";
+        fewer = more;
+        read.push_back(of.size());
     }
-    EXPECT_EQ(whole.size(), found.chunks.size());
-    for (const SlowPlace& chunk : chunks)
-        EXPECT_TRUE(whole.contains(chunk)) << "that has lost cells";
-    EXPECT_LE(whole.size(), 2 * chunks.size());
-    const LostCells::Found as_many = find(coarse.points, levels, whole.size());
-    EXPECT_EQ(places(as_many.cells.points, 2), places(alone));
-    EXPECT_TRUE(as_many.chunks.empty());
+    EXPECT_EQ(read[0], 0u);
+    EXPECT_LT(0u, read[1]);
+    EXPECT_LT(read[1], read[2]);
+    EXPECT_LT(read[2], read[3]);
+    bool all_alone = false; // with room for these, but not for those in which something is drawn
+    for (std::size_t most = chunks.size(); most <= 2 * chunks.size(); most += 4)
+        all_alone |= places(find(coarse.points, levels, most).points, 2) == places(alone);
+    EXPECT_TRUE(all_alone);
 }
 
 } // namespace

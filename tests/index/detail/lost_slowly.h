@@ -1,4 +1,4 @@
-// What the definitions of lost and joined cells say, without any care for speed.
+// What the definitions of lost and thinned cells say, without any care for speed.
 #pragma once
 
 #include "index/detail/detail_regions.h"
@@ -8,6 +8,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -74,42 +75,27 @@ inline std::vector<CellPoint> lost_slowly(const std::shared_ptr<const IndexFile>
     return lost;
 }
 
-/// Joins the cells of all surfaces until there are at most `most`. @return the level of the cells
-inline unsigned join_slowly(std::vector<std::vector<CellPoint>>& surfaces, std::uint64_t most,
-                            unsigned coarsest) {
-    for (unsigned level = 0;; ++level) {
-        std::size_t count = 0;
-        std::vector<std::map<SlowPlace, std::vector<CellPoint>>> groups;
-        for (const auto& surface : surfaces) {
-            auto& of_surface = groups.emplace_back();
-            for (const CellPoint& p : surface) {
-                const SlowPlace low = slow_low(p);
-                of_surface[{low[0] >> level, low[1] >> level, low[2] >> level}].push_back(p);
-            }
-            count += of_surface.size();
-        }
-        if (count > most && level < coarsest)
-            continue;
-        if (level == 0)
-            return 0;
-        for (std::size_t s = 0; s < surfaces.size(); ++s) {
-            surfaces[s].clear();
-            for (const auto& [at, cells] : groups[s]) {
-                glm::dvec3 sum(0.0);
-                for (const CellPoint& p : cells)
-                    sum += unpack_plane(p.plane).normal;
-                const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
-                CellPoint p{};
-                p.x = static_cast<std::uint16_t>((2 * at[0] + 1) << level);
-                p.y = static_cast<std::uint16_t>((2 * at[1] + 1) << level);
-                p.z = static_cast<std::uint16_t>((2 * at[2] + 1) << level);
-                if (2 * length >= static_cast<double>(cells.size()))
-                    p.plane = pack({sum / length, 0.0});
-                surfaces[s].push_back(p);
-            }
-        }
-        return level;
-    }
+/// Thins the cells of level 0 of all surfaces to about `most`: those stay whose places have the lowest
+/// hashes. @return whether some were left out
+inline bool thin_slowly(std::vector<std::vector<CellPoint>>& surfaces, std::uint64_t most) {
+    const auto stirred = [](std::uint64_t z) {
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    };
+    std::uint64_t all = 0;
+    for (const auto& surface : surfaces)
+        all += surface.size();
+    if (all <= most)
+        return false;
+    const double share = static_cast<double>(most) / static_cast<double>(all);
+    for (auto& surface : surfaces)
+        std::erase_if(surface, [&](const CellPoint& p) {
+            const SlowPlace at = slow_low(p);
+            const std::uint64_t row = stirred((std::uint64_t{at[2]} << 32) + at[1]);
+            return std::ldexp(static_cast<double>(stirred(row + at[0]) >> 32), -32) >= share;
+        });
+    return true;
 }
 
 } // namespace isochron::index

@@ -22,7 +22,8 @@ std::vector<glm::vec3> in_lab(ColorMap map) {
 }
 
 constexpr std::array kAllMaps{ColorMap::viridis,  ColorMap::inferno, ColorMap::cividis,
-                              ColorMap::coolwarm, ColorMap::turbo,   ColorMap::gray};
+                              ColorMap::coolwarm, ColorMap::turbo,   ColorMap::gray,
+                              ColorMap::grayscale};
 bool turns_back(ColorMap map) {
     return map == ColorMap::coolwarm || map == ColorMap::turbo;
 }
@@ -104,6 +105,10 @@ TEST(ColorMaps, HaveThePublishedColors) {
                                {ColorMap::turbo, 170 / 255.0, {250, 186, 57}},
                                {ColorMap::turbo, 215 / 255.0, {225, 65, 9}},
                                {ColorMap::turbo, 255 / 255.0, {122, 4, 3}},
+                               {ColorMap::grayscale, 0, {0, 0, 0}}, // `gray` in its _cm.py
+                               {ColorMap::grayscale, 0.25, {64, 64, 64}},
+                               {ColorMap::grayscale, 0.5, {128, 128, 128}},
+                               {ColorMap::grayscale, 1, {255, 255, 255}},
                                {ColorMap::coolwarm, 0, {59, 76, 192}},
                                {ColorMap::coolwarm, 0.125, {98, 130, 234}},
                                {ColorMap::coolwarm, 0.25, {141, 176, 254}},
@@ -141,6 +146,15 @@ TEST(ColorMaps, AreFoundByTheirNamesOldOnesToo) {
     EXPECT_EQ(color_map_from_name("polar"), ColorMap::coolwarm);
     EXPECT_EQ(color_map_from_name("grey"), ColorMap::gray);
     EXPECT_FALSE(color_map_from_name("rainbow"));
+}
+
+TEST(ColorMaps, GrayStaysLiftedAndIsShownAsThat) {
+    const auto lab = in_lab(ColorMap::gray);
+    EXPECT_NEAR(lab.front().x, 32, 0.1);
+    EXPECT_NEAR(lab.back().x, 96, 0.1);
+    EXPECT_EQ(shown_name_of(ColorMap::gray), "gray, lifted");
+    EXPECT_EQ(name_of(ColorMap::gray), "gray");
+    EXPECT_EQ(shown_name_of(ColorMap::grayscale), "grayscale");
 }
 
 TEST(ColorMaps, MayBeReversedAndInBands) {

@@ -4,6 +4,7 @@
 #include "app/config/shipped_configs.h"
 #include "stereo/context/gl_context.h"
 #include "tests/bench/motion/likeness.h"
+#include "tests/bench/motion/own_display.h"
 #include "tests/bench/motion/references.h"
 
 #include <fmt/format.h>
@@ -59,6 +60,10 @@ struct Likenesses {
             row.overlap_worst = std::min(row.overlap_worst, each.overlap);
             row.luminance_worst = std::max(row.luminance_worst, each.luminance_off);
         }
+        row.recognizable = all.empty()
+                               ? 0
+                               : static_cast<double>(std::ranges::count_if(all, is_recognizable)) /
+                                     static_cast<double>(all.size());
     }
 };
 
@@ -111,6 +116,7 @@ void shrink(const render::Image& from, render::Image& into, int left, int top, i
 } // namespace
 
 std::vector<MotionCase> cases_of(const CaseOptions& options) {
+    constexpr std::string_view kInWindow[]{"demo", "192", "256"};
     const std::vector<std::string> in_squares{"demo", "192", "256", "512", "tubes"};
     std::vector<MotionCase> cases;
     const auto add = [&](MotionCase of) {
@@ -135,6 +141,12 @@ std::vector<MotionCase> cases_of(const CaseOptions& options) {
                  .size = {1024, 1024},
                  .budgets = {8.3, 16.7, 33, 100},
                  .motions = {Motion::sway, Motion::walk_in}});
+        const auto in_window = std::ranges::find(kInWindow, data.name);
+        if (in_window != std::end(kInWindow))
+            add({.data = data,
+                 .budgets = {kBudgetOfWindow},
+                 .motions = {Motion::sway, Motion::orbit, Motion::scrub},
+                 .window = true});
         if (data.name == "192")
             add({.data = data,
                  .size = {1920, 960},
@@ -151,6 +163,9 @@ std::vector<ComparedMotion> play_case(const MotionCase& of, const std::filesyste
                                       const index::Progress& progress) {
     const auto file = open_moved(of.data, kept, progress);
     const app::Config config = config_of(of);
+    std::optional<OwnDisplay> display;
+    if (of.window)
+        display.emplace();
     References references(config, file, check);
     std::vector<Played> all;
     for (const double budget : of.budgets) {
@@ -169,7 +184,8 @@ std::vector<ComparedMotion> play_case(const MotionCase& of, const std::filesyste
             played.row.width = of.size.x / of.eyes;
             played.row.height = of.size.y;
             played.row.eyes = of.eyes;
-            played.row.budget_ms = budget;
+            if (!of.window)
+                played.row.budget_ms = budget;
             for (const ShownPicture& picture : played.moving)
                 references.wanted(picture);
             references.wanted(played.stopped);

@@ -19,10 +19,13 @@ struct MotionCase {
     MovedData data;
     glm::ivec2 size{1280, 720}; ///< of the window
     int eyes = 1;
-    std::vector<double> budgets; ///< [ms]
+    std::vector<double> budgets; ///< [ms]; of a window it chooses by itself: one
     std::vector<Motion> motions;
     bool window = false; ///< on the display, with what the program has by default
 };
+
+/// Stands for what a window has by default, one period of its display.
+constexpr double kBudgetOfWindow = 0;
 
 struct CaseOptions {
     std::vector<std::string> data = moved_names();

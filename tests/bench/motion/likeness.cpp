@@ -134,6 +134,13 @@ double specks_in(const PixelMask& mask) {
     return all > 0 ? static_cast<double>(in_specks) / static_cast<double>(all) : 0;
 }
 
+bool is_recognizable(const Likeness& like) {
+    constexpr double kLitOff = 0.1, kOverlap = 0.85, kBlocksOff = 0.15;
+    if (is_of_specks(like))
+        return like.block_lit_off <= kBlocksOff && like.block_light_off <= kBlocksOff;
+    return std::abs(like.lit - 1) <= kLitOff && like.overlap >= kOverlap;
+}
+
 Likeness likeness(const render::Image& moving, const render::Image& settled,
                   const render::Image& without) {
     expect_same_size(moving, settled);

@@ -43,6 +43,13 @@ struct Likeness {
     double pixels_off = 0; ///< share of all pixels with a channel that differs by more than kLitBy
 };
 
+/// Whether the picture consists of specks, of which no overlap tells anything: blocks do.
+inline bool is_of_specks(const Likeness& like) {
+    return like.specks > 0.5;
+}
+/// Whether somebody sees the same things in both pictures.
+bool is_recognizable(const Likeness& like);
+
 /// @param without the same view without cells; all three of one size
 Likeness likeness(const render::Image& moving, const render::Image& settled,
                   const render::Image& without);

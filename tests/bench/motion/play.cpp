@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace isochron::bench {
 namespace {
@@ -24,6 +25,8 @@ double promised_ms(const Report& report) {
     else
         return report.budget.count();
 }
+
+constexpr double kRestBetween = 1.5; ///< [s] most, between two motions
 
 /// Frames of a motion while they are counted.
 struct CountedMotion {
@@ -120,7 +123,7 @@ ShownPicture Player::shown(const interaction::InputState& input) const {
     return shown;
 }
 
-bool Player::settle(const app::ExplorerState& state) {
+bool Player::settle(const app::ExplorerState& state, double longest) {
     const MotionScript script(Motion::sway, options_.seconds, state, {}, 1);
     interaction::Commands commands = state.as_commands();
     const double began = now();
@@ -130,12 +133,13 @@ bool Player::settle(const app::ExplorerState& state) {
         frame(script, 0, commands);
         commands = {};
         pacer_.wait();
-    } while (now() < began + kLeast || (!is_final() && now() < began + options_.longest_rest));
+    } while (now() < began + kLeast || (!is_final() && now() < began + longest));
     return is_final();
 }
 
 Played Player::play(Motion motion, const app::ExplorerState& start) {
-    settle(start);
+    // What happened before is settled; the place alone may be new.
+    settle(start, std::exchange(fresh_, false) ? options_.longest_rest : kRestBetween);
     Played played;
     const FrameReport& before = session_.log().frames().back();
     played.row.cells = before.volume_cells.value_or(before.cells);
@@ -200,6 +204,7 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
         control.run(std::min(row.frame_ms, promised), promised, options_.seconds / 4, check_);
     row.control_two = late.over_two;
     row.control_three = late.over_three;
+    row.budget_ms = promised;
     return played;
 }
 

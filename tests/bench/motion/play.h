@@ -31,9 +31,9 @@ struct Played {
 };
 
 struct PlayOptions {
-    double seconds = 2;      ///< of a motion
-    double every = 8.0 / 30; ///< [s] between pictures that are kept
-    double longest_rest = 8; ///< [s] that the picture after it may take
+    double seconds = 2;       ///< of a motion
+    double every = 8.0 / 30;  ///< [s] between pictures that are kept
+    double longest_rest = 12; ///< [s] that the picture after it may take
 };
 
 /// Moments of a motion at which pictures are kept: the same for all budgets.
@@ -52,11 +52,11 @@ class Player {
            stereo::Windows windows, const PlayOptions& options, Check check);
 
     app::Session& session() { return session_; }
-    /// Waits until the picture of a state is final. @return whether it became so
-    bool settle(const app::ExplorerState& state);
     Played play(Motion motion, const app::ExplorerState& start);
 
   private:
+    /// Shows a state and waits until its picture is final. @param longest [s]
+    bool settle(const app::ExplorerState& state, double longest);
     double now() const;
     const app::FrameReport& frame(const MotionScript& script, double at,
                                   const interaction::Commands& commands);
@@ -71,6 +71,7 @@ class Player {
     app::Pacer pacer_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     interaction::InputState input_; ///< of the last frame
+    bool fresh_ = true;             ///< nothing has been played yet
 };
 
 } // namespace isochron::bench

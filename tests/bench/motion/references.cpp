@@ -15,7 +15,7 @@ class StillSession {
   public:
     StillSession(const app::Config& config, std::shared_ptr<const index::IndexFile> file)
         : config_(config), context_(stereo::make_context(
-                               stereo::ContextKind::egl,
+                               config.rendering.context,
                                {.size = config.installation.windows.front().size, .vsync = false})),
           session_(config_, std::move(file), *context_) {}
 

@@ -22,6 +22,7 @@ struct MotionRow {
     double block_lit_off = 0, block_light_off = 0;
     double specks = 0;
     double pixels_off = 0;
+    double recognizable = 0; ///< share of the pictures, see `is_recognizable`
 
     // While it moved.
     std::string drawn;             ///< footprints, and levels of detail if coarse
@@ -61,6 +62,7 @@ void each_field_of_motion(Row& row, Field&& field) {
     field("block_light_off", row.block_light_off);
     field("specks", row.specks);
     field("pixels_off", row.pixels_off);
+    field("recognizable", row.recognizable);
     field("drawn", row.drawn);
     field("drawn_cells", row.drawn_cells);
     field("frames", row.frames);

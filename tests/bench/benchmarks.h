@@ -9,6 +9,7 @@ void add_index(app::Command& program);
 void add_render(app::Command& program);
 void add_artifacts(app::Command& program);
 void add_detail(app::Command& program);
+void add_motion(app::Command& program);
 void add_results(app::Command& program);
 void add_scale(app::Command& program);
 

@@ -1,0 +1,24 @@
+// The rows of the motion benchmark as JSON and as a table.
+#pragma once
+
+#include "tests/bench/motion/row.h"
+#include "tests/bench/pages/header.h"
+
+#include <string>
+#include <vector>
+
+namespace isochron::bench {
+
+struct MotionResults {
+    Header header;
+    std::vector<MotionRow> rows;
+};
+std::string to_json_text(const MotionResults& results);
+/// @throws index::Error when a field is missing or has the wrong type
+MotionResults motion_from_json(const std::string& text, const std::string& name);
+
+/// For a terminal: what the columns are, and a row.
+std::string motion_table_head();
+std::string motion_table_line(const MotionRow& row);
+
+} // namespace isochron::bench

@@ -160,7 +160,8 @@ MessageBytes encoded(const FramePlan& plan) {
                {"detail", detail_json(plan.detail)},
                {"shows_parts", plan.shows_parts},
                {"holds_finer", plan.holds_finer},
-               {"all_at_rest", plan.all_at_rest}};
+               {"all_at_rest", plan.all_at_rest},
+               {"moves_finest", plan.moves_finest}};
     if (plan.in_parts)
         value["in_parts"] = *plan.in_parts;
     if (plan.unseen)
@@ -182,13 +183,14 @@ FramePlan decode_plan(std::span<const std::byte> bytes) {
         std::nullopt,
         boolean(members.at("shows_parts"), "shows_parts"),
         boolean(members.at("holds_finer"), "holds_finer"),
-        boolean(members.at("all_at_rest"), "all_at_rest")};
+        boolean(members.at("all_at_rest"), "all_at_rest"),
+        boolean(members.at("moves_finest"), "moves_finest")};
     if (const json* in_parts = members.find("in_parts"))
         plan.in_parts = footprint_from(*in_parts);
     if (const json* unseen = members.find("unseen"))
         plan.unseen = footprint_from(*unseen);
     members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
-                  "shows_parts", "holds_finer", "all_at_rest", "unseen"});
+                  "shows_parts", "holds_finer", "all_at_rest", "moves_finest", "unseen"});
     return plan;
 }
 

@@ -44,6 +44,9 @@ struct QualityConfig {
     /// (the best one of all in a fixed-step replay, which measures nothing).
     std::optional<render::Footprint> settled;
     double frame_budget_ms = 0; ///< [ms] for drawing a frame; 0: one period of the display
+    /// [ms] that a moving picture may take, at most, where it could not be recognized otherwise;
+    /// 0: the budget.
+    double longest_ms = 100;
     /// [ms] for drawing a picture at rest, at once or in parts; 0: the same as for other frames.
     double still_budget_ms = 500;
     interaction::StillnessLimits stillness;

@@ -133,6 +133,7 @@ FrameLog::Moving FrameLog::moving() const {
         if (frame.pace == interaction::Pace::moving && frame.redrawn && frame.cells > 0) {
             ++moving.frames;
             moving.as_surface += render::has_layers(frame.footprint);
+            moving.slower += frame.slower;
         }
     return moving;
 }
@@ -162,7 +163,7 @@ FrameLog::Late FrameLog::late() const {
     for (const FrameReport& frame : frames_)
         if (is_late(frame)) {
             ++late.over_two;
-            late.over_three += frame.total > (kLate + 1) * frame.budget;
+            late.over_three += frame.total > (kLate + 1) * due_time(frame);
             ++late.stages[longest_stage(frame)];
         }
     return late;
@@ -200,7 +201,9 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
     report["missed"] = missed();
     for (const render::Footprint footprint : kFootprints)
         report["footprints"][name_of(footprint)] = frames_with(footprint);
-    report["moving"] = {{"frames", moving().frames}, {"as_surface", moving().as_surface}};
+    report["moving"] = {{"frames", moving().frames},
+                        {"as_surface", moving().as_surface},
+                        {"slower", moving().slower}};
     const Rests still = rests();
     report["rests"] = {{"count", still.count},
                        {"exact", still.exact_after.size()},
@@ -228,6 +231,7 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                                                                : nlohmann::json()},
                            {"reason", name_of(frame.reason)},
                            {"budget_ms", frame.budget.count()},
+                           {"promised_ms", frame.promised.count()},
                            {"expected_ms", time_json(frame.expected)},
                            {"missed", frame.missed},
                            {"after_wait", frame.after_wait},

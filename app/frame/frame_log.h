@@ -45,9 +45,11 @@ class FrameLog {
     unsigned missed() const; ///< sum over all kept frames
     std::uint64_t frames_with(render::Footprint footprint) const;
 
-    /// Frames that moved and showed cells, and how many of these frames showed the surface itself.
+    /// Frames that moved and showed cells, and how many of these frames showed the surface itself, or
+    /// were promised a longer time than wanted.
     struct Moving {
         std::uint64_t frames = 0, as_surface = 0; ///< as mesh or exact surface
+        std::uint64_t slower = 0;                 ///< so that the picture is recognized
     };
     Moving moving() const;
     /// How often the picture came to rest, and for the rests with an exact surface the time from

@@ -22,10 +22,12 @@ struct FrameDrawing {
     interaction::Pace pace = interaction::Pace::moving;
     render::Footprint footprint = render::Footprint::quad;
     QualityReason reason = QualityReason::moving; ///< for the footprint
-    bool final = false;      ///< the picture is as good as it gets for these cells
-    bool retries = false;    ///< a better footprint that did not fit is tried again soon
-    bool after_wait = false; ///< nothing was to be done since the frame before
-    Milliseconds budget{0};  ///< for drawing
+    bool final = false;       ///< the picture is as good as it gets for these cells
+    bool retries = false;     ///< a better footprint that did not fit is tried again soon
+    bool after_wait = false;  ///< nothing was to be done since the frame before
+    Milliseconds budget{0};   ///< for drawing
+    Milliseconds promised{0}; ///< from one moving picture to the next
+    bool slower = false;      ///< that is longer than wanted, so that the picture is recognized
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
     std::optional<render::Footprint> in_parts; ///< of the picture at rest in parts, if any

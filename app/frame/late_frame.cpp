@@ -26,8 +26,13 @@ std::pair<const char*, Milliseconds> longest_of(const FrameReport& frame) {
 
 } // namespace
 
+Milliseconds due_time(const FrameReport& frame) {
+    return std::max(frame.budget, frame.promised);
+}
+
 bool is_late(const FrameReport& frame) {
-    return frame.budget.count() > 0 && frame.total > kLate * frame.budget;
+    const Milliseconds due = due_time(frame);
+    return due.count() > 0 && frame.total > kLate * due;
 }
 
 const char* longest_stage(const FrameReport& frame) {

@@ -7,10 +7,13 @@
 
 namespace isochron::app {
 
-/// A frame is late if it takes more than this many budgets.
+/// A frame is late if it takes more than this many times what was promised, or its budget.
 inline constexpr double kLate = 2;
 
-/// Whether a frame took more than `kLate` budgets. Frames without a budget never are late.
+/// The time that a frame should take: what was promised, or its budget if that is longer; 0: any.
+Milliseconds due_time(const FrameReport& frame);
+
+/// Whether a frame took more than `kLate` times its due time. Frames without one never are late.
 bool is_late(const FrameReport& frame);
 
 /// The stage that took most of a frame: `wait`, `upload`, `draw`, `barrier`, `present`, or `rest`:

@@ -106,7 +106,8 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
             static_cast<double>(std::max<std::size_t>(seen.size(), 1));
 }
 
-index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn) {
+index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn,
+                                            std::uint64_t least) {
     const double cells = fit.value_or(static_cast<double>(kAtFirst));
     const auto holds = [&](int step, double share) {
         return share * static_cast<double>(cells_of(step)) <= cells;
@@ -121,6 +122,8 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
     if (drawn == cells_of(step_) && drawn < most_ && seen_ >= kAsMuchSeen * seen_then_)
         for (int more = 0; more < kMostSteps && holds(step_ + 1, kUp); ++more)
             ++step_;
+    while (cells_of(step_) < std::min(least, most_))
+        ++step_;
     if (step_ != before)
         seen_then_ = seen_;
     kept_.resize(ideal_.size());

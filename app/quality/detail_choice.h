@@ -50,7 +50,9 @@ class DetailChoice {
     /// little until the head turns back.
     /// @param fit cells that are expected to fit the budget; empty: not known yet
     /// @param drawn `most_cells` of the cells that are drawn
-    index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn);
+    /// @param least that the picture is recognized by: it has so many at once, whatever fits
+    index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn,
+                                  std::uint64_t least = 0);
     /// For a picture that has just come to rest: level 0 wherever a voxel is larger than half a
     /// pixel, and elsewhere a level whose voxels are at most 0.7 pixels large.
     /// @param cells that it may have

@@ -23,6 +23,8 @@ struct FramePlan {
     bool shows_parts = false; ///< parts are whole everywhere, and shown
     bool holds_finer = false; ///< finer cells of the same picture come in parts alone
     bool all_at_rest = false; ///< all cells are wanted for this picture at rest
+    /// The set for pictures at rest is drawn while the picture moves, too: it fits.
+    bool moves_finest = false;
     /// Footprint to measure off screen, in the time that frames leave; empty: none.
     std::optional<render::Footprint> unseen{};
     bool operator==(const FramePlan&) const = default;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -23,10 +24,18 @@ constexpr interaction::Seconds kTrialsAtRest{0.15};
 FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
     : settled_(config.quality.settled), wanted_budget_(config.quality.frame_budget_ms),
-      still_budget_(config.quality.still_budget_ms),
+      still_budget_(config.quality.still_budget_ms), longest_(config.quality.longest_ms),
       configured_period_(period_of(config, refresh_rate)), period_(configured_period_),
-      steady_(wanted_budget_.count() > 0 ? wanted_budget_ : period_),
-      still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
+      promise_(promise_for(wanted_budget_.count() > 0 ? wanted_budget_ : period_, false)),
+      steady_(promise_.wanted()), still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
+
+/// A headset's runtime moves pictures itself, but at the headset's rate.
+MotionPromise FrameQuality::promise_for(Milliseconds wanted, bool in_headset) const {
+    if (in_headset)
+        return MotionPromise(wanted);
+    const Milliseconds all = wanted_budget_.count() > 0 ? wanted : MotionPromise::kAtEase;
+    return MotionPromise(wanted, {.all = std::min(all, longest_), .least = longest_});
+}
 
 void FrameQuality::set_headset_period(std::optional<Milliseconds> period) {
     // Runtimes tell their period to the nanosecond, and it varies a little.
@@ -37,6 +46,7 @@ void FrameQuality::set_headset_period(std::optional<Milliseconds> period) {
     period_ = wanted;
     if (wanted_budget_.count() > 0)
         return;
+    promise_ = promise_for(period_, period.has_value());
     steady_ = QualityController(period_);
     still_ = QualityController(std::max(period_, still_budget_));
 }
@@ -50,14 +60,64 @@ std::vector<DrawSample> FrameQuality::collect(FrameLog& log) {
 }
 
 void FrameQuality::learn(std::span<const DrawSample> samples) {
-    for (const DrawSample& sample : samples)
+    for (const DrawSample& sample : samples) {
+        // The first picture of all makes what all further ones have, such as the panel's font.
+        if (sample.load.cells <= 0 && !std::exchange(begun_, true))
+            continue;
         for (QualityController* controller : {&steady_, &still_})
             controller->measured(sample.footprint, sample.load, sample.cost());
+    }
+}
+
+/// Empty before the first measurement.
+std::optional<MotionCosts> FrameQuality::motion_costs() const {
+    constexpr double kMany = 1e6;
+    const auto cost = [&](double cells) {
+        return steady_.expected(render::Footprint::quad, {cells * charged_.cells, charged_.pixels});
+    };
+    const auto none = cost(0), many = cost(kMany);
+    if (!none || !many || !(*many > *none))
+        return std::nullopt;
+    // A configured budget is one for drawing alone.
+    const Milliseconds beside = wanted_budget_.count() > 0 ? Milliseconds(0) : beside_;
+    return MotionCosts{beside, *none, (*many - *none) / kMany};
+}
+
+/// Promises a time for moving pictures; what presenting leaves of it is their budget.
+void FrameQuality::keep_promise(FrameReport& report, Choosing how) {
+    constexpr double kLeastDrawing = 0.25; // share of the promise
+    if (report.volume_cells)
+        all_cells_ = report.volume_cells;
+    if (how == Choosing::with_parts) {
+        const auto costs = motion_costs();
+        promise_.update(costs, all_cells_, report.time);
+        const Milliseconds time = promise_.time();
+        const Milliseconds budget =
+            std::max(time - (costs ? costs->beside : Milliseconds(0)), kLeastDrawing * time);
+        steady_.set_budget(budget);
+        still_.set_budget(std::max(budget, still_budget_));
+    }
+    report.promised = promise_.time();
+    report.slower = promise_.time() > promise_.wanted();
+}
+
+bool FrameQuality::fits_in_motion(std::uint64_t cells, bool moves) const {
+    constexpr double kTakenUp = 0.85;
+    const auto cost = steady_.expected(
+        render::Footprint::quad, {static_cast<double>(cells) * charged_.cells, charged_.pixels});
+    return cost && *cost <= (moves ? 1.0 : kTakenUp) * steady_.budget();
+}
+
+bool FrameQuality::may_be_shown_in_motion(std::uint64_t cells) const {
+    const auto cost = steady_.expected(
+        render::Footprint::quad, {static_cast<double>(cells) * charged_.cells, charged_.pixels});
+    return cost && *cost <= std::max(steady_.budget(), longest_);
 }
 
 FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosing how,
                                render::FootprintSet available, render::FootprintSet possible,
                                FrameReport& report) {
+    keep_promise(report, how);
     if (changed)
         changed_at_ = report.time;
     const bool still = report.time - changed_at_ >= kStillAfter;
@@ -70,6 +130,14 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     if (input.by_pace)
         input.settled = input.settled.value_or(render::kBestFootprint);
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
+    // Splats are for the paper's pair, and for pictures at rest: of who asks for them, or of levels
+    // that have no surface.
+    const bool may_rest = settled_ || !available.has(render::Footprint::surface);
+    const bool splats = input.by_pace || input.mode == interaction::QualityMode::paper ||
+                        (may_rest && input.pace != interaction::Pace::moving);
+    for (render::FootprintSet* set : {&available, &possible})
+        if (!splats)
+            set->remove(render::Footprint::gaussian);
     input.available = available;
     const auto in_the_end = partial(input, how);
     if (still || report.pace == interaction::Pace::moving)
@@ -152,16 +220,14 @@ void FrameQuality::learn_parts(render::Footprint footprint, std::uint64_t cells,
 }
 
 std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const {
-    constexpr double kShare = 0.75, kMany = 1e6;
-    const QualityController& controller = pace == interaction::Pace::moving ? steady_ : still_;
-    const auto cost = [&](double cells) {
-        return controller.expected(render::Footprint::quad,
-                                   {cells * charged_.cells, charged_.pixels});
-    };
-    const auto none = cost(0), many = cost(kMany);
-    if (!none || !many || !(*many > *none))
+    constexpr double kShare = 0.75;
+    const auto costs = motion_costs();
+    if (!costs)
         return std::nullopt;
-    return std::max(0.0, kMany * ((kShare * controller.budget() - *none) / (*many - *none)));
+    const bool moves = pace == interaction::Pace::moving;
+    const double share = moves ? MotionPromise::kRoom : kShare;
+    const Milliseconds budget = (moves ? steady_ : still_).budget();
+    return std::max(0.0, (share * budget - costs->fixed) / costs->of_cell);
 }
 
 void FrameQuality::begin(std::uint64_t frame) {
@@ -176,7 +242,7 @@ void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milli
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {
     // With a budget longer than the display's period, that many missed refreshes are intended.
-    const double periods = between / std::max(period_, steady_.budget());
+    const double periods = between / std::max(period_, promise_.time());
     return static_cast<unsigned>(std::clamp(std::round(periods) - 1.0, 0.0, 1e9));
 }
 

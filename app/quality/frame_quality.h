@@ -16,6 +16,7 @@
 #include "app/frame/frame_log.h"
 #include "app/quality/draw_meter.h"
 #include "app/quality/frame_plan.h"
+#include "app/quality/motion_promise.h"
 #include "app/quality/quality_controller.h"
 
 #include <optional>
@@ -73,6 +74,18 @@ class FrameQuality {
                      render::FootprintSet available, render::FootprintSet possible,
                      FrameReport& report);
 
+    /// Whether a moving picture of so many cells, as quads, is expected to keep the promise.
+    /// @param moves it is drawn so already: then a little more is no reason to leave it
+    bool fits_in_motion(std::uint64_t cells, bool moves) const;
+    /// Adds what presenting a picture took besides drawing it: nothing of a frame's time can be won
+    /// there by drawing less.
+    void presented(Milliseconds time) { beside_ += kNewest * (time - beside_); }
+
+    /// Whether a moving picture of so many cells takes no longer than any may.
+    bool may_be_shown_in_motion(std::uint64_t cells) const;
+    /// The number of cells below which no moving picture is recognized.
+    std::uint64_t least_cells() const { return least_recognized(all_cells_); }
+
     /// Cells that quads are expected to draw in every view within the budget, of moving pictures or
     /// of those at rest, with room to spare; empty before the first measurement.
     std::optional<double> cells_that_fit(interaction::Pace pace) const;
@@ -104,11 +117,20 @@ class FrameQuality {
         std::optional<Milliseconds> cost; ///< expected
     };
     std::optional<render::Footprint> partial(const QualityInput& input, Choosing how) const;
+    std::optional<MotionCosts> motion_costs() const;
+    void keep_promise(FrameReport& report, Choosing how);
+    MotionPromise promise_for(Milliseconds wanted, bool in_headset) const;
 
+    static constexpr double kNewest = 0.1; ///< share of a new time in the mean
     const std::optional<render::Footprint> settled_;
     const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
+    const Milliseconds longest_;                      ///< of a moving picture, as configured
     const Milliseconds configured_period_;            ///< of frames without a headset
     Milliseconds period_;                             ///< of frames now
+    MotionPromise promise_;
+    bool begun_ = false;                     ///< a picture without cells was measured
+    std::optional<std::uint64_t> all_cells_; ///< of level 0, as last counted
+    Milliseconds beside_{0};                 ///< that presenting takes
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last

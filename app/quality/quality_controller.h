@@ -95,6 +95,8 @@ class QualityController {
     QualityChoice choose(const QualityInput& input);
 
     Milliseconds budget() const { return budget_; }
+    /// What was measured stays; whether it fits is asked of the new budget.
+    void set_budget(Milliseconds budget) { budget_ = budget; }
     /// Expected cost of a footprint; empty before it has been measured.
     std::optional<Milliseconds> expected(render::Footprint footprint, const DrawLoad& load) const {
         return of(footprint).cost.predict(load);

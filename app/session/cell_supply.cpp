@@ -14,6 +14,9 @@ CellSets::Use use_of(const index::ExtractionPtr& set) {
     return set && set->query.detail.at_rest ? CellSets::Use::at_rest : CellSets::Use::always;
 }
 
+/// Sets have about as many cells as they may: levels change by regions.
+constexpr double kNearly = 0.6;
+
 /// Whether a set shows the cells that this frame asks for.
 bool shows(const index::ExtractionPtr& set, const Frame& frame) {
     return set && set->query.of_cells() == frame.report.asked;
@@ -80,7 +83,8 @@ void CellSupply::take_newest(const Frame& frame) {
             cells = frame.sharing.cells(extractor_, sets_.shown(), frame.waiting);
         }
     }
-    sets_.draw_at_rest(!in_motion && !is_half_sent(frame), frame.report.asked);
+    sets_.draw_at_rest((!in_motion || moves_finest(frame)) && !is_half_sent(frame),
+                       frame.report.asked);
     if (cells.show)
         say_refused(*cells.show, frame);
     if (cells.stage && sets_.stage(cells.stage, use_of(cells.stage)))
@@ -198,11 +202,28 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     const bool later =
         frame.is_live() && !frame.is_kept && !frame.plan.all_at_rest && comes_late(sets_.shown());
-    if ((rests_ && !later) || !moving || sets_.shown() == moving)
+    if ((rests_ && !later) || !moving || sets_.shown() == moving || moves_finest(frame))
         return false;
     sets_.draw_at_rest(false, frame.report.asked);
     report_cells(frame.report);
     return true;
+}
+
+/// Whether the plan shows the set for pictures at rest while the picture moves: it is there, has what
+/// is asked for, and moving pictures of it keep the promise.
+bool CellSupply::moves_finest(const Frame& frame) {
+    return frame.is_live() && frame.plan.moves_finest;
+}
+
+bool CellSupply::may_move_finest(const Frame& frame, const FrameQuality& quality) const {
+    const index::ExtractionPtr& resting = sets_.held(CellSets::Use::at_rest);
+    if (!frame.is_live() || !shows(resting, frame))
+        return false;
+    const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
+    const bool lacks =
+        !moving || !shows(moving, frame) || moving->cells() < kNearly * quality.least_cells();
+    return quality.fits_in_motion(resting->cells(), frame.plan.moves_finest) ||
+           (lacks && quality.may_be_shown_in_motion(resting->cells()));
 }
 
 index::DetailQuery CellSupply::wanted_detail(const Frame& frame, const FrameQuality& quality) {
@@ -225,7 +246,7 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
     const index::ExtractionPtr& held = sets_.held(CellSets::Use::always);
     const index::DetailQuery moving =
         details_.for_motion(quality.cells_that_fit(interaction::Pace::moving),
-                            held ? held->query.detail.most_cells : 0);
+                            held ? held->query.detail.most_cells : 0, quality.least_cells());
     if (shows(held, frame) && !held->coarse() && held->cells() <= moving.most_cells)
         return held->query.detail; // it has all there is
     if (frame.report.pace == interaction::Pace::moving || !rests_ || !shows(held, frame)) {

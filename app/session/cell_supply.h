@@ -52,6 +52,8 @@ class CellSupply {
     /// Whether a set that was asked for is not on the GPU yet.
     bool set_comes() const;
 
+    /// Whether the set for pictures at rest may be drawn while the picture moves.
+    bool may_move_finest(const Frame& frame, const FrameQuality& quality) const;
     /// The detail of the sets that are asked for next.
     index::DetailQuery wanted_detail(const Frame& frame, const FrameQuality& quality);
     /// Views of the last pictures: they tell how large each region of the volume is seen.
@@ -62,6 +64,7 @@ class CellSupply {
 
   private:
     void report_cells(FrameReport& report) const;
+    static bool moves_finest(const Frame& frame);
     bool is_half_sent(const Frame& frame) const;
     bool waits_its_turn(const index::ExtractionPtr& set, const Frame& frame) const;
     bool comes_too_late(const index::ExtractionPtr& set, const Frame& frame) const;

@@ -77,6 +77,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     const index::DetailQuery had_detail = frame.plan.detail;
     FramePlan plan = wanted(frame, options);
     plan.detail = supply_.wanted_detail(frame, quality_);
+    plan.moves_finest = supply_.may_move_finest(frame, quality_);
     plan.final &= supply_.is_finest(frame) && (!frame.is_live() || plan.detail == had_detail);
     agree(frame, plan);
     // A replay's picture is as good as it gets at once.

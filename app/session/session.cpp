@@ -364,12 +364,15 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.draw = stages.lap();
     frames_->swap_barrier([this] { return answer(); });
     report.barrier = stages.lap();
+    const Milliseconds drawn = processor_time();
     contents_.end_frame(panel_.overlay(pictures_.over()), report.redrawn);
     const bool damaged = outputs_.windows().take_damage();
     if (contents_.composed() || damaged)
         outputs_.present();
     panel_.present(damaged);
     report.present = stages.lap();
+    if (contents_.composed()) // without the wait for a display that paces the frames
+        choice_.quality().presented(std::min(report.present, processor_time() - drawn));
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     partial_.measure_unseen(frame, now, whole);
     note_.input = input;

@@ -168,6 +168,7 @@ settle_ms = 300
 mode = "fast"
 settled = "gaussian"
 frame_budget_ms = 8.5
+longest_ms = 50
 still_budget_ms = 200
 )",
                                        "lab.toml");
@@ -183,6 +184,7 @@ still_budget_ms = 200
     EXPECT_EQ(config.quality.mode, interaction::QualityMode::fast);
     EXPECT_EQ(config.quality.settled, render::Footprint::gaussian);
     EXPECT_DOUBLE_EQ(config.quality.frame_budget_ms, 8.5);
+    EXPECT_DOUBLE_EQ(config.quality.longest_ms, 50);
     EXPECT_DOUBLE_EQ(config.quality.still_budget_ms, 200);
 }
 

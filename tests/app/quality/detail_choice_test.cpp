@@ -136,6 +136,17 @@ TEST(DetailChoice, AHeadThatSwaysAsksForNothingNew) {
     EXPECT_EQ(asked.size(), 1u);
 }
 
+TEST(DetailChoice, WhatAPictureIsRecognizedByIsChosenAtOnceWhateverFits) {
+    DetailChoice choice(cube(513), 3'000'000);
+    EXPECT_LT(choice.for_motion(1'000, 0).most_cells, 10'000u);
+    const std::uint64_t cells = choice.for_motion(1'000, 4096, 300'000).most_cells;
+    EXPECT_GE(cells, 300'000u);
+    EXPECT_LE(cells, 450'000u);
+    EXPECT_EQ(choice.for_motion(1'000, cells, 300'000).most_cells, cells);
+    EXPECT_LE(choice.for_motion(1'000, cells, 5'000'000'000).most_cells, 3'000'000u);
+    EXPECT_LT(choice.for_motion(1'000, cells, 0).most_cells, 10'000u);
+}
+
 TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
     DetailChoice choice(cube(513), 3'000'000);
     std::mt19937 random(3);

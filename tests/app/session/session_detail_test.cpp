@@ -78,6 +78,57 @@ TEST_P(SessionDetail, AHeadThatSwaysIsShownTheSetForMotionAndOneAtRestAllCells) 
     EXPECT_EQ(report.volume_cells, all) << "it is known";
 }
 
+TEST_P(SessionDetail, AllCellsMoveFromTheFirstFrameOnWhereTheyFit) {
+    for (const double budget : {1e7, 1e-6}) {
+        SCOPED_TRACE(budget);
+        Session session(config_with(budget), large_, *context_);
+        FrameReport report = first_frame(session, false);
+        ASSERT_TRUE(test_support::eventually([&] {
+            report = frame(session, false);
+            return report.coarsest == 0 && report.cells > 0 && report.final;
+        }));
+        const std::uint64_t all = report.cells;
+        interaction::InputState input = head_at_rest(frame_++ / 60.0);
+        input.devices[0].pose->position.x = 0.3f;
+        report = session.frame(input, {}, Waiting::never);
+        ASSERT_EQ(report.pace, interaction::Pace::moving);
+        if (budget > 1)
+            EXPECT_EQ(report.cells, all);
+        else
+            EXPECT_LT(report.cells, all);
+        EXPECT_NE(report.footprint, render::Footprint::gaussian);
+        EXPECT_EQ(report.slower, false);
+    }
+}
+
+TEST_P(SessionDetail, WhatMovesCanBeRecognizedHoweverSmallTheBudget) {
+    for (const double longest_ms : {0.0, 1000.0}) {
+        SCOPED_TRACE(longest_ms);
+        Config config = config_with(1e-6);
+        config.quality.longest_ms = longest_ms;
+        Session session(config, large_, *context_);
+        FrameReport report = first_frame(session, true);
+        std::uint64_t all = 0;
+        ASSERT_TRUE(test_support::eventually([&] { // they are counted at rest
+            report = frame(session, false);
+            all = report.volume_cells.value_or(0);
+            return all > 0 && report.final;
+        }));
+        ASSERT_TRUE(test_support::eventually([&] {
+            report = frame(session, true);
+            return report.coarsest > 0 &&
+                   report.cells >= all / 12; // of whole levels, so about an eighth
+        }));
+        for (int i = 0; i < 60; ++i) {
+            report = frame(session, true);
+            EXPECT_GE(report.cells, all / 12) << i;
+        }
+        EXPECT_EQ(report.slower, longest_ms > 0);
+        EXPECT_EQ(report.promised > Milliseconds(1e-6), longest_ms > 0);
+        EXPECT_LE(report.promised, Milliseconds(1000));
+    }
+}
+
 TEST_P(SessionDetail, AnythingThatMayStillMoveHasTheBudgetOfAFrame) {
     Session session(config_with(1e-6), file_, *context_);
     FrameReport report = frame(session, false);

@@ -52,7 +52,9 @@ TEST_P(SessionQuality, OverTheBudgetASettledPictureGoesBackToQuadsAndSaysWhy) {
     rest_until(session, [](const FrameReport& frame) {
         return frame.reason == QualityReason::over_budget && frame.final && frame.better;
     });
-    EXPECT_GT(frames_with(session, Footprint::gaussian), 0) << "it is not known before";
+    EXPECT_GT(frames_with(session, Footprint::mesh) + frames_with(session, Footprint::surface), 0)
+        << "it is not known before";
+    EXPECT_EQ(frames_with(session, Footprint::gaussian), 0) << "nobody asked for it";
     const auto before = frames_with(session, Footprint::quad);
     rest(session, 6000);
     EXPECT_GT(frames_with(session, Footprint::quad) - before, 5900);

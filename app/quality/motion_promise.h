@@ -1,0 +1,66 @@
+// The time that is promised for each moving picture: as short as the picture can still be recognized.
+//
+//     MotionPromise promise(Milliseconds(8.3), {.at_ease = Milliseconds(33.3)});
+//     promise.update({.beside = ..., .fixed = ..., .of_cell = ...}, all_cells, report.time);
+//     draw_within(promise.time() - beside);
+#pragma once
+
+#include "app/frame/milliseconds.h"
+#include "interaction/input/tracked_input.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace isochron::app {
+
+/// What a moving picture is expected to take.
+struct MotionCosts {
+    Milliseconds beside{0};  ///< what is done for a frame besides drawing: presenting
+    Milliseconds fixed{0};   ///< of drawing, what no number of cells changes
+    Milliseconds of_cell{0}; ///< of one cell in all views
+};
+
+/// Recognition comes before the rate. A picture is recognized if it has at least an eighth of the
+/// cells of level 0: its light is then that of the settled picture. Where the wanted time does not
+/// hold these, a longer time is promised. Where a screen's period is wanted, and nobody asked for a
+/// shorter time, the promise is also as long as all cells need, within limits: an eye sees thin
+/// parts that are missing sooner than it sees 30 pictures a second.
+/// The promise changes at most twice a second, so that nothing flaps.
+class MotionPromise {
+  public:
+    static constexpr double kLeastShare = 1.0 / 8;       ///< of the cells: recognized
+    static constexpr double kRoom = 0.85;                ///< share of the promise that is planned
+    static constexpr interaction::Seconds kBetween{0.5}; ///< two changes
+    static constexpr Milliseconds kAtEase{1000.0 / 30};  ///< for all cells
+    static constexpr Milliseconds kLongest{100};         ///< for an eighth of them
+
+    /// Times beyond the wanted one that may be promised; 0: none.
+    struct Limits {
+        Milliseconds all;   ///< for all cells
+        Milliseconds least; ///< for the least share of them
+    };
+    explicit MotionPromise(Milliseconds wanted) : MotionPromise(wanted, Limits{}) {}
+    MotionPromise(Milliseconds wanted, const Limits& limits)
+        : wanted_(wanted), limits_(limits), time_(wanted) {}
+
+    /// @param costs empty: not measured yet
+    /// @param cells of level 0; empty: not known
+    /// @param now session time
+    void update(const std::optional<MotionCosts>& costs, std::optional<std::uint64_t> cells,
+                interaction::Seconds now);
+    Milliseconds time() const { return time_; }
+    Milliseconds wanted() const { return wanted_; }
+
+  private:
+    Milliseconds needed(const MotionCosts& costs, double cells) const;
+
+    Milliseconds wanted_;
+    Limits limits_;
+    Milliseconds time_;
+    std::optional<interaction::Seconds> changed_; ///< when `time_` changed last
+};
+
+/// The number of cells below which no moving picture goes: an eighth of level 0.
+std::uint64_t least_recognized(std::optional<std::uint64_t> cells);
+
+} // namespace isochron::app

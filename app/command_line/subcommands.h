@@ -12,6 +12,7 @@ void add_change(Command& program);
 void add_info(Command& program);
 void add_verify(Command& program);
 void add_explore(Command& program);
+void add_export(Command& program);
 void add_movie(Command& program);
 void add_replay(Command& program);
 void add_reproduce(Command& program);

@@ -34,6 +34,7 @@ std::string_view words_of(OutputKind kind) {
     case OutputKind::manual_page: return "a manual page that this program wrote";
     case OutputKind::configuration: return "the same configuration";
     case OutputKind::recording:
+    case OutputKind::surface:
     case OutputKind::movie: break;
     }
     return {};

@@ -86,6 +86,7 @@ bool is_of_kind(const fs::path& file, const Output& output) {
     case OutputKind::configuration:
         return index::read_text(file, fs::file_size(file)) == output.content;
     case OutputKind::recording:
+    case OutputKind::surface:
     case OutputKind::movie: break;
     }
     return false;
@@ -95,8 +96,9 @@ bool is_of_kind(const fs::path& file, const Output& output) {
 
 bool is_known(const fs::path& file, const Output& output) {
     std::error_code ignored;
-    const bool replaced_unasked =
-        output.kind != OutputKind::recording && output.kind != OutputKind::movie;
+    const bool replaced_unasked = output.kind != OutputKind::recording &&
+                                  output.kind != OutputKind::surface &&
+                                  output.kind != OutputKind::movie;
     try {
         return (replaced_unasked && fs::file_size(file, ignored) == 0) || is_of_kind(file, output);
     } catch (const std::exception&) { // it cannot be read, so it is not known

@@ -8,8 +8,8 @@
 namespace isochron::app {
 
 /// What a file is to hold. An existing file of the same kind may be replaced, as far as it can be
-/// recognized: recordings, movies, volumes and configurations that a user may have changed are
-/// only replaced with --force.
+/// recognized: recordings, movies, surfaces and configurations that a user may have changed
+/// are only replaced with --force.
 enum class OutputKind : std::uint8_t {
     index,
     ids,
@@ -19,6 +19,7 @@ enum class OutputKind : std::uint8_t {
     manual_page,
     configuration,
     recording,
+    surface, ///< a mesh or a table for other programs
     movie ///< in one file, or as frames in a folder
 };
 

@@ -54,8 +54,8 @@ SurfaceMeshes::SurfaceMeshes(std::shared_ptr<const IndexFile> file)
     : work_(std::make_unique<WorkSpace>(file)) {}
 SurfaceMeshes::~SurfaceMeshes() = default;
 
-std::optional<SurfaceMesh> SurfaceMeshes::make(const Query& query, const MeshWishes& wishes,
-                                               const std::stop_token& stop) {
+std::optional<CellMesh> SurfaceMeshes::make_packed(const Query& query, const MeshWishes& wishes,
+                                                   const std::stop_token& stop, CellSet* wanted) {
     const IndexFile& file = *work_->file;
     const StepView step = step_of_query(file, query.step);
     std::optional<ColorSource> source;
@@ -65,16 +65,26 @@ std::optional<SurfaceMesh> SurfaceMeshes::make(const Query& query, const MeshWis
                 fmt::format("array {} to color by: {} has {}", *wishes.values, file.name(), count));
         source.emplace(file, *wishes.values);
     }
-    CellSet cells;
+    CellSet found;
+    CellSet& cells = wanted ? *wanted : found;
     CellMesh mesh;
     try {
         if (!work_->search(step, query.isovalue, stop, cells) ||
-            !work_->layers.make_mesh(step, cells, mesh, stop, source ? &*source : nullptr))
+            !work_->layers.make_mesh(step, cells, mesh, stop, source ? &*source : nullptr) ||
+            (wanted && !work_->wide && !work_->layers.shade_cells(step, cells, stop)))
             return std::nullopt;
     } catch (const Stopped&) {
         return std::nullopt;
     }
-    return unpacked(mesh, step.grid(), wishes);
+    return mesh;
+}
+
+std::optional<SurfaceMesh> SurfaceMeshes::make(const Query& query, const MeshWishes& wishes,
+                                               const std::stop_token& stop) {
+    const std::optional<CellMesh> mesh = make_packed(query, wishes, stop);
+    if (!mesh)
+        return std::nullopt;
+    return unpacked(*mesh, work_->file->info().grid, wishes);
 }
 
 SurfaceMesh mesh_of(const std::shared_ptr<const IndexFile>& file, const Query& query,

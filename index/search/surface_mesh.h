@@ -7,6 +7,7 @@
 
 #include "index/file/index_file.h"
 #include "index/surface/cell_mesh.h"
+#include "index/surface/cell_set.h"
 #include "index/volume/query.h"
 
 #include <array>
@@ -57,6 +58,10 @@ class SurfaceMeshes {
     /// @return nothing when stopped @throws Error as `mesh_of` does
     std::optional<SurfaceMesh> make(const Query& query, const MeshWishes& wishes = {},
                                     const std::stop_token& stop = {});
+    /// The same mesh as it is found, a third as large. It has normals whether they are wished or
+    /// not. @param cells null, or gets the cells, with points
+    std::optional<CellMesh> make_packed(const Query& query, const MeshWishes& wishes = {},
+                                        const std::stop_token& stop = {}, CellSet* cells = nullptr);
 
   private:
     struct WorkSpace;

@@ -18,6 +18,7 @@
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
 #include "index/detail/cell_thinning.h"
+#include "index/export/surface_writer.h"
 #include "index/extraction/cell_ray.h"
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
@@ -129,6 +130,11 @@ void bricks_example(const StepValues& values, const LevelMap& levels, std::uint3
 void step_view_example(const std::shared_ptr<const IndexFile>& file, const Query& query,
                        CellSet& set) {
 #include "index/file/step_view.example"
+}
+
+void surface_writer_example(const ExportPlan& plan,
+                            const std::function<ExportedStep(std::uint32_t)>& exported) {
+#include "index/export/surface_writer.example"
 }
 
 void surface_mesh_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,

@@ -31,7 +31,7 @@ const std::map<std::string, Steps> kOrder{
       {"config", "command_line"},
       {"text", "version"}}},
     {"index",
-     {{"extraction", "indexing", "decoders"},
+     {{"extraction", "indexing", "decoders", "export"},
       {"detail"},
       {"search"},
       {"surface"},

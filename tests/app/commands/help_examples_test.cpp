@@ -153,8 +153,8 @@ class GuideCommands : public HelpExamples, public testing::WithParamInterface<st
 INSTANTIATE_TEST_SUITE_P(Pages, GuideCommands,
                          testing::Values("README", "docs/guide/data", "docs/guide/tutorial",
                                          "docs/guide/recordings", "docs/guide/cells",
-                                         "docs/guide/walls", "docs/guide/clusters",
-                                         "docs/guide/trackers"),
+                                         "docs/guide/export", "docs/guide/walls",
+                                         "docs/guide/clusters", "docs/guide/trackers"),
                          [](const auto& page) {
                              return page.param.substr(page.param.rfind('/') + 1);
                          });

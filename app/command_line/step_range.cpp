@@ -1,0 +1,51 @@
+// Reads ranges of steps.
+#include "app/command_line/step_range.h"
+
+#include "app/command_line/command_line.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace isochron::app {
+namespace {
+
+/// The whole numbers of a text with colons between them; empty if there is anything else.
+std::vector<std::uint64_t> numbers_of(const std::string& text) {
+    std::vector<std::uint64_t> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        std::uint64_t number = 0;
+        const auto [next, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || (next != end && *next != ':'))
+            return {};
+        numbers.push_back(number);
+        if (next == end)
+            return numbers;
+        at = next + 1;
+    }
+}
+
+} // namespace
+
+std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& option,
+                                    std::size_t steps) {
+    const std::vector<std::uint64_t> numbers = numbers_of(text);
+    if (numbers.empty() || numbers.size() > 3)
+        throw UsageError(fmt::format("{}: expected a step, or FIRST:LAST or FIRST:LAST:STRIDE with "
+                                     "both ends included, got {}",
+                                     option, text));
+    const std::uint64_t first = numbers[0], last = numbers.size() > 1 ? numbers[1] : first;
+    const std::uint64_t stride = numbers.size() > 2 ? numbers[2] : 1;
+    if (first > last || last >= steps || stride == 0)
+        throw UsageError(
+            fmt::format("{} {}: expected steps 0 to {}, the first not after the last{}", option,
+                        text, steps - 1, stride == 0 ? ", and a stride above 0" : ""));
+    std::vector<std::uint32_t> named;
+    for (std::uint64_t step = first; step <= last; step += stride)
+        named.push_back(static_cast<std::uint32_t>(step));
+    return named;
+}
+
+} // namespace isochron::app

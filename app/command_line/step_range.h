@@ -1,0 +1,18 @@
+// Ranges of steps as they are typed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// The steps that `text` names: `7`, `0:63`, which is 0 to 63 with both, or `0:63:4`, every fourth
+/// of them.
+/// @param option what a message calls it @param steps that there are
+/// @throws UsageError: it cannot be read, or names a step that is not there
+std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& option,
+                                    std::size_t steps);
+
+} // namespace isochron::app

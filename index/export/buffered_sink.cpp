@@ -1,0 +1,29 @@
+// Collects what is written, and writes it in large pieces.
+#include "index/export/buffered_sink.h"
+
+namespace isochron::index {
+
+void BufferedSink::bytes(std::span<const std::byte> added) {
+    if (added.size() >= kAtOnce) {
+        flush();
+        sink_.write_at(at_, added);
+        at_ += added.size();
+        return;
+    }
+    bytes_.insert(bytes_.end(), added.begin(), added.end());
+    if (bytes_.size() >= kAtOnce)
+        flush();
+}
+
+void BufferedSink::align(std::size_t alignment) {
+    while (size() % alignment != 0)
+        bytes_.push_back(std::byte{0});
+}
+
+void BufferedSink::flush() {
+    sink_.write_at(at_, bytes_);
+    at_ += bytes_.size();
+    bytes_.clear();
+}
+
+} // namespace isochron::index

@@ -1,0 +1,47 @@
+// Writes a file from its beginning to its end, text and numbers, in large pieces.
+#pragma once
+
+#include "index/system/byte_sink.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace isochron::index {
+
+/// Not thread-safe. Functions throw as the sink's do.
+class BufferedSink {
+  public:
+    /// @param sink outlives this, is written from byte 0 on
+    explicit BufferedSink(ByteSink& sink) : sink_(sink) { bytes_.reserve(kAtOnce + kMost); }
+
+    void text(std::string_view text) { bytes(std::as_bytes(std::span(text))); }
+    /// Numbers are little-endian.
+    template <class T>
+    requires std::is_trivially_copyable_v<T>
+    void put(const T& value) {
+        static_assert(std::endian::native == std::endian::little && sizeof(T) <= kMost);
+        const auto added = std::as_bytes(std::span(&value, 1));
+        bytes_.insert(bytes_.end(), added.begin(), added.end());
+        if (bytes_.size() >= kAtOnce)
+            flush();
+    }
+    void bytes(std::span<const std::byte> added);
+    /// Zeros up to the next multiple of `alignment`.
+    void align(std::size_t alignment);
+    /// What was written so far gets to the sink.
+    void flush();
+    std::uint64_t size() const { return at_ + bytes_.size(); }
+
+  private:
+    static constexpr std::size_t kAtOnce = std::size_t{1} << 20, kMost = 256;
+    ByteSink& sink_;
+    std::uint64_t at_ = 0;
+    std::vector<std::byte> bytes_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,32 @@
+// The places of vertices in files.
+#include "index/export/exported_step.h"
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace isochron::index {
+
+ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
+    : grid_(grid), factor_(plan.unit_factor), turned_(glm::determinant(grid.direction) < 0) {
+    if (plan.double_precision)
+        return;
+    double farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        glm::dvec3 index(0.0);
+        for (int axis = 0; axis < 3; ++axis)
+            if (corner >> axis & 1)
+                index[axis] =
+                    static_cast<double>(grid.vertices[static_cast<std::size_t>(axis)] - 1);
+        const glm::dvec3 at = glm::abs(grid.physical(index) * factor_);
+        farthest = std::max({farthest, at.x, at.y, at.z});
+    }
+    constexpr double kMost = 1e-3; // of a voxel
+    const double voxel = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}) * factor_;
+    if (farthest * std::numeric_limits<float>::epsilon() > kMost * voxel)
+        origin_ = glm::dvec3(glm::vec3(grid.origin * factor_));
+}
+
+} // namespace isochron::index

@@ -1,0 +1,79 @@
+// What is exported of a step: its surfaces as meshes, and what a file says of them.
+#pragma once
+
+#include "index/surface/cell_mesh.h"
+#include "index/surface/cell_set.h"
+#include "index/volume/grid.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// What all steps of an export have in common.
+struct ExportPlan {
+    std::string note;              ///< one line: who wrote the file, of which data
+    std::string length_unit;       ///< of the coordinates in the file; empty: not known
+    std::string values_name;       ///< of the values at the vertices; empty: there are none
+    std::string time_unit;         ///< of `ExportedStep::time`; empty: not known
+    double unit_factor = 1;        ///< from the data's unit of length to that of the file
+    double meters = 1;             ///< in a unit of length of the file; 1 where it is not known
+    bool double_precision = false; ///< coordinates have 64 bits
+    bool normals = true;
+    double rate = 10;                 ///< steps a second in files that hold all steps
+    std::vector<std::uint32_t> steps; ///< ascending
+};
+
+/// A surface of a step.
+struct ExportedSurface {
+    std::string name;                    ///< `9.5 1/s`
+    std::array<std::uint8_t, 3> color{}; ///< sRGB
+    float opacity = 1;
+    const CellMesh* mesh = nullptr; ///< with values, if the plan names them
+    const CellSet* cells = nullptr; ///< with points, if the format asks for cells
+    double isovalue = 0;
+    /// sRGB of each vertex; empty: `color` everywhere.
+    std::vector<std::array<std::uint8_t, 3>> colors = {};
+};
+
+struct ExportedStep {
+    std::uint32_t step = 0;
+    double time = 0;
+    const Grid* grid = nullptr;
+    std::vector<ExportedSurface> surfaces;
+};
+
+/// The coordinates of a grid's vertices as they stand in a file.
+class ExportedPlaces {
+  public:
+    /// Places are those of physical space. Where single precision would move them by more than a
+    /// thousandth of a voxel, they count from the grid's first vertex, rounded to a float.
+    ExportedPlaces(const Grid& grid, const ExportPlan& plan);
+
+    /// Subtracted from all coordinates, in the unit of the file.
+    const glm::dvec3& origin() const { return origin_; }
+    /// In the unit of the file, less `origin`.
+    glm::dvec3 of(const MeshVertex& vertex) const {
+        return grid_.physical(position_of(vertex)) * factor_ - origin_;
+    }
+    /// Whether triangles must be turned, so that they are counter-clockwise as seen from the side
+    /// of lower values.
+    bool turned() const { return turned_; }
+    std::array<std::uint32_t, 3> triangle(const CellMesh& mesh, std::size_t number) const {
+        const std::uint32_t* const at = mesh.triangles.data() + 3 * number;
+        return turned_ ? std::array{at[0], at[2], at[1]} : std::array{at[0], at[1], at[2]};
+    }
+
+  private:
+    const Grid& grid_;
+    double factor_;
+    glm::dvec3 origin_{0.0};
+    bool turned_;
+};
+
+} // namespace isochron::index

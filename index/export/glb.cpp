@@ -1,0 +1,310 @@
+// GLB (Khronos, "glTF 2.0 Specification", section 4): a node for each surface, and in an animation
+// one for each step, whose scale is 1 while the step is shown and 0 at other times. glTF has y
+// upwards and meters: the node at the root turns and scales what stands in the unit of the file.
+#include "index/error.h"
+#include "index/export/buffered_sink.h"
+#include "index/export/surface_writer.h"
+#include "index/system/new_file.h"
+#include "index/system/scratch_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+// Numbers of the specification.
+constexpr int kFloat = 5126, kUint = 5125, kUbyte = 5121;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+
+/// sRGB to linear light (IEC 61966-2-1), which materials and vertices of glTF have.
+float linear(std::uint8_t srgb) {
+    const double c = srgb / 255.0;
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
+
+/// One file that is being written.
+class GlbFile {
+  public:
+    GlbFile(const ExportPlan& plan, std::filesystem::path path)
+        : plan_(plan), path_(std::move(path)), scratch_(path_), out_(scratch_) {
+        document_["asset"] = {{"version", "2.0"}, {"generator", plan.note}};
+        for (const char* list :
+             {"scenes", "nodes", "meshes", "materials", "accessors", "bufferViews", "buffers"})
+            document_[list] = json::array();
+        // Turns z upwards to y upwards.
+        constexpr double kHalf = 0.7071067811865476;
+        const double m = plan.meters;
+        document_["nodes"].push_back({{"name", "isochron"},
+                                      {"rotation", {-kHalf, 0.0, 0.0, kHalf}},
+                                      {"scale", {m, m, m}},
+                                      {"children", json::array()}});
+        document_["scenes"].push_back({{"nodes", {0}}});
+        document_["scene"] = 0;
+    }
+
+    /// @return number of the step's node
+    std::size_t add(const ExportedStep& step) {
+        const ExportedPlaces places(*step.grid, plan_);
+        const glm::dvec3& origin = places.origin();
+        json children = json::array();
+        for (const ExportedSurface& surface : step.surfaces)
+            if (!surface.mesh->triangles.empty()) // meshes of glTF have triangles
+                children.push_back(add(surface, places));
+        json node{{"name", fmt::format("step {}", step.step)},
+                  {"extras",
+                   {{"time", step.time},
+                    {"time_unit", plan_.time_unit},
+                    {"length_unit", plan_.length_unit},
+                    {"origin", {origin.x, origin.y, origin.z}}}}};
+        if (!children.empty())
+            node["children"] = std::move(children);
+        const std::size_t number = push("nodes", std::move(node));
+        document_["nodes"][0]["children"].push_back(number);
+        return number;
+    }
+
+    /// Shows each of these nodes in its turn.
+    void animate(const std::vector<std::size_t>& nodes) {
+        json samplers = json::array(), channels = json::array();
+        const double each = 1 / plan_.rate;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const bool first = i == 0, last = i + 1 == nodes.size();
+            std::vector<float> times, scales;
+            const auto key = [&](double time, float scale) {
+                times.push_back(static_cast<float>(time));
+                scales.insert(scales.end(), 3, scale);
+            };
+            if (!first)
+                key(0, 0);
+            key(each * static_cast<double>(i), 1);
+            key(each * static_cast<double>(i + 1), last ? 1 : 0);
+            const auto end = static_cast<float>(each * static_cast<double>(nodes.size()));
+            if (!last && i + 2 < nodes.size()) // all end together
+                key(end, 0);
+            const std::size_t at = begin_view();
+            for (const float time : times)
+                out_.put(time);
+            const std::size_t input =
+                accessor(end_view(at, std::nullopt), kFloat, times.size(), "SCALAR");
+            document_["accessors"][input]["min"] = {times.front()};
+            document_["accessors"][input]["max"] = {times.back()};
+            const std::size_t from = begin_view();
+            for (const float scale : scales)
+                out_.put(scale);
+            const std::size_t output =
+                accessor(end_view(from, std::nullopt), kFloat, times.size(), "VEC3");
+            channels.push_back({{"sampler", samplers.size()},
+                                {"target", {{"node", nodes[i]}, {"path", "scale"}}}});
+            samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "STEP"}});
+            if (!first)
+                document_["nodes"][nodes[i]]["scale"] = {0, 0, 0};
+        }
+        document_["animations"] = json::array({{{"name", "steps"},
+                                                {"samplers", std::move(samplers)},
+                                                {"channels", std::move(channels)}}});
+    }
+
+    void finish() {
+        out_.align(4);
+        out_.flush();
+        const std::uint64_t bytes = out_.size();
+        if (bytes > 0)
+            document_["buffers"].push_back({{"byteLength", bytes}});
+        for (const char* list : {"meshes", "materials", "accessors", "bufferViews", "buffers"})
+            if (document_[list].empty()) // the specification forbids empty lists
+                document_.erase(list);
+        if (document_["nodes"][0]["children"].empty())
+            document_["nodes"][0].erase("children");
+        std::string text = document_.dump(-1, ' ', false, json::error_handler_t::replace);
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        const std::uint64_t whole = 12 + 8 + text.size() + (bytes > 0 ? 8 + bytes : 0);
+        if (whole > std::numeric_limits<std::uint32_t>::max())
+            throw Error(fmt::format("{}: {} bytes, expected fewer than 2^32 in GLB; export fewer "
+                                    "steps, or each to a file of its own (--format glb)",
+                                    path_.string(), whole));
+        NewFile file(path_);
+        BufferedSink out(file);
+        const auto put = [&](std::uint64_t number) { out.put(static_cast<std::uint32_t>(number)); };
+        put(kMagic);
+        put(2);
+        put(whole);
+        put(text.size());
+        put(kJson);
+        out.text(text);
+        if (bytes > 0) {
+            put(bytes);
+            put(kBinary);
+            std::vector<std::byte> part(std::size_t{1} << 20);
+            for (std::uint64_t at = 0; at < bytes; at += part.size()) {
+                const auto some = std::span(part).first(
+                    static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), bytes - at)));
+                scratch_.read(at, some);
+                out.bytes(some);
+            }
+        }
+        out.flush();
+        file.commit();
+    }
+
+  private:
+    std::size_t push(const char* list, json value) {
+        document_[list].push_back(std::move(value));
+        return document_[list].size() - 1;
+    }
+    std::uint64_t begin_view() {
+        out_.align(4);
+        return out_.size();
+    }
+    std::size_t end_view(std::uint64_t begin, std::optional<int> target) {
+        json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", out_.size() - begin}};
+        if (target)
+            view["target"] = *target;
+        return push("bufferViews", std::move(view));
+    }
+    std::size_t accessor(std::size_t view, int type, std::size_t count, const char* shape) {
+        return push(
+            "accessors",
+            {{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}});
+    }
+
+    std::size_t add_places(const CellMesh& mesh, const ExportedPlaces& places) {
+        glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+        const std::uint64_t begin = begin_view();
+        for (const MeshVertex& vertex : mesh.vertices) {
+            const glm::vec3 at(places.of(vertex));
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+            out_.put(at);
+        }
+        const std::size_t number =
+            accessor(end_view(begin, kArrayBuffer), kFloat, mesh.vertices.size(), "VEC3");
+        document_["accessors"][number]["min"] = {low.x, low.y, low.z};
+        document_["accessors"][number]["max"] = {high.x, high.y, high.z};
+        return number;
+    }
+
+    std::size_t add_normals(const CellMesh& mesh) {
+        const std::uint64_t begin = begin_view();
+        for (const MeshVertex& vertex : mesh.vertices) {
+            const glm::vec3 normal(normal_of(vertex)); // a glTF normal has length 1
+            out_.put(normal == glm::vec3(0.0f) ? glm::vec3(0.0f, 0.0f, 1.0f) : normal);
+        }
+        return accessor(end_view(begin, kArrayBuffer), kFloat, mesh.vertices.size(), "VEC3");
+    }
+
+    std::size_t add_colors(const ExportedSurface& surface) {
+        const std::uint64_t begin = begin_view();
+        constexpr float kFull = 255;
+        for (const auto& color : surface.colors) {
+            for (const std::uint8_t channel : color)
+                out_.put(static_cast<std::uint8_t>(std::lround(kFull * linear(channel))));
+            out_.put(std::uint8_t{255});
+        }
+        const std::size_t number =
+            accessor(end_view(begin, kArrayBuffer), kUbyte, surface.colors.size(), "VEC4");
+        document_["accessors"][number]["normalized"] = true;
+        return number;
+    }
+
+    std::size_t add_material(const ExportedSurface& surface) {
+        const auto& c = surface.color;
+        json factor =
+            surface.colors.empty() ? json{linear(c[0]), linear(c[1]), linear(c[2])} : json{1, 1, 1};
+        factor.push_back(surface.opacity);
+        json material{
+            {"name", surface.name},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", factor}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}},
+            {"doubleSided", true}};
+        if (surface.opacity < 1)
+            material["alphaMode"] = "BLEND";
+        auto& all = document_["materials"];
+        const auto found = std::ranges::find(all, material);
+        if (found != all.end())
+            return static_cast<std::size_t>(found - all.begin());
+        return push("materials", std::move(material));
+    }
+
+    std::size_t add(const ExportedSurface& surface, const ExportedPlaces& places) {
+        const CellMesh& mesh = *surface.mesh;
+        json attributes{{"POSITION", add_places(mesh, places)}};
+        if (plan_.normals)
+            attributes["NORMAL"] = add_normals(mesh);
+        if (!surface.colors.empty())
+            attributes["COLOR_0"] = add_colors(surface);
+        const std::uint64_t begin = begin_view();
+        for (std::size_t i = 0; i < mesh.triangles.size() / 3; ++i)
+            for (const std::uint32_t corner : places.triangle(mesh, i))
+                out_.put(corner);
+        const std::size_t indices =
+            accessor(end_view(begin, kElementArrayBuffer), kUint, mesh.triangles.size(), "SCALAR");
+        const std::size_t material = add_material(surface);
+        const std::size_t number =
+            push("meshes", {{"name", surface.name},
+                            {"primitives", json::array({{{"attributes", attributes},
+                                                         {"indices", indices},
+                                                         {"material", material}}})}});
+        return push("nodes", {{"name", surface.name}, {"mesh", number}});
+    }
+
+    const ExportPlan& plan_;
+    std::filesystem::path path_;
+    ScratchFile scratch_; ///< the binary part, until its length is known
+    BufferedSink out_;
+    json document_;
+};
+
+class GlbWriter : public SurfaceWriter {
+  public:
+    GlbWriter(const ExportPlan& plan, std::filesystem::path name)
+        : plan_(plan), name_(std::move(name)) {}
+    void add(const ExportedStep& step) override {
+        GlbFile file(plan_, file_of_step(name_, plan_, step.step));
+        file.add(step);
+        file.finish();
+    }
+
+  private:
+    ExportPlan plan_;
+    std::filesystem::path name_;
+};
+
+class GlbAnimationWriter : public SurfaceWriter {
+  public:
+    GlbAnimationWriter(const ExportPlan& plan, const std::filesystem::path& name)
+        : plan_(plan), file_(plan_, name) {}
+    void add(const ExportedStep& step) override { nodes_.push_back(file_.add(step)); }
+    void finish() override {
+        if (nodes_.size() > 1)
+            file_.animate(nodes_);
+        file_.finish();
+    }
+
+  private:
+    ExportPlan plan_;
+    GlbFile file_;
+    std::vector<std::size_t> nodes_;
+};
+
+} // namespace
+
+std::unique_ptr<SurfaceWriter> glb_writer(const ExportPlan& plan,
+                                          const std::filesystem::path& name) {
+    return std::make_unique<GlbWriter>(plan, name);
+}
+
+std::unique_ptr<SurfaceWriter> glb_animation_writer(const ExportPlan& plan,
+                                                    const std::filesystem::path& name) {
+    return std::make_unique<GlbAnimationWriter>(plan, name);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,55 @@
+// Exports surfaces of an index, step by step.
+#pragma once
+
+#include "index/export/surface_writer.h"
+#include "index/file/index_file.h"
+#include "index/progress.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// A surface to be exported.
+struct SurfaceWish {
+    double isovalue = 0;
+    std::string name;
+    std::array<std::uint8_t, 3> color{}; ///< sRGB
+    float opacity = 1;
+};
+
+/// Values at the vertices, and what color they have.
+struct ValuesWish {
+    std::size_t array = 0; ///< to color by (ColorSource)
+    /// sRGB of a value; empty: vertices have the color of their surface.
+    std::function<std::array<std::uint8_t, 3>(float value)> color_of;
+};
+
+struct ExportRequest {
+    ExportPlan plan;
+    std::vector<SurfaceWish> surfaces;
+    std::optional<ValuesWish> values; ///< needs `ExportPlan::values_name`
+};
+
+/// What was written.
+struct ExportCount {
+    std::uint64_t cells = 0, vertices = 0, triangles = 0;
+    std::vector<std::uint32_t> empty_steps; ///< in which no surface has a cell
+};
+
+/// Holds the meshes of one step at a time.
+/// @param name of the file, or of the files of steps: see `file_of_step`
+/// @throws Error: a step that is not there, damage, a disk that is full; what `progress` throws.
+///         Files that are written by then are whole and stay.
+ExportCount export_surfaces(const std::shared_ptr<const IndexFile>& file,
+                            const SurfaceFormat& format, const std::filesystem::path& name,
+                            const ExportRequest& request, const Progress& progress = {});
+
+} // namespace isochron::index

@@ -123,7 +123,7 @@ void CellTier::for_each_cells(std::uint32_t step, F&& f) const {
     for (std::uint32_t stretch = 0; stretch < stretches; ++stretch) {
         if (stretch + 2 < stretches)
             cells_[begin + stretch + 2].prefetch(path);
-        // Bytes that have not been checked may be being read from the file right now.
+        // Only tables that have been checked: others may still be on their way from the file.
         if (stretch + 1 < stretches && sound_steps_[(begin + stretch + 1) * kEpoch + step % kEpoch])
             cells_[begin + stretch + 1].prefetch_tables(path);
         if (!sound_steps_[(begin + stretch) * kEpoch + step % kEpoch])

@@ -52,7 +52,7 @@ class PartsSearch {
     }
 
   private:
-    /// All of the step, by its bricks; or some planes after the other, by a scan.
+    /// Searches the whole step by its bricks, or by a scan, some planes after the other.
     bool whole() {
         const LoadedStep& all = step_.whole(stop_);
         const StepPart step{.cells = all.values, .around = all.values, .bricks = all.bricks};

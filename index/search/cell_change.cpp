@@ -70,8 +70,8 @@ std::span<CellId> ids_of(const std::vector<IdRun>& runs, std::vector<CellId>& me
     return {memory.data(), copy_ids(runs, memory)};
 }
 
-/// Removes ids that are in both sets. A cell that came and went is in both; one that changed
-/// several times is in one of them once more than in the other.
+/// Removes ids that are in both sets. A cell that came and went is in both sets; a cell that
+/// changed several times is in one set once more than in the other.
 void drop_common(std::span<CellId> added, std::span<CellId> removed, std::vector<CellId>& come,
                  std::vector<CellId>& gone) {
     std::sort(added.begin(), added.end());

@@ -16,10 +16,11 @@ namespace isochron::index {
 /// what its cells and their normals need. Keeps its memory.
 class ChunkCube {
   public:
-    /// Moves to a chunk. What is copied of the earlier one is gone.
+    /// Moves to a chunk. The copies of the earlier chunk are gone.
     /// @param at coordinates of the chunk
     void begin(const StepView& step, const std::array<std::uint32_t, 3>& at);
-    /// Copies what the cube holds of the chunk at an offset (bit of ChunksAround).
+    /// Copies the part of a chunk that lies in the cube: the chunk at an offset (bit of
+    /// ChunksAround).
     void copy(unsigned bit, const Chunk& chunk);
 
     /// The whole cube, as a grid of its own. Where the cube reaches the border of the whole grid,

@@ -144,7 +144,8 @@ CubeRows active_rows(const ChunkCube& cube, std::uint64_t cut, BricksOfChunk bri
 }
 
 SidesOfCells sides_of(const CubeRows& rows) {
-    // By side along z and place along y, then by sides along both: in plain loops over many rows.
+    // First combines rows by their side along z, then the results by their side along y: plain
+    // loops over many rows.
     std::array<std::array<std::uint16_t, kChunkEdge>, kSides> of_z{};
     for (std::uint32_t z = 0; z < kChunkEdge; ++z)
         for (std::uint32_t y = 0; y < kChunkEdge; ++y)

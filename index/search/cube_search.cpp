@@ -195,7 +195,7 @@ bool CubeSearch::are_there(std::uint32_t x, std::uint32_t y, ChunksAround around
     return all;
 }
 
-/// Copies to the cube what it holds of chunks around its own.
+/// Copies the parts of the chunks around that lie in the cube.
 void CubeSearch::fill_cube(std::uint32_t x, std::uint32_t y, ChunksAround around) {
     for_each_around(around, {x, y, layer_}, *chunks_,
                     [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t layer) {

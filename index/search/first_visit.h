@@ -1,4 +1,4 @@
-// What a search at a step has to read of the file, by cells and by bricks.
+// How much a search at a step has to read from the file, by cells and by bricks.
 #pragma once
 
 #include "index/file/index_file.h"

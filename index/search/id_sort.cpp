@@ -30,7 +30,7 @@ void sort_ids(std::vector<CellId>& ids, std::uint64_t cells) {
         marks.of_ids.resize(words);
         marks.of_words.resize((words + 63) / 64);
     }
-    // Of many ids nearly every word has one, so that marks of words gain nothing.
+    // With many ids, nearly every word has one, so that marks of words gain nothing.
     const bool many = ids.size() >= cells / 256;
     for (const CellId id : ids)
         if (id < cells) {

@@ -29,8 +29,8 @@ class LayerCandidates {
   public:
     LayerCandidates() = default;
     /// Reads the candidates, and announces the chunks around them that a search and normals will
-    /// need. If those were read one by one when needed, each would wait behind all earlier requests
-    /// to the disk.
+    /// need. If these chunks were read one by one when needed, each would wait behind all earlier
+    /// requests to the disk.
     /// @param normals whether normals will be made, too
     /// @param only reads the candidates among these alone
     LayerCandidates(const StepView& step, std::uint32_t layer, const LevelMap::Cut& cut,

@@ -26,8 +26,8 @@ class WholeLayers {
     struct Range {
         std::uint32_t first = 0, end = 0;
     };
-    /// Whether this is worth it for a step that nothing of is in memory: most layers are fetched
-    /// whole anyhow, and the slabs take at most half of `room` bytes.
+    /// Whether going through whole layers is worth it, if nothing of the step is in memory: most
+    /// layers are fetched whole anyhow, and the slabs take at most half of `room` bytes.
     /// @return the layers from the first to the last that may hold active cells
     static std::optional<Range> worth(const StepView& step, const LevelMap::Cut& cut,
                                       unsigned threads, std::uint64_t room);

@@ -13,8 +13,8 @@ enum class Pages : unsigned char { small, huge };
 /// Chooses by the time that blocks of memory took before, from being asked for until all their pages
 /// had been touched. On a physical machine huge pages take a fraction of the time. In a virtual
 /// machine they may take as much as small ones, or many times as much: its host may have taken back
-/// the free ones. Which of these it is shows only by trying: each kind once, then the faster one, and
-/// the other one from time to time, the less often the more often it lost. Thread-safe.
+/// the free ones. Only a trial tells: each kind once, then the faster kind, and the slower kind
+/// from time to time, the less often the more often it lost. Thread-safe.
 class PageChoice {
   public:
     /// Blocks between two trials of the slower kind, at first.

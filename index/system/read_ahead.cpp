@@ -7,8 +7,8 @@
 namespace isochron::index {
 namespace {
 
-/// Bytes that are announced before they are needed: a disk is busy with them for some milliseconds,
-/// and what was not foreseen waits behind them no longer.
+/// Bytes that are announced before they are needed: they keep a disk busy for some milliseconds, so
+/// that a read that was not foreseen waits no longer than that.
 constexpr std::uint64_t kAhead = 4 << 20;
 
 } // namespace

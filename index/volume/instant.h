@@ -16,7 +16,7 @@ struct Instant {
 
     constexpr Instant() = default;
     constexpr Instant(std::uint32_t of_step) : step(of_step) {}
-    /// The last step at or before the moment: what tables with a row for each step are asked by.
+    /// The last step at or before the moment: the row of this moment in tables with a row a step.
     constexpr operator std::uint32_t() const { return step; }
 
     friend constexpr bool operator==(const Instant&, const Instant&) = default;

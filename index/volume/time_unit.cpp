@@ -126,7 +126,8 @@ std::optional<Moment> moment_of(double time, const TimeUnit& unit) {
     return Moment{*date, static_cast<int>(ms - more * kDayMs)};
 }
 
-/// How many of hour and minute, second, and millisecond it takes to write a moment.
+/// Parts of a time of day that a moment needs: 0 at midnight, 1 for hour and minute, 2 with seconds,
+/// 3 with milliseconds.
 int parts_of(const Moment& moment) {
     return moment.milliseconds % 1000     ? 3
            : moment.milliseconds % 60'000 ? 2
@@ -147,7 +148,7 @@ std::string text_of(const Moment& moment, int parts) {
     return text;
 }
 
-/// Of the step before, the step itself, and the one after, as far as there are.
+/// The times of the step before, the step itself and the step after, as far as they exist.
 std::span<const double> around(std::span<const double> times, std::size_t step) {
     const std::size_t first = step > 0 ? step - 1 : 0;
     return times.subspan(first, std::min(step + 2, times.size()) - first);

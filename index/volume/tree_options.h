@@ -1,4 +1,4 @@
-// With which numbers the paper's Temporal Hierarchical Index Tree is built.
+// The options of the paper's Temporal Hierarchical Index Tree.
 #pragma once
 
 #include <cstdint>

@@ -106,7 +106,7 @@ class VolumeSeries {
     /// without reading.
     virtual std::uint64_t state(std::size_t /*step*/) const { return 0; }
 
-    /// The files that it is known to read; not those that a library finds by itself.
+    /// The files that the series is known to read, without files that a library finds by itself.
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 

@@ -22,7 +22,7 @@ using app::FrameReport;
 template <class Report>
 double promised_ms(const Report& report) {
     if constexpr (requires { report.promised.count(); })
-        return report.promised.count();
+        return std::max(report.budget.count(), report.promised.count());
     else
         return report.budget.count();
 }

@@ -26,7 +26,7 @@ struct MotionArguments {
     bool full = false;
 };
 
-constexpr int kSheetWidth = 400; ///< of a picture
+constexpr int kSheetWidth = 400, kSmallWidth = 240; ///< of a picture
 
 void run_bench_motion(const MotionArguments& arguments) {
     const app::CancelOnSignal signals;
@@ -37,6 +37,7 @@ void run_bench_motion(const MotionArguments& arguments) {
                         .full = arguments.full};
     for (const std::string& name : arguments.motions)
         options.motions.push_back(motion_from_name(name));
+    std::vector<render::Image> sheets; ///< one of all data
     app::ProgressBar bar;
     const auto check = [&] { signals.check(); };
     const index::Progress progress = [&](std::string_view phase, double fraction) {
@@ -51,11 +52,16 @@ void run_bench_motion(const MotionArguments& arguments) {
             results.rows.push_back(each.row);
         }
         std::fflush(stdout);
-        if (!arguments.sheet.empty())
+        if (!arguments.sheet.empty()) {
             stereo::write_image(sheet_of(motions, kSheetWidth),
                                 arguments.sheet / fmt::format("motion_{}_{}x{}{}.png", of.data.name,
                                                               of.size.x, of.size.y,
                                                               of.window ? "_window" : ""));
+            if (!motions.empty() && is_on_sheet(motions.front().row))
+                sheets.push_back(sheet_of(motions, kSmallWidth));
+            if (!sheets.empty())
+                stereo::write_image(stacked(sheets), arguments.sheet / "motion.jpg");
+        }
         if (!arguments.json.empty())
             write_text(arguments.json, to_json_text(results));
     }
@@ -76,7 +82,8 @@ void add_motion(app::Command& program) {
         .comma_separated();
     command
         .option("--budgets", arguments->budgets,
-                "Budgets of a frame, milliseconds (default: all that belong to a case)")
+                "Budgets of a frame, milliseconds; 0: what a window has (default: all that belong "
+                "to a case)")
         .comma_separated();
     command.flag("--full", arguments->full, "Measure 1024^3, too");
     command.option("--seconds", arguments->play.seconds, "Length of a motion")
@@ -87,7 +94,7 @@ void add_motion(app::Command& program) {
     command
         .option("--out", arguments->sheet,
                 "Folder for sheets of pictures: of each motion the least alike, moving above "
-                "settled")
+                "settled; motion.jpg has all data at 1280 x 720")
         .existing_folder()
         .type_name("DIR");
     command

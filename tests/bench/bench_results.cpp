@@ -24,7 +24,7 @@ std::string read_text(const fs::path& path) {
 }
 
 struct ResultFiles {
-    fs::path index, render, artifacts, scale, gpu, agreement, out;
+    fs::path index, render, artifacts, scale, gpu, agreement, motion, out;
 };
 
 void run_bench_results(const ResultFiles& files) {
@@ -33,7 +33,8 @@ void run_bench_results(const ResultFiles& files) {
                                          .artifacts = files.artifacts.string(),
                                          .scale = files.scale.string(),
                                          .gpu = files.gpu.string(),
-                                         .agreement = files.agreement.string()},
+                                         .agreement = files.agreement.string(),
+                                         .motion = files.motion.string()},
                                         read_text);
     if (files.out.empty())
         fmt::print("{}", page);
@@ -61,6 +62,8 @@ void add_results(app::Command& program) {
     command
         .option("--agreement", files->agreement,
                 "Results of `isochron-bench render --agreement-only --json`")
+        .type_name("FILE.json");
+    command.option("--motion", files->motion, "Results of `isochron-bench motion --json`")
         .type_name("FILE.json");
     command.option("-o,--out", files->out, "Markdown to write (default: print it)")
         .type_name("FILE.md");

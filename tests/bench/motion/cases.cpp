@@ -162,6 +162,9 @@ std::vector<ComparedMotion> play_case(const MotionCase& of, const std::filesyste
                                       const std::function<void()>& check,
                                       const index::Progress& progress) {
     const auto file = open_moved(of.data, kept, progress);
+    PlayOptions own = options;
+    if (of.data.large) // two pictures of each motion
+        own.every = own.seconds / 3 * 1.001;
     const app::Config config = config_of(of);
     std::optional<OwnDisplay> display;
     if (of.window)
@@ -172,8 +175,7 @@ std::vector<ComparedMotion> play_case(const MotionCase& of, const std::filesyste
         const auto context = stereo::make_context(
             config.rendering.context,
             {.size = config.installation.windows.front().size, .vsync = of.window});
-        Player player(of.window ? config : with_budget(config, budget), file, *context, options,
-                      check);
+        Player player(of.window ? config : with_budget(config, budget), file, *context, own, check);
         app::ExplorerState start = shown_of(of.data, player.session().state());
         start.panel = of.window;
         for (const Motion motion : of.motions) {
@@ -216,6 +218,24 @@ render::Image sheet_of(const std::vector<ComparedMotion>& motions, int width) {
         shrink(motions[i].settled, sheet, left, height + kGap, width, height);
     }
     return sheet;
+}
+
+render::Image stacked(const std::vector<render::Image>& sheets) {
+    constexpr int kGap = 12;
+    render::Image all;
+    for (const render::Image& sheet : sheets) {
+        all.width = std::max(all.width, sheet.width);
+        all.height += (all.height > 0 ? kGap : 0) + sheet.height;
+    }
+    all.rgba.assign(4 * static_cast<std::size_t>(all.width) * all.height, 255);
+    int top = 0;
+    for (const render::Image& sheet : sheets) {
+        for (int y = 0; y < sheet.height; ++y)
+            std::copy_n(sheet.at(0, y), 4 * static_cast<std::size_t>(sheet.width),
+                        &all.rgba[4 * static_cast<std::size_t>(top + y) * all.width]);
+        top += sheet.height + kGap;
+    }
+    return all;
 }
 
 } // namespace isochron::bench

@@ -29,8 +29,8 @@ constexpr double kBudgetOfWindow = 0;
 
 struct CaseOptions {
     std::vector<std::string> data = moved_names();
-    std::vector<Motion> motions; ///< empty: all that a case has
-    std::vector<double> budgets; ///< likewise
+    std::vector<Motion> motions = {}; ///< empty: all that a case has
+    std::vector<double> budgets = {}; ///< likewise
     bool full = false;
 };
 std::vector<MotionCase> cases_of(const CaseOptions& options);
@@ -48,5 +48,7 @@ std::vector<ComparedMotion> play_case(const MotionCase& of, const std::filesyste
 
 /// Pictures of motions, moving above settled, side by side. @param width of each [pixel]
 render::Image sheet_of(const std::vector<ComparedMotion>& motions, int width);
+/// Sheets, one below the other.
+render::Image stacked(const std::vector<render::Image>& sheets);
 
 } // namespace isochron::bench

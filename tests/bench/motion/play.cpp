@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -21,12 +22,17 @@ using app::FrameReport;
 template <class Report>
 double promised_ms(const Report& report) {
     if constexpr (requires { report.promised.count(); })
-        return report.promised.count();
+        return std::max(report.budget.count(), report.promised.count());
     else
         return report.budget.count();
 }
 
 constexpr double kRestBetween = 1.5; ///< [s] most, between two motions
+
+double load_of_machine() {
+    double load = 0;
+    return ::getloadavg(&load, 1) == 1 ? load : 0;
+}
 
 /// Frames of a motion while they are counted.
 struct CountedMotion {
@@ -146,17 +152,19 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
     const MotionScript script(motion, options_.seconds, start,
                               app::physical_center(file_->info().grid), file_->info().steps());
     const std::vector<double> moments = kept_moments(options_);
+    const double load = load_of_machine();
     CountedMotion counted;
     AskedShown asked;
     FixedWork control;
     double moved = 0;  ///< session time of the last frame that moved
     double paused = 0; ///< that reading pictures took
     const double began = now();
-    for (double at = 0; at < options_.seconds;) {
+    // Where pictures come too slowly, the motion waits for those that are to be kept.
+    for (double at = 0; at < options_.seconds || played.moving.size() < moments.size();) {
         // A picture is kept of the motion's moment itself, so that all budgets have the same.
         const std::size_t next = played.moving.size();
         const bool keeps = next < moments.size() && at >= moments[next];
-        const double moment = keeps ? moments[next] : at;
+        const double moment = keeps ? moments[next] : std::min(at, options_.seconds);
         const FrameReport& report = frame(script, moment, script.commands(moment));
         asked.add(report, now());
         counted.add(report);
@@ -184,6 +192,7 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
     }
     played.stopped = shown(input_);
     MotionRow& row = played.row;
+    row.load = load;
     row.motion = name_of(motion);
     row.drawn = counted.footprints();
     row.frames = counted.frames;

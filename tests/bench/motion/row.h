@@ -12,6 +12,7 @@ struct MotionRow {
     std::string data, motion, place; ///< place: `windowless`, `window`
     std::uint64_t cells = 0;         ///< active ones of the volume
     int width = 0, height = 0, eyes = 1;
+    double load = 0; ///< of the machine before it, mean of a minute
     double budget_ms = 0;
 
     // Beside settled pictures: means, and the worst.
@@ -25,20 +26,26 @@ struct MotionRow {
     double recognizable = 0; ///< share of the pictures, see `is_recognizable`
 
     // While it moved.
-    std::string drawn;             ///< footprints, and levels of detail if coarse
+    std::string drawn{};           ///< footprints, and levels of detail if coarse
     std::uint64_t drawn_cells = 0; ///< median
     std::size_t frames = 0, redrawn = 0;
-    double per_second = 0;                         ///< pictures drawn anew
-    double frame_ms = 0;                           ///< median, of those drawn anew
-    double over_two = 0, over_three = 0;           ///< share of those over so many promised times
-    double control_two = 0, control_three = 0;     ///< the same of a fixed work, see FixedWork
-    std::optional<double> shown_ms, shown_late_ms; ///< asked to shown: median, 95th percentile
-    double busy = 0;                               ///< processors, while frames were made
+    double per_second = 0;                     ///< pictures drawn anew
+    double frame_ms = 0;                       ///< median, of those drawn anew
+    double over_two = 0, over_three = 0;       ///< share of those over so many promised times
+    double control_two = 0, control_three = 0; ///< the same of a fixed work, see FixedWork
+    std::optional<double> shown_ms = {},
+                          shown_late_ms = {}; ///< asked to shown: median, 95th percentile
+    double busy = 0;                          ///< processors, while frames were made
 
     // After it.
-    std::optional<double> exact_ms; ///< empty: not within the time that was given
+    std::optional<double> exact_ms = {}; ///< empty: not within the time that was given
     double left_off = 0; ///< share of the pixels of what then stood that differ from the settled
 };
+
+/// Whether its pictures are on the sheet of all data.
+inline bool is_on_sheet(const MotionRow& row) {
+    return row.place == "windowless" && row.width == 1280 && row.height == 720;
+}
 
 template <class Row, class Field>
 void each_field_of_motion(Row& row, Field&& field) {
@@ -49,6 +56,7 @@ void each_field_of_motion(Row& row, Field&& field) {
     field("width", row.width);
     field("height", row.height);
     field("eyes", row.eyes);
+    field("load", row.load);
     field("budget_ms", row.budget_ms);
     field("pictures", row.pictures);
     field("lit", row.lit);

@@ -6,6 +6,7 @@
 #include "tests/bench/pages/agreement_rows.h"
 #include "tests/bench/pages/artifact_page.h"
 #include "tests/bench/pages/goals.h"
+#include "tests/bench/pages/motion_page.h"
 #include "tests/bench/pages/paper_tables.h"
 #include "tests/bench/pages/render_page.h"
 
@@ -176,11 +177,9 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
     const Header& header = results.header;
     std::string command = paths.index;
     const std::initializer_list<std::pair<const char*, const std::string&>> options{
-        {" --render ", paths.render},
-        {" --artifacts ", paths.artifacts},
-        {" --scale ", paths.scale},
-        {" --gpu ", paths.gpu},
-        {" --agreement ", paths.agreement}};
+        {" --render ", paths.render},       {" --artifacts ", paths.artifacts},
+        {" --scale ", paths.scale},         {" --gpu ", paths.gpu},
+        {" --agreement ", paths.agreement}, {" --motion ", paths.motion}};
     for (const auto& [option, path] : options)
         if (!path.empty())
             command += option + path;
@@ -274,6 +273,9 @@ std::string whole_page(const ResultPaths& paths,
     if (!paths.agreement.empty())
         page += agreement_section(
             agreement_results_from_json(read(paths.agreement), paths.agreement), paths.agreement);
+    if (!paths.motion.empty())
+        page += motion_section(motion_from_json(read(paths.motion), paths.motion), paths.motion,
+                               "pictures/motion.jpg");
     return page;
 }
 

@@ -10,7 +10,7 @@ namespace isochron::bench {
 
 /// Files of results, by their names on the page; empty: that part is left out.
 struct ResultPaths {
-    std::string index, render, artifacts, scale = {}, gpu = {}, agreement = {};
+    std::string index, render, artifacts, scale = {}, gpu = {}, agreement = {}, motion = {};
 };
 
 /// All parts, as Markdown; the same results give the same text.

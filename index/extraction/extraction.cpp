@@ -4,6 +4,7 @@
 #include "index/detail/detail_search.h"
 #include "index/error.h"
 #include "index/extraction/surface_colors.h"
+#include "index/surface/mesh_colors.h"
 
 #include <fmt/format.h>
 
@@ -87,12 +88,15 @@ class Extracting {
         const SurfacesQuery& query = found.query;
         found.surfaces.clear();
         std::uint64_t room = query.mesh_room;
+        std::optional<ColorSource> colors;
+        if (query.coloring == CellColoring::value && query.colors < ColorSource::count(*file_))
+            colors.emplace(*file_, query.colors);
         for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
             if (searches_.size() == i)
                 searches_.push_back(search_into(file_, method_, shading_));
             CellSet& set = found.surfaces.emplace_back();
             if (!searches_[i](step, query.isovalues[i], stop, set) ||
-                !add_mesh(step, set, room, stop))
+                !add_mesh(step, set, room, colors, stop))
                 return false;
             room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
         }
@@ -103,14 +107,17 @@ class Extracting {
     }
 
     /// Adds a mesh if it does not take more room. @return false when stopped
+    /// @param colors array to color the mesh by, if any
     bool add_mesh(const StepView& step, CellSet& set, std::uint64_t room,
-                  const std::stop_token& stop) {
+                  const std::optional<ColorSource>& colors, const std::stop_token& stop) {
         if (shading_ == Shading::none || set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
             return true;
         const auto started = std::chrono::steady_clock::now();
         CellMesh mesh;
-        if (!layers_.make_mesh(step, set, mesh, stop))
+        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr))
             return false;
+        if (colors)
+            color_by_values(mesh, colors->array().low, colors->array().high);
         if (bytes_of(mesh) <= room)
             set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
         set.shading_time += std::chrono::steady_clock::now() - started;
@@ -131,7 +138,24 @@ class Extracting {
             return false;
         find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
-        return colors_.fill(result.query, result.surfaces, step, result.colors, stop);
+        if (!colors_.fill(result.query, result.surfaces, step, result.colors, stop))
+            return false;
+        if (result.query.coloring == CellColoring::first_crossing && !result.colors.empty())
+            color_meshes_by_cells(result);
+        return true;
+    }
+
+    /// What is known of cells alone: their vertices get the color of the first cell that has them.
+    static void color_meshes_by_cells(Extraction& result) {
+        std::span<const std::uint16_t> colors = result.colors;
+        for (CellSet& surface : result.surfaces) {
+            if (surface.mesh) {
+                auto colored = std::make_shared<CellMesh>(*surface.mesh);
+                color_by_cells(*colored, colors.first(surface.ids.size()));
+                surface.mesh = std::move(colored);
+            }
+            colors = colors.subspan(surface.ids.size());
+        }
     }
 
     /// In the finest level of detail that is small enough, so that little has to be read.
@@ -185,6 +209,22 @@ bool Extraction::meshed() const {
     return !coarse() && std::ranges::all_of(surfaces, [](const CellSet& set) {
         return set.mesh || set.ids.empty();
     });
+}
+std::vector<CellMeshPtr> Extraction::meshes(std::size_t level) const {
+    if (level > 0) {
+        const SimplifiedMeshesPtr made = later->get();
+        return made ? made->levels[level - 1] : std::vector<CellMeshPtr>();
+    }
+    std::vector<CellMeshPtr> own;
+    for (const CellSet& surface : surfaces)
+        own.push_back(surface.mesh);
+    return meshed() ? own : std::vector<CellMeshPtr>();
+}
+std::size_t Extraction::triangles(std::size_t level) const {
+    std::size_t count = 0;
+    for (const CellMeshPtr& mesh : meshes(level))
+        count += mesh ? mesh->triangles.size() / 3 : 0;
+    return count;
 }
 std::uint64_t Extraction::candidates() const {
     return sum_of<std::uint64_t>(surfaces, [](const CellSet& set) { return set.candidates; });

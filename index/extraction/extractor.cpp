@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -21,6 +22,7 @@ struct Extractor::State {
     struct Job {
         SurfacesQuery query;
         bool prefetch;
+        bool simplified; ///< of its meshes
         std::uint64_t times_forgotten;
         std::stop_source stop;
     };
@@ -42,9 +44,18 @@ struct Extractor::State {
         query.step = *step;
         return query;
     }
-    bool has_work() const { return (wanted && !answered) || prefetch_wanted(); }
+    /// What is shown, if its meshes are still to be simplified; else null.
+    ExtractionPtr simplified_wanted() const {
+        const bool wants = wanted && wanted->simplified && answered && shown &&
+                           shown != not_simplified && shown->meshed() && shown->cells() > 0;
+        return wants && !shown->later->get() ? shown : nullptr;
+    }
+    bool has_work() const {
+        return (wanted && !answered) || simplified_wanted() || prefetch_wanted();
+    }
 
     void work(const std::stop_token& stop);
+    void simplify(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock);
     Outcome run(const Job& job);
     void finish(const Job& job, const Outcome& outcome);
     void tell(std::unique_lock<std::mutex>& lock) const;
@@ -60,7 +71,7 @@ struct Extractor::State {
     std::uint64_t times_forgotten = 0;
     std::optional<Job> running;
     RecentExtractions recent;
-    ExtractionPtr shown;
+    ExtractionPtr shown, not_simplified; ///< the second: there was no memory for it
     std::optional<std::string> failure;
     std::function<void()> wake; ///< may be null
     std::jthread worker; ///< last, so that it starts after and ends before everything it uses
@@ -71,6 +82,10 @@ void Extractor::State::work(const std::stop_token& stop) {
     while (changed.wait(lock, stop, [this] { return has_work(); })) {
         if (stop.stop_requested())
             return;
+        if (const ExtractionPtr set = simplified_wanted()) {
+            simplify(set, lock);
+            continue;
+        }
         const bool prefetch = answered;
         const SurfacesQuery query = prefetch ? *prefetch_wanted() : wanted->query;
         if (ExtractionPtr known =
@@ -84,12 +99,33 @@ void Extractor::State::work(const std::stop_token& stop) {
             lock.lock();
             continue;
         }
-        running = Job{query, prefetch, times_forgotten, {}};
+        running = Job{query, prefetch, prefetch && wanted->simplified, times_forgotten, {}};
         const Job job = *running;
         lock.unlock();
         finish(job, run(job));
         lock.lock();
     }
+}
+
+/// Like work that is done ahead, it ends when another query comes.
+void Extractor::State::simplify(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock) {
+    running = Job{set->query, true, true, times_forgotten, {}};
+    const std::stop_token stop = running->stop.get_token();
+    lock.unlock();
+    bool failed = false;
+    try {
+        if (SimplifiedMeshesPtr made = simplified(*set, stop))
+            set->later->put(std::move(made));
+    } catch (const std::bad_alloc&) {
+        failed = true;
+    }
+    lock.lock();
+    running.reset();
+    if (failed)
+        not_simplified = set;
+    changed.notify_all();
+    tell(lock);
+    lock.lock();
 }
 
 /// Gives up the lock and wakes who waits for a picture.
@@ -105,6 +141,8 @@ Extractor::State::Outcome Extractor::State::run(const Job& job) {
         ExtractionPtr extraction = extract(job.query, job.stop.get_token());
         if (!extraction && !job.stop.stop_requested())
             return {nullptr, "the extraction gave no result"};
+        if (job.simplified && extraction && extraction->meshed() && !extraction->later->get())
+            extraction->later->put(index::simplified(*extraction, job.stop.get_token()));
         return {std::move(extraction), {}};
     } catch (const std::exception& error) {
         return {nullptr, error.what()};
@@ -185,7 +223,8 @@ void Extractor::request(const Request& request) {
         const bool same_query = s.wanted && answers(s.wanted->query, request.query);
         const bool was_in_flux = std::exchange(
             s.in_flux, s.wanted && !same_but_for_step(s.wanted->query, request.query));
-        if (same_query && s.wanted->ahead == request.ahead && !was_in_flux)
+        if (same_query && s.wanted->ahead == request.ahead &&
+            s.wanted->simplified == request.simplified && !was_in_flux)
             return;
         s.wanted = request;
         s.prefetch_done = false;
@@ -250,7 +289,9 @@ bool Extractor::busy() const {
 
 void Extractor::wait() const {
     std::unique_lock lock(state_->mutex);
-    state_->changed.wait(lock, [this] { return !state_->wanted || state_->answered; });
+    state_->changed.wait(lock, [this] {
+        return !state_->wanted || (state_->answered && !state_->simplified_wanted());
+    });
 }
 
 } // namespace isochron::index

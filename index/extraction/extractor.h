@@ -24,6 +24,9 @@ struct Request {
     /// Steps to prefetch once the query is answered (during playback), as many as there is room
     /// for. Leave it empty while isovalues are dragged: the next query will have others.
     std::optional<StepsAhead> ahead;
+    /// Whether meshes are also simplified (Extraction::later): of the newest extraction once the
+    /// query is answered, and of the steps ahead.
+    bool simplified = false;
 };
 
 /// Requests may come faster than searches finish. So after one abandoned search the next one is
@@ -58,7 +61,7 @@ class Extractor {
     /// True until the newest request has been answered or has failed.
     bool busy() const;
 
-    /// Blocks until not busy: for fixed-step replay, captures and tests only, never in the live
+    /// Blocks until not busy, and until the meshes of the answer are simplified if they are to be: for fixed-step replay, captures and tests only, never in the live
     /// loop.
     void wait() const;
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kFewest = 3; ///< shown, prefetched, and one for stepping back
 constexpr std::size_t kMostKept = 1024;
+constexpr std::uint64_t kOfSimplified = 3; ///< simplified meshes take at most a third of the mesh
 
 template <class T>
 std::uint64_t bytes_of(const std::vector<T>& values) {
@@ -24,7 +25,7 @@ std::uint64_t bytes_of(const Extraction& extraction) {
                           bytes_of(extraction.surroundings.shares);
     for (const CellSet& set : extraction.surfaces)
         bytes += bytes_of(set.ids) + bytes_of(set.points) + bytes_of(set.rows) +
-                 (set.mesh ? bytes_of(*set.mesh) : 0);
+                 (set.mesh ? bytes_of(*set.mesh) + bytes_of(*set.mesh) / kOfSimplified : 0);
     return bytes;
 }
 

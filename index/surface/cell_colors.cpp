@@ -70,16 +70,25 @@ class CornerReader {
     std::array<std::uint64_t, 8> offsets_{};
 };
 
+/// 0 to 1; 0 where the range is empty.
+double share_of_range(double value, double low, double high) {
+    const double half = high / 2 - low / 2; // halves keep the difference finite
+    return half > 0 ? std::clamp((value / 2 - low / 2) / half, 0.0, 1.0) : 0.0;
+}
+
 } // namespace
 
 std::uint16_t color_coordinate(double value, double low, double high) {
     if (std::isnan(value))
         return kNoColor;
-    const double half = high / 2 - low / 2;
-    if (!(half > 0))
-        return 0;
-    const double share = std::clamp((value / 2 - low / 2) / half, 0.0, 1.0);
-    return static_cast<std::uint16_t>(std::lround(share * kColorSteps));
+    return static_cast<std::uint16_t>(std::lround(share_of_range(value, low, high) * kColorSteps));
+}
+
+std::uint16_t fine_color_coordinate(double value, double low, double high) {
+    if (!std::isfinite(value))
+        return kNoFineColor;
+    return static_cast<std::uint16_t>(
+        std::lround(share_of_range(value, low, high) * kFineColorSteps));
 }
 
 bool color_cells(const StepValues& volume, const StepValues& colors, const Query& query,

@@ -20,6 +20,11 @@ constexpr std::uint16_t kColorSteps = 8190, kNoColor = 8191;
 /// NaN. If `low` and `high` are equal, it is 0.
 std::uint16_t color_coordinate(double value, double low, double high);
 
+/// The same for values at vertices, between which colors are interpolated: 0 to kFineColorSteps, or
+/// kNoFineColor for NaN and infinities.
+constexpr std::uint16_t kFineColorSteps = 65534, kNoFineColor = 65535;
+std::uint16_t fine_color_coordinate(double value, double low, double high);
+
 /// Coordinates of the second array's values on the isosurface: for each cell the mean of the values
 /// at the points where the surface cuts the cell's edges, interpolated linearly. A NaN or infinite
 /// value at an end of a cut edge gives kNoColor.

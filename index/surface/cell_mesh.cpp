@@ -14,7 +14,7 @@ glm::dvec3 position_of(const MeshVertex& vertex) {
 std::uint64_t bytes_of(const CellMesh& mesh) {
     return mesh.vertices.size() * sizeof(MeshVertex) +
            mesh.triangles.size() * sizeof(std::uint32_t) + mesh.cases.size() +
-           mesh.values.size() * sizeof(float);
+           mesh.values.size() * sizeof(float) + mesh.colors.size() * sizeof(std::uint16_t);
 }
 
 glm::dvec3 normal_of(const MeshVertex& vertex) {

@@ -30,6 +30,8 @@ struct CellMesh {
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint8_t> cases; ///< of each cell, see mesh_cases.h: gives its triangle count
     std::vector<float> values;       ///< of another array at the vertices, if they were asked for
+    /// Fine color coordinates (cell_colors.h) of the vertices; empty if the surface has no colors.
+    std::vector<std::uint16_t> colors;
 
     bool operator==(const CellMesh&) const = default;
 };

@@ -60,6 +60,8 @@ struct CellAppearance {
     /// to 1.
     float occlusion = 0.6f;
     std::optional<NearFade> near_fade;
+    /// Of the footprint `mesh`: which of the set's meshes is drawn (CellBuffers::mesh).
+    std::size_t mesh_level = 0;
     /// A plane in the room (normal, offset) above which everything is cut away: whole cells with
     /// quads and splats, exactly at the plane with surfaces.
     std::optional<glm::vec4> cut;

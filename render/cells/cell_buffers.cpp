@@ -34,7 +34,9 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
       points_(ArrivingSet::points_array(gl)), corners_{corner_values_array(gl),
                                                        corner_gradients_array(gl)},
-      mesh_(gl), surroundings_(gl), arriving_(gl) {}
+      meshes_{KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)},
+              KeptMeshes{MeshBuffers(gl)}},
+      surroundings_(gl), arriving_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
     return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
@@ -91,6 +93,7 @@ bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_bu
             show();
             changed = true;
         }
+        send_simplified(budget);
     } catch (const OutOfMemory& why) {
         give_up(pending() ? arriving_.set() : volume_of_shown ? nullptr : newest, why);
     }
@@ -128,7 +131,9 @@ void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& wh
         no_volume_version_ = version_;
     }
     arriving_.end();
-    sending_blocks_ = sending_mesh_ = false;
+    sending_blocks_ = false;
+    for (KeptMeshes& meshes : meshes_)
+        meshes.sending = false;
     volume_version_ = 0; // of no set
     if (blocks_)         // which may have got only a part
         blocks_.emplace(*gl_, grid_, held_);
@@ -189,9 +194,11 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     sending_blocks_ = volume == SendVolume::with_cells || !with_points;
     if (sending_blocks_)
         blocks_->begin(set->blocks);
-    sending_mesh_ = with_points && set->meshed();
-    if (sending_mesh_)
-        mesh_.begin(*set);
+    for (KeptMeshes& meshes : meshes_)
+        meshes.sending = false;
+    meshes_[0].sending = with_points && set->meshed();
+    if (meshes_[0].sending)
+        meshes_[0].buffers.begin(set->meshes(0));
     arriving_.begin(std::move(set), std::move(plan));
     return true;
 }
@@ -202,7 +209,7 @@ bool CellBuffers::send_on(SendBudget& budget) {
         return false;
     if (sending_blocks_ && !send_blocks(budget))
         return false;
-    if (sending_mesh_ && !send_mesh(budget))
+    if (meshes_[0].sending && !send_mesh(0, budget))
         return false;
     return arriving_.comes_with_points() || arriving_.send_changes(ring_, budget, count_);
 }
@@ -217,14 +224,36 @@ bool CellBuffers::send_blocks(SendBudget& budget) {
     return blocks_->complete();
 }
 
-/// @return whether the whole mesh is on the GPU
-bool CellBuffers::send_mesh(SendBudget& budget) {
-    if (!mesh_.complete() && budget.left() > 0) {
-        const std::size_t part = mesh_.send(budget.left());
+/// @return whether all meshes of the level are on the GPU
+bool CellBuffers::send_mesh(std::size_t level, SendBudget& budget) {
+    MeshBuffers& mesh = meshes_[level].buffers;
+    if (!mesh.complete() && budget.left() > 0) {
+        const std::size_t part = mesh.send(budget.left());
         budget.sent += part;
         count_.mesh_bytes += part;
     }
-    return mesh_.complete();
+    return mesh.complete();
+}
+
+/// The simplified meshes of the shown set, once they are made, the smallest first.
+void CellBuffers::send_simplified(SendBudget& budget) {
+    for (std::size_t level = meshes_.size(); shown_ && !pending() && --level > 0;) {
+        KeptMeshes& kept = meshes_[level];
+        if (kept.version == version_)
+            continue;
+        if (!kept.sending) {
+            std::vector<index::CellMeshPtr> made = shown_->meshes(level);
+            if (made.empty())
+                return;
+            kept.buffers.begin(std::move(made));
+            kept.sending = true;
+        }
+        if (!send_mesh(level, budget))
+            return;
+        kept.buffers.show();
+        kept.sending = false;
+        kept.version = version_;
+    }
 }
 
 /// Like a set, a volume whose transfer has begun is completed before a newer set begins.
@@ -260,9 +289,9 @@ void CellBuffers::show() {
     count_.surrounding_bytes += surroundings_.show(shown_->surroundings);
     if (std::exchange(sending_blocks_, false))
         volume_version_ = version_;
-    if (std::exchange(sending_mesh_, false)) {
-        mesh_.show();
-        mesh_version_ = version_;
+    if (std::exchange(meshes_[0].sending, false)) {
+        meshes_[0].buffers.show();
+        meshes_[0].version = version_;
     }
 }
 

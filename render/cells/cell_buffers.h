@@ -16,6 +16,7 @@
 #include "render/cells/upload_count.h"
 #include "render/gl/staging_ring.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -104,8 +105,12 @@ class CellBuffers {
     GLuint texture() const { return points_.texture(); }
 
     /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs.
-    bool has_mesh() const { return shown_ && mesh_version_ == version_; }
-    const MeshBuffers& mesh() const { return mesh_; }
+    /// Those of a level (index/extraction/simplified_meshes.h) above 0 come with a later call of
+    /// `upload` with no newer set.
+    bool has_mesh(std::size_t level = 0) const {
+        return shown_ && meshes_[level].version == version_;
+    }
+    const MeshBuffers& mesh(std::size_t level = 0) const { return meshes_[level].buffers; }
     const AxisTable& axes() const { return *axes_; }
     /// Of the shown set.
     const Surroundings& surroundings() const { return surroundings_; }
@@ -149,6 +154,11 @@ class CellBuffers {
         std::uint64_t version = 0; ///< of the set whose corners they are
         std::size_t done = 0;      ///< cells
     };
+    struct KeptMeshes {
+        MeshBuffers buffers;
+        std::uint64_t version = 0; ///< of the set whose meshes they are
+        bool sending = false;      ///< of the arriving set, or simplified ones of the shown set
+    };
     struct Refusal {
         index::ExtractionPtr set; ///< null: none
         std::string why;
@@ -160,7 +170,8 @@ class CellBuffers {
     bool begin(index::ExtractionPtr set, SendVolume volume);
     bool make_room_for(const index::VolumeBlocks& blocks);
     bool send_on(SendBudget& budget);
-    bool send_mesh(SendBudget& budget);
+    bool send_mesh(std::size_t level, SendBudget& budget);
+    void send_simplified(SendBudget& budget);
     bool send_blocks(SendBudget& budget);
     void send_volume_of_shown(SendBudget& budget);
     Slots place_cells();
@@ -172,7 +183,7 @@ class CellBuffers {
     StagingRing ring_;
     DeviceArray points_;
     KeptCorners corners_;
-    MeshBuffers mesh_;
+    std::array<KeptMeshes, index::kMeshLevels> meshes_; ///< by level
     Surroundings surroundings_;
     std::optional<BlockPool> blocks_;                  ///< made when the type is known
     index::ValueType held_{};                          ///< of its values
@@ -182,11 +193,10 @@ class CellBuffers {
     index::ExtractionPtr shown_;
     Refusal refused_;
     std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
-    std::uint64_t version_ = 0, volume_version_ = 0, mesh_version_ = 0;
+    std::uint64_t version_ = 0, volume_version_ = 0;
     std::uint64_t no_volume_version_ = 0; ///< of the set whose volume found no memory
     UploadCount count_;
     ArrivingSet arriving_;
-    bool sending_mesh_ = false;   ///< of the arriving set
     bool sending_blocks_ = false; ///< of the arriving set, or later of the shown one
 };
 

@@ -108,11 +108,11 @@ std::size_t CellPass::draw(std::span<const View> views, const Placement& placeme
                            const CellAppearance& appearance, DrawPart part) {
     if (cells.size() == 0)
         return 0;
-    assert(footprint != Footprint::mesh || cells.has_mesh());
+    assert(footprint != Footprint::mesh || cells.has_mesh(appearance.mesh_level));
     std::size_t before = 0, end = part.first;
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
         const std::size_t at_once = views_at_once(footprint);
-        const std::size_t work = work_of(cells, footprint, layer);
+        const std::size_t work = work_of(cells, footprint, layer, appearance.mesh_level);
         const bool in_windows = comes_in_windows(footprint, layer.blended);
         for (std::size_t first = 0; first < views.size(); first += at_once, before += work) {
             const Drawing drawing{views.subspan(first, std::min(at_once, views.size() - first)),
@@ -146,7 +146,8 @@ std::size_t CellPass::work(std::size_t views, const CellBuffers& cells, Footprin
     std::size_t work = 0;
     for (const Layer& layer : layers_of(cells, footprint, appearance)) {
         const std::size_t at_once = views_at_once(footprint);
-        work += (views + at_once - 1) / at_once * work_of(cells, footprint, layer);
+        work += (views + at_once - 1) / at_once *
+                work_of(cells, footprint, layer, appearance.mesh_level);
     }
     return cells.size() == 0 ? 0 : work;
 }
@@ -163,25 +164,26 @@ bool CellPass::wants_order_only(Footprint footprint, bool blended) {
     return footprint == Footprint::mesh || comes_in_windows(footprint, blended);
 }
 
-bool CellPass::is_ordered(Footprint footprint, bool blended) const {
+bool CellPass::is_ordered(Footprint footprint, bool blended, std::size_t mesh_level) const {
+    if (footprint == Footprint::mesh && mesh_level > 0)
+        return false;
     return blended ||
            (seen_only_ && (footprint == Footprint::quad || footprint == Footprint::surface));
 }
 
-std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint,
-                              const Layer& layer) const {
-    if (is_ordered(footprint, layer.blended))
+std::size_t CellPass::work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer,
+                              std::size_t mesh_level) const {
+    if (is_ordered(footprint, layer.blended, mesh_level))
         return ordering_work(cells, footprint, layer.blended) + cells.size();
     if (!has_layers(footprint))
         return 1;
-    return footprint == Footprint::mesh && !layer.blended
-               ? MeshPass::triangles(cells, layer.surfaces)
-               : cells.size();
+    return footprint == Footprint::mesh ? MeshPass::triangles(cells, mesh_level, layer.surfaces)
+                                        : cells.size();
 }
 
 DrawPart CellPass::put_in_order(const Drawing& drawing, DrawPart part) {
     const auto& [views, placement, cells, footprint, layer, appearance] = drawing;
-    if (!is_ordered(footprint, layer.blended))
+    if (!is_ordered(footprint, layer.blended, appearance.mesh_level))
         return part;
     const std::size_t all = ordering_work(cells, footprint, layer.blended);
     const DrawPart ordering = part.among(0, all), left = part.among(all, cells.size());
@@ -227,7 +229,8 @@ void CellPass::draw_at_once(const Drawing& drawing, DrawPart part) {
     std::array<CellSequence, 2> sequences;
     sequences.fill({.cells = cells.size()});
     for (std::size_t i = 0; i < views.size(); ++i) {
-        if (!is_ordered(footprint, layer.blended) || wants_order_only(footprint, layer.blended))
+        if (!is_ordered(footprint, layer.blended, appearance.mesh_level) ||
+            wants_order_only(footprint, layer.blended))
             break;
         sequences[i] = sequences_.find(sequence_wanted(drawing, i));
         if (!has_layers(footprint))
@@ -367,7 +370,10 @@ void CellPass::draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPa
     MeshLook look = mesh_look(view, placement, cells.axes(), appearance);
     look.surfaces = layer.surfaces;
     look.colors = frame.surfaces;
-    if (layer.blended)
+    const glm::mat4& eye = frame.eyes[0].eye_from_index;
+    if (layer.blended && look.level > 0)
+        mesh_.draw_blended(cells, look, -glm::vec4(eye[0].z, eye[1].z, eye[2].z, eye[3].z), part);
+    else if (layer.blended)
         mesh_.draw_blended(cells, look,
                            sequences_.orders()
                                .order(cells, key_of(view, placement))

@@ -103,7 +103,8 @@ class CellPass {
                                         const CellAppearance& appearance);
     /// Views that are drawn in one pass, at most.
     std::size_t views_at_once(Footprint footprint) const;
-    std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer) const;
+    std::size_t work_of(const CellBuffers& cells, Footprint footprint, const Layer& layer,
+                        std::size_t mesh_level) const;
     /// Surfaces that are drawn into one or two views in one pass; two need `Programs::two`.
     struct Drawing {
         std::span<const View> views;
@@ -121,8 +122,8 @@ class CellPass {
     /// The fastest form that shows the same picture in all views.
     Form form_of(std::span<const View> views, const Placement& placement, Footprint footprint,
                  const CellBuffers& cells) const;
-    /// Whether its cells are drawn in an order, or any will do.
-    bool is_ordered(Footprint footprint, bool blended) const;
+    /// Whether its cells are drawn in an order, or any will do. Simplified meshes have no cells.
+    bool is_ordered(Footprint footprint, bool blended, std::size_t mesh_level) const;
     static bool wants_order_only(Footprint footprint, bool blended);
     SequenceWanted sequence_wanted(const Drawing& drawing, std::size_t eye) const;
     /// Goes on with putting quads and splats in order. @return the part of the work that is left to

@@ -48,6 +48,7 @@ MeshLook mesh_look(const View& view, const Placement& placement, const AxisTable
                       appearance.shininess >= kLeastShininess;
     const bool small = largest.pixels <= kFewPixels;
     MeshLook look;
+    look.level = appearance.mesh_level;
     look.colored = appearance.values.has_value();
     look.near = !hides_what_is_behind(opaque, placement) || (!small && !even);
     look.small = small;

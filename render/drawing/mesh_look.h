@@ -8,6 +8,7 @@
 
 #include <glm/vec4.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,7 +18,8 @@ namespace isochron::render {
 struct MeshLook {
     std::int32_t surfaces = 0;         ///< one bit for each drawn surface
     std::span<const glm::vec4> colors; ///< of each surface, linear light
-    bool colored = false;              ///< by the cells' coordinates
+    std::size_t level = 0;             ///< of the set's meshes: CellBuffers::mesh
+    bool colored = false;              ///< by the vertices' coordinates
     bool near = false;  ///< so near that some may be cut away or fade, or large in the view
     bool small = false; ///< triangles are of few pixels: lit at their vertices
 };

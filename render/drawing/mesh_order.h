@@ -31,17 +31,21 @@ struct PlaneOrder {
 PlaneOrder near_planes_first(const glm::vec4& eye, const glm::vec3& extent,
                              const glm::vec3& spacing);
 
-/// Triangles in some order.
-struct OrderedTriangles {
-    std::vector<std::uint32_t> corners; ///< three vertices each
-    std::vector<std::uint32_t>
-        numbers; ///< of each triangle in its mesh; meshes are counted through
-};
-
 /// Appends the triangles of a surface in this order. Triangles of one plane stay in the order of
 /// cells.
 /// @param cells of the surface, in order of their ids
+/// @param corners of triangles: three vertices each
 void append_in_order(std::span<const CellPlace> cells, const index::CellMesh& mesh,
-                     PlaneOrder order, OrderedTriangles& triangles);
+                     PlaneOrder order, std::vector<std::uint32_t>& corners);
+/// The same of a mesh whose triangles belong to no cells, by their first vertices.
+void append_in_order(const index::CellMesh& mesh, PlaneOrder order,
+                     std::vector<std::uint32_t>& corners);
+
+/// Triangles of several meshes, the farthest first, by the distances of their first vertices.
+/// @param first_vertices of each mesh, added to the numbers of its vertices
+/// @param ahead distance along the view, in any unit, of a vertex at index coordinates: x, y, z, 1
+std::vector<std::uint32_t> far_first(std::span<const index::CellMeshPtr> meshes,
+                                     std::span<const std::size_t> first_vertices,
+                                     const glm::vec4& ahead);
 
 } // namespace isochron::render

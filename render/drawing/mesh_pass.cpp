@@ -10,16 +10,15 @@
 
 namespace isochron::render {
 
-constexpr GLuint kStylesUnit = 8; ///< of mesh.frag
-
 constexpr GLint kFirstVertices = 1; ///< of mesh.vert
+constexpr GLuint kColors = 1;       ///< attribute of mesh.vert
 
-/// Cells whose triangles are put in order in some milliseconds. More are drawn as they come.
-constexpr std::size_t kMostSorted = 1 << 18;
+/// Triangles that are put in order in some milliseconds. More are drawn as they come.
+constexpr std::size_t kMostSorted = 1 << 19;
 
 MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
-    : gl_(&gl), vertex_array_(gl), styles_(gl), near_first_(gl), order_(gl) {
-    for (const Kind kind : {Kind::plain, Kind::styled, Kind::blended})
+    : gl_(&gl), vertex_array_(gl), near_first_(gl), order_(gl) {
+    for (const Kind kind : {Kind::plain, Kind::colored, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
             if (kind != Kind::blended || way == Way::near) // what blends is asked how near it is
                 programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
@@ -27,10 +26,12 @@ MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
     gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
     gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
+    gl.VertexArrayAttribIFormat(vertex_array_.name(), kColors, 1, GL_UNSIGNED_SHORT, 0);
+    gl.VertexArrayAttribBinding(vertex_array_.name(), kColors, kColors);
 }
 
 Program MeshPass::make_program(Kind kind, Way way, const std::string& grid_prelude) const {
-    const std::string prelude = grid_prelude + (kind == Kind::plain ? "" : "#define STYLES\n") +
+    const std::string prelude = grid_prelude + (kind == Kind::plain ? "" : "#define COLORS\n") +
                                 (kind == Kind::blended ? "#define BLENDED\n" : "") +
                                 (way == Way::near    ? "#define NEAR\n"
                                  : way == Way::small ? "#define LIT_AT_VERTICES\n"
@@ -46,47 +47,51 @@ GLuint MeshPass::program(Kind kind, const MeshLook& look) const {
     return programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)]->name();
 }
 
-/// Finds the style of each triangle of the shown set, and the first triangle of each cell.
-void MeshPass::find_styles(const CellBuffers& cells) {
+/// Finds the first triangle of each cell of the shown set.
+void MeshPass::find_cells(const CellBuffers& cells) {
     if (cells_version_ == cells.version())
         return;
     cells_version_ = cells.version();
-    style_of_triangle_.clear();
     first_of_cell_.clear();
-    const std::span<const CellPlace> places =
-        cells.slots().places; // slots are ranks in sets with meshes
-    for (const index::CellSet& surface : cells.shown()->surfaces)
-        for (std::size_t i = 0; i < surface.ids.size(); ++i) {
-            const std::size_t count = index::mesh_cases()[surface.mesh->cases[i]].triangles;
-            const std::uint16_t style = places[first_of_cell_.size()].style;
-            first_of_cell_.push_back(static_cast<std::uint32_t>(style_of_triangle_.size()));
-            style_of_triangle_.insert(style_of_triangle_.end(), count, style);
+    std::uint32_t triangles = 0;
+    for (const index::CellMeshPtr& mesh : cells.mesh().meshes())
+        for (std::size_t i = 0; mesh && i < mesh->cases.size(); ++i) {
+            first_of_cell_.push_back(triangles);
+            triangles += index::mesh_cases()[mesh->cases[i]].triangles;
         }
+    first_of_cell_.push_back(triangles);
 }
 
 /// Which vertices are whose.
-void MeshPass::tell_surfaces(GLuint program, const CellBuffers& cells) const {
-    const auto surfaces = cells.mesh().surfaces();
+void MeshPass::tell_surfaces(GLuint program, const MeshBuffers& mesh) const {
+    const auto surfaces = mesh.surfaces();
     for (std::size_t i = 0; i < index::kMostSurfaces; ++i)
         gl_->ProgramUniform1i(program, kFirstVertices + static_cast<GLint>(i),
                               i < surfaces.size() ? static_cast<GLint>(surfaces[i].first_vertex)
                                                   : std::numeric_limits<GLint>::max());
 }
 
-void MeshPass::draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
+void MeshPass::draw_triangles(const MeshBuffers& mesh, GLuint indices, std::size_t first,
                               std::size_t count, std::size_t base) const {
-    gl_->VertexArrayVertexBuffer(vertex_array_.name(), 0, cells.mesh().vertices(), 0,
-                                 sizeof(index::MeshVertex));
-    gl_->VertexArrayElementBuffer(vertex_array_.name(), indices);
-    gl_->BindVertexArray(vertex_array_.name());
+    const GLuint array = vertex_array_.name();
+    gl_->VertexArrayVertexBuffer(array, 0, mesh.vertices(), 0, sizeof(index::MeshVertex));
+    if (mesh.colors() != 0) {
+        gl_->EnableVertexArrayAttrib(array, kColors);
+        gl_->VertexArrayVertexBuffer(array, kColors, mesh.colors(), 0, sizeof(std::uint16_t));
+    } else { // all have coordinate 0
+        gl_->DisableVertexArrayAttrib(array, kColors);
+    }
+    gl_->VertexArrayElementBuffer(array, indices);
+    gl_->BindVertexArray(array);
     gl_->DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                                 reinterpret_cast<const void*>(first * sizeof(std::uint32_t)),
                                 static_cast<GLint>(base));
     gl_->BindVertexArray(0);
 }
 
-std::size_t MeshPass::triangles(const CellBuffers& cells, std::int32_t surfaces) {
-    const auto all = cells.mesh().surfaces();
+std::size_t MeshPass::triangles(const CellBuffers& cells, std::size_t level,
+                                std::int32_t surfaces) {
+    const auto all = cells.mesh(level).surfaces();
     std::size_t count = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
         if ((surfaces >> i & 1) != 0)
@@ -95,56 +100,38 @@ std::size_t MeshPass::triangles(const CellBuffers& cells, std::int32_t surfaces)
 }
 
 /// Puts the triangles of all surfaces in this order.
-void MeshPass::put_near_first(const CellBuffers& cells, PlaneOrder order) {
-    if (sorted_version_ == cells.version() && sorted_ == order)
+void MeshPass::put_near_first(const CellBuffers& cells, std::size_t level, PlaneOrder order) {
+    if (sorted_version_ == cells.version() && sorted_ == order && sorted_level_ == level)
         return;
     sorted_version_ = cells.version();
     sorted_ = order;
-    styles_version_ = 0; // of another order
-    near_triangles_.corners.clear();
-    near_triangles_.numbers.clear();
-    const std::span<const CellPlace> places = cells.slots().places;
+    sorted_level_ = level;
+    std::vector<std::uint32_t> corners;
+    const std::span<const CellPlace> places = cells.slots().places; // slots are ranks here
     std::size_t before = 0;
-    for (const index::CellSet& surface : cells.shown()->surfaces) {
-        if (surface.mesh)
-            append_in_order(places.subspan(before, surface.ids.size()), *surface.mesh, order,
-                            near_triangles_);
-        before += surface.ids.size();
+    for (const index::CellMeshPtr& mesh : cells.mesh(level).meshes()) {
+        if (mesh && level > 0)
+            append_in_order(*mesh, order, corners);
+        else if (mesh)
+            append_in_order(places.subspan(before, mesh->cases.size()), *mesh, order, corners);
+        before += mesh ? mesh->cases.size() : 0;
     }
-    const std::span<const std::uint32_t> corners = near_triangles_.corners;
-    gl_->NamedBufferData(near_first_.name(), static_cast<GLsizeiptr>(corners.size_bytes()),
-                         corners.data(), GL_STREAM_DRAW);
-}
-
-/// The styles of triangles in the order in which they are drawn.
-void MeshPass::send_styles(const CellBuffers& cells, bool sorted) {
-    find_styles(cells);
-    if (styles_version_ == cells.version() && styles_sorted_ == sorted)
-        return;
-    styles_version_ = cells.version();
-    styles_sorted_ = sorted;
-    std::vector<std::uint16_t> styles;
-    if (sorted)
-        for (const std::uint32_t triangle : near_triangles_.numbers)
-            styles.push_back(style_of_triangle_[triangle]);
-    const std::span<const std::uint16_t> sent = sorted ? styles : style_of_triangle_;
-    styles_.set(GL_R16UI, sizeof(sent[0]), std::as_bytes(sent));
+    const std::span<const std::uint32_t> sent = corners;
+    gl_->NamedBufferData(near_first_.name(), static_cast<GLsizeiptr>(sent.size_bytes()),
+                         sent.data(), GL_STREAM_DRAW);
 }
 
 void MeshPass::draw(const CellBuffers& cells, const MeshLook& look, PlaneOrder order,
                     DrawPart part) {
-    const bool sorted = !order.of_mesh() && cells.size() <= kMostSorted;
+    const MeshBuffers& mesh = cells.mesh(look.level);
+    const bool sorted = !order.of_mesh() && mesh.triangles() <= kMostSorted;
     if (sorted)
-        put_near_first(cells, order);
-    if (look.colored) {
-        send_styles(cells, sorted);
-        gl_->BindTextureUnit(kStylesUnit, styles_.texture());
-    }
-    const GLuint of_look = program(look.colored ? Kind::styled : Kind::plain, look);
+        put_near_first(cells, look.level, order);
+    const GLuint of_look = program(look.colored ? Kind::colored : Kind::plain, look);
     gl_->UseProgram(of_look);
-    tell_surfaces(of_look, cells);
-    const GLuint triangles = sorted ? near_first_.name() : cells.mesh().indices();
-    const auto surfaces = cells.mesh().surfaces();
+    tell_surfaces(of_look, mesh);
+    const GLuint triangles = sorted ? near_first_.name() : mesh.indices();
+    const auto surfaces = mesh.surfaces();
     std::size_t before = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const auto& [first_vertex, first_index, indices] = surfaces[i];
@@ -154,51 +141,58 @@ void MeshPass::draw(const CellBuffers& cells, const MeshLook& look, PlaneOrder o
         before += indices / 3;
         if (cut.count == 0)
             continue;
-        const std::size_t from = first_index / 3 + cut.first;
-        if (look.colored)
-            gl_->ProgramUniform1i(of_look, 0, static_cast<GLint>(from));
-        else
+        if (!look.colored)
             gl_->ProgramUniform3f(of_look, 0, look.colors[i].x, look.colors[i].y, look.colors[i].z);
-        draw_triangles(cells, triangles, 3 * from, 3 * cut.count, first_vertex);
+        draw_triangles(mesh, triangles, 3 * (first_index / 3 + cut.first), 3 * cut.count,
+                       first_vertex);
     }
 }
 
 void MeshPass::draw_blended(const CellBuffers& cells, const MeshLook& look,
                             std::span<const std::uint32_t> back_to_front) {
-    find_styles(cells);
+    find_cells(cells);
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint16_t> styles;
-    indices.reserve(3 * style_of_triangle_.size());
-    styles.reserve(style_of_triangle_.size());
-    const auto surfaces = cells.mesh().surfaces();
-    const auto& sets = cells.shown()->surfaces;
+    indices.reserve(std::size_t{3} * first_of_cell_.back());
+    const MeshBuffers& mesh = cells.mesh();
+    const auto surfaces = mesh.surfaces();
     for (const std::uint32_t slot : back_to_front) {
-        const std::size_t first = first_of_cell_[slot];
-        const std::size_t end = slot + std::size_t{1} < first_of_cell_.size()
-                                    ? first_of_cell_[slot + 1]
-                                    : style_of_triangle_.size();
+        const std::size_t first = first_of_cell_[slot], end = first_of_cell_[slot + std::size_t{1}];
         const std::size_t surface = cells.slots().places[slot].style & ((1u << kColorShift) - 1);
         if ((look.surfaces >> surface & 1) == 0)
             continue;
         const auto& [first_vertex, first_index, count] = surfaces[surface];
         for (std::size_t k = 3 * first - first_index; k < 3 * end - first_index; ++k)
             indices.push_back(
-                static_cast<std::uint32_t>(first_vertex + sets[surface].mesh->triangles[k]));
-        styles.insert(styles.end(), style_of_triangle_.begin() + static_cast<std::ptrdiff_t>(first),
-                      style_of_triangle_.begin() + static_cast<std::ptrdiff_t>(end));
+                static_cast<std::uint32_t>(first_vertex + mesh.meshes()[surface]->triangles[k]));
     }
-    if (indices.empty())
+    draw_blended(mesh, look, indices);
+}
+
+void MeshPass::draw_blended(const CellBuffers& cells, const MeshLook& look, const glm::vec4& ahead,
+                            DrawPart part) {
+    const MeshBuffers& mesh = cells.mesh(look.level);
+    std::vector<index::CellMeshPtr> meshes;
+    std::vector<std::size_t> first_vertices;
+    for (std::size_t i = 0; i < mesh.meshes().size(); ++i)
+        if ((look.surfaces >> i & 1) != 0) {
+            meshes.push_back(mesh.meshes()[i]);
+            first_vertices.push_back(mesh.surfaces()[i].first_vertex);
+        }
+    const std::vector<std::uint32_t> corners = far_first(meshes, first_vertices, ahead);
+    const DrawPart mine = part.among(0, corners.size() / 3);
+    draw_blended(mesh, look, std::span(corners).subspan(3 * mine.first, 3 * mine.count));
+}
+
+void MeshPass::draw_blended(const MeshBuffers& mesh, const MeshLook& look,
+                            std::span<const std::uint32_t> corners) {
+    if (corners.empty())
         return;
-    gl_->NamedBufferData(order_.name(), static_cast<GLsizeiptr>(std::span(indices).size_bytes()),
-                         indices.data(), GL_STREAM_DRAW);
-    styles_.set(GL_R16UI, sizeof(styles[0]), std::as_bytes(std::span(styles)));
-    styles_version_ = 0; // of no set
-    gl_->BindTextureUnit(kStylesUnit, styles_.texture());
+    gl_->NamedBufferData(order_.name(), static_cast<GLsizeiptr>(corners.size_bytes()),
+                         corners.data(), GL_STREAM_DRAW);
     const GLuint of_look = program(Kind::blended, look);
-    gl_->ProgramUniform1i(of_look, 0, 0);
-    tell_surfaces(of_look, cells);
+    tell_surfaces(of_look, mesh);
     gl_->UseProgram(of_look);
-    draw_triangles(cells, order_.name(), 0, indices.size(), 0);
+    draw_triangles(mesh, order_.name(), 0, corners.size(), 0);
 }
 
 } // namespace isochron::render

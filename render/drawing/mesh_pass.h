@@ -5,7 +5,6 @@
 #include "render/cells/draw_part.h"
 #include "render/drawing/mesh_look.h"
 #include "render/drawing/mesh_order.h"
-#include "render/gl/buffer_texture.h"
 
 #include <glm/vec4.hpp>
 #include <string>
@@ -33,34 +32,39 @@ class MeshPass {
     /// @param part of the triangles of the surfaces that are drawn
     void draw(const CellBuffers& cells, const MeshLook& look, PlaneOrder order, DrawPart part);
     /// Triangles of the surfaces that `draw` draws.
-    static std::size_t triangles(const CellBuffers& cells, std::int32_t surfaces);
-    /// Draws blended triangles, cell by cell in this order. @param back_to_front slots of the cells
+    static std::size_t triangles(const CellBuffers& cells, std::size_t level,
+                                 std::int32_t surfaces);
+    /// Draws blended triangles of mesh level 0, cell by cell in this order.
+    /// @param back_to_front slots of the cells
     void draw_blended(const CellBuffers& cells, const MeshLook& look,
                       std::span<const std::uint32_t> back_to_front);
+    /// Draws blended triangles of a simplified mesh, the farthest first. @param ahead see far_first
+    /// @param part of the triangles of the surfaces that are drawn
+    void draw_blended(const CellBuffers& cells, const MeshLook& look, const glm::vec4& ahead,
+                      DrawPart part);
 
   private:
-    enum class Kind : std::uint8_t { plain, styled, blended };
+    enum class Kind : std::uint8_t { plain, colored, blended };
     enum class Way : std::uint8_t { plain, near, small }; ///< of MeshLook
     Program make_program(Kind kind, Way way, const std::string& grid_prelude) const;
     GLuint program(Kind kind, const MeshLook& look) const;
-    void put_near_first(const CellBuffers& cells, PlaneOrder order);
-    void send_styles(const CellBuffers& cells, bool sorted);
-    void find_styles(const CellBuffers& cells);
-    void tell_surfaces(GLuint program, const CellBuffers& cells) const;
-    void draw_triangles(const CellBuffers& cells, GLuint indices, std::size_t first,
+    void put_near_first(const CellBuffers& cells, std::size_t level, PlaneOrder order);
+    void find_cells(const CellBuffers& cells);
+    void tell_surfaces(GLuint program, const MeshBuffers& mesh) const;
+    void draw_blended(const MeshBuffers& mesh, const MeshLook& look,
+                      std::span<const std::uint32_t> corners);
+    void draw_triangles(const MeshBuffers& mesh, GLuint indices, std::size_t first,
                         std::size_t count, std::size_t base) const;
 
     const Gl* gl_;
     std::array<std::array<std::optional<Program>, 3>, 3> programs_; ///< [kind][way]
     VertexArray vertex_array_;
-    BufferTexture styles_;                         ///< by triangle
-    Buffer near_first_, order_;                    ///< vertex indices, also to be blended
-    std::vector<std::uint16_t> style_of_triangle_; ///< of the set with cells_version_
-    std::vector<std::uint32_t> first_of_cell_;     ///< first triangle of each cell, by slot
-    OrderedTriangles near_triangles_;              ///< in `near_first_`
-    PlaneOrder sorted_;                            ///< of `near_first_`
-    bool styles_sorted_ = false;                   ///< of `styles_`: as `near_first_`
-    std::uint64_t styles_version_ = 0, cells_version_ = 0, sorted_version_ = 0;
+    Buffer near_first_, order_; ///< vertex indices, also to be blended
+    std::vector<std::uint32_t>
+        first_of_cell_;            ///< first triangle of each cell, by slot, and the end
+    PlaneOrder sorted_;            ///< of `near_first_`
+    std::size_t sorted_level_ = 0; ///< likewise
+    std::uint64_t cells_version_ = 0, sorted_version_ = 0;
 };
 
 } // namespace isochron::render

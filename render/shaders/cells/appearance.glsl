@@ -9,13 +9,9 @@ const uint kNoValue = 8191u;
 
 layout(binding = 7) uniform sampler1D color_map; // linear light
 
-vec3 base_color(uint style) {
-    if (!colored)
-        return surfaces[style & 7u].rgb;
-    uint coordinate = style >> 3;
-    if (coordinate == kNoValue)
-        return no_value.rgb;
-    float at = clamp(color_range.x * (float(coordinate) / float(kNoValue - 1u)) + color_range.y, 0.0, 1.0);
+// The color of a value. @param share its place in the range of all values, 0 to 1
+vec3 mapped_color(float share) {
+    float at = clamp(color_range.x * share + color_range.y, 0.0, 1.0);
     if (color_ratio > 0.0)
         at = log2(1.0 + at * (color_ratio - 1.0)) / log2(color_ratio);
     float size = float(textureSize(color_map, 0));
@@ -23,6 +19,13 @@ vec3 base_color(uint style) {
     if (color_bands)
         texel = floor(texel + 0.5);
     return textureLod(color_map, (texel + 0.5) / size, 0.0).rgb;
+}
+
+vec3 base_color(uint style) {
+    if (!colored)
+        return surfaces[style & 7u].rgb;
+    uint coordinate = style >> 3;
+    return coordinate == kNoValue ? no_value.rgb : mapped_color(float(coordinate) / float(kNoValue - 1u));
 }
 
 vec3 written(vec3 light) {

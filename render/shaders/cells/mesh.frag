@@ -12,9 +12,9 @@
 #endif
 #include "appearance.glsl"
 
-#ifdef STYLES
-layout(binding = 8) uniform usamplerBuffer styles; // of each triangle
-layout(location = 0) uniform int first_triangle;
+#ifdef COLORS
+in vec2 colored_by; // see mesh.vert
+flat in uint of_surface;
 #else
 layout(location = 0) uniform vec3 base; // linear light
 #endif
@@ -34,9 +34,10 @@ in vec4 halfway;
 out vec4 result;
 
 void main() {
-#ifdef STYLES
-    uint style = texelFetch(styles, first_triangle + gl_PrimitiveID).x;
-    vec3 base = base_color(style);
+#ifdef COLORS
+    vec3 base = !colored             ? surfaces[of_surface].rgb
+                : colored_by.y < 0.5 ? no_value.rgb
+                                     : mapped_color(colored_by.x / colored_by.y);
 #endif
 #if defined(NEAR)
     vec2 lit = normal.w * light_in_eye(at_in_eye, normal.xyz);
@@ -49,7 +50,7 @@ void main() {
     vec3 shown = base * lit.x + lit.y;
 #ifdef BLENDED
     shown = written(shown);
-    float alpha = surfaces[style & 7u].a * near_share(at_in_eye);
+    float alpha = surfaces[of_surface].a * near_share(at_in_eye);
     result = vec4(shown * alpha, alpha);
 #else
 #if defined(NEAR)

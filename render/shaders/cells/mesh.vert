@@ -11,6 +11,11 @@
 
 layout(location = 1) uniform int first_vertices[MOST_SURFACES]; // of each surface, ascending
 layout(location = 0) in uvec4 vertex; // the lower end's x and y; z and axis; share; normal
+#ifdef COLORS
+layout(location = 1) in uint coordinate; // of its color, in steps of 1 / 65534; 65535: no value
+out vec2 colored_by; // the coordinate times the share of what has a value; that share
+flat out uint of_surface;
+#endif
 
 // See mesh.frag.
 #ifdef LIT_AT_VERTICES
@@ -45,6 +50,10 @@ void main() {
     uint surface = 0u;
     for (int i = 1; i < MOST_SURFACES; ++i)
         surface += uint(gl_VertexID >= first_vertices[i]);
+#ifdef COLORS
+    colored_by = coordinate == 65535u ? vec2(0) : vec2(float(coordinate) / 65534.0, 1.0);
+    of_surface = surface;
+#endif
     float share = unshadowed(vec3(low) + in_cell, toward_eye_in_index(at.xyz), size, n, surface);
     vec3 eye_at = (EYE(eye_from_index) * at).xyz, eye_normal = mat3(EYE(eye_from_physical)) * n;
 #if defined(LIT_AT_VERTICES)

@@ -3,6 +3,8 @@
 #include "index/extraction/extractor.h"
 #include "index/indexing/index_build.h"
 #include "index/surface/cell_colors.h"
+#include "index/surface/mesh_clusters.h"
+#include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"
 #include "tests/support/test_folder.h"
@@ -256,6 +258,39 @@ TEST(Extraction, MeshesOfAllSurfacesComeWithinTheirRoomOrNot) {
     EXPECT_EQ(extract_from(file)({.isovalues = {30.0}, .mesh_room = bytes}, {})->surfaces[0].mesh,
               nullptr)
         << "a GPU makes its own normals, and draws no mesh";
+}
+
+TEST(Extraction, MeshesAreSimplifiedOnceTheQueryIsAnsweredWhereAskedFor) {
+    const TestFolder folder;
+    const TestField field({40, 40, 40}, 3, ValueType::f32, moving_sphere);
+    const auto file = indexed(folder, field.view());
+    Extractor extractor(extract_from(file, std::nullopt, Shading::cells), 1 << 30);
+    const SurfacesQuery query{.step = 0, .isovalues = {30.0, 1e9}, .mesh_room = 1 << 30};
+    extractor.request({.query = query, .ahead = {}});
+    extractor.wait();
+    const ExtractionPtr set = extractor.newest();
+    ASSERT_TRUE(set->meshed());
+    EXPECT_FALSE(set->later->get()) << "nobody has asked";
+    EXPECT_EQ(set->triangles(1), 0u);
+    extractor.request({.query = query, .ahead = {}, .simplified = true});
+    extractor.wait();
+    EXPECT_EQ(extractor.newest(), set) << "it stays";
+    for (std::size_t level = 1; level < kMeshLevels; ++level) {
+        EXPECT_LT(0u, set->triangles(level));
+        EXPECT_LT(set->triangles(level), set->triangles(level - 1));
+        ASSERT_EQ(set->meshes(level).size(), 2u);
+        EXPECT_EQ(*set->meshes(level)[0],
+                  clustered(*set->surfaces[0].mesh, kClusterEdges[level - 1]));
+        EXPECT_FALSE(set->meshes(level)[1]) << "without cells";
+    }
+    // Steps ahead have theirs when they are asked for.
+    extractor.request({.query = query, .ahead = StepsAhead{1}, .simplified = true});
+    ASSERT_TRUE(test_support::eventually([&] { return extractor.at_hand().size() == 2; }));
+    SurfacesQuery next = query;
+    next.step = 1;
+    extractor.request({.query = next, .ahead = {}, .simplified = true});
+    EXPECT_FALSE(extractor.busy());
+    EXPECT_GT(extractor.newest()->triangles(2), 0u);
 }
 
 TEST(Extraction, WithoutActiveCellsThereIsNothingToSend) {

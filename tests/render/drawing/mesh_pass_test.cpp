@@ -2,6 +2,7 @@
 #include "render/drawing/cell_pass.h"
 
 #include "index/scan/scan.h"
+#include "index/surface/cell_colors.h"
 #include "index/surface/mesh_cases.h"
 #include "index/surface/mesh_parts.h"
 #include "render/gl/driver.h"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -51,9 +53,18 @@ class MeshPassTest : public GlTest {
         set->levels = levels.units;
         set->blocks = gatherer.none();
         EXPECT_TRUE(gatherer.gather(field_.view(), 0, levels, set->blocks));
-        if (colors)
-            for (std::size_t i = 0; i < set->cells(); ++i)
-                set->colors.push_back(static_cast<std::uint16_t>(i % 4096));
+        if (colors) // that grow with x
+            for (index::CellSet& surface : set->surfaces) {
+                auto mesh = std::make_shared<index::CellMesh>(*surface.mesh);
+                for (const index::MeshVertex& vertex : mesh->vertices)
+                    mesh->colors.push_back(static_cast<std::uint16_t>(index::position_of(vertex).x /
+                                                                      30 * index::kFineColorSteps));
+                surface.mesh = std::move(mesh);
+                for (const index::CellPoint& point : surface.points)
+                    set->colors.push_back(
+                        static_cast<std::uint16_t>((point.x + 0.5) / 30 * index::kColorSteps));
+            }
+        set->later->put(index::simplified(*set, {}));
         return set;
     }
 
@@ -62,7 +73,9 @@ class MeshPassTest : public GlTest {
         CellBuffers cells(gl_, field_.view().grid);
         while (cells.shown() != set)
             cells.upload(set, std::numeric_limits<std::size_t>::max());
+        cells.upload(set, std::numeric_limits<std::size_t>::max());
         EXPECT_TRUE(cells.has_mesh());
+        EXPECT_TRUE(cells.has_mesh(3));
         while (cells.compute_corners(part_.value_or(set->cells())) > 0) {
         }
         RenderTarget target(gl_, kSize), other(gl_, kSize);
@@ -121,7 +134,7 @@ TEST_P(MeshPassTest, LooksLikeTheExactSurface) {
               0.01);
 }
 
-TEST_P(MeshPassTest, ColorsOfCellsAreThoseOfTheExactSurface) {
+TEST_P(MeshPassTest, ColorsAreThoseOfTheExactSurface) {
     const auto set = extraction({90.5, 150.5}, true);
     Texture map(gl_, GL_TEXTURE_1D);
     gl_.TextureStorage1D(map.name(), 1, GL_RGBA8, 2);
@@ -130,9 +143,65 @@ TEST_P(MeshPassTest, ColorsOfCellsAreThoseOfTheExactSurface) {
     gl_.TextureParameteri(map.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     CellAppearance look;
     look.values = {.map = map.name()};
-    // Cells end a little elsewhere.
-    EXPECT_LT(differing(draw(set, Footprint::mesh, look), draw(set, Footprint::surface, look)),
-              0.03);
+    const Image exact = draw(set, Footprint::surface, look);
+    for (look.mesh_level = 0; look.mesh_level < 2; ++look.mesh_level)
+        EXPECT_LT(differing(draw(set, Footprint::mesh, look), exact),
+                  0.02 + 0.04 * look.mesh_level);
+    EXPECT_GT(differing(draw(set, Footprint::mesh, {}), exact), 0.1) << "without colors";
+}
+
+/// Share of lit pixels of either that are lit in both.
+double lit_in_both(const Image& a, const Image& b) {
+    double both = 0, any = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+        const bool in_a = a.rgba[i] > 8, in_b = b.rgba[i] > 8;
+        both += in_a && in_b;
+        any += in_a || in_b;
+    }
+    return both / any;
+}
+
+TEST_P(MeshPassTest, SimplifiedMeshesLookLikeTheExactSurfaceFromAllSides) {
+    const auto set = extraction({90.5});
+    for (const glm::vec3 eye :
+         {glm::vec3(40, 35, 60), glm::vec3(-40, 10, 3), glm::vec3(9, -60, 5)}) {
+        const Image exact = draw(set, Footprint::surface, {}, eye);
+        double before = 1.0;
+        for (const std::size_t level : {1, 2, 3}) {
+            CellAppearance look;
+            look.mesh_level = level;
+            const double same = lit_in_both(draw(set, Footprint::mesh, look, eye), exact);
+            EXPECT_GT(same, 1 - 0.02 * static_cast<double>(level * level)) << level;
+            EXPECT_LT(same, before) << "coarser, and another mesh";
+            before = same;
+        }
+    }
+}
+
+TEST_P(MeshPassTest, TranslucentSimplifiedMeshesAreSortedByDistance) {
+    const auto set = extraction({90.5, 150.5});
+    CellAppearance look;
+    look.surfaces[0] = {{0.2f, 0.9f, 0.3f}, 0.4f};
+    look.surfaces[1] = {{0.9f, 0.2f, 0.2f}, 0.6f};
+    look.linear_light = false;
+    for (const glm::vec3 eye : {glm::vec3(40, 35, 60), glm::vec3(-40, 10, 3)}) {
+        const Image exact = draw(set, Footprint::surface, look, eye);
+        look.mesh_level = 1;
+        EXPECT_LT(differing(draw(set, Footprint::mesh, look, eye), exact), 0.05);
+    }
+    const auto meshes = set->meshes(1);
+    const std::array<std::size_t, 2> first{0, meshes[0]->vertices.size()};
+    const glm::vec4 ahead(0.3f, -0.5f, 0.8f, 4);
+    const auto corners = far_first(meshes, first, ahead);
+    ASSERT_EQ(corners.size(), meshes[0]->triangles.size() + meshes[1]->triangles.size());
+    float before = std::numeric_limits<float>::max();
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+        const bool second = corners[i] >= first[1];
+        const index::MeshVertex& v = meshes[second]->vertices[corners[i] - first[second]];
+        const float distance = glm::dot(glm::vec4(v.x, v.y, v.z, 1), ahead);
+        EXPECT_LT(distance, before + 0.01f);
+        before = distance;
+    }
 }
 
 TEST_P(MeshPassTest, InnerSurfacesShowThroughTranslucentOnes) {
@@ -170,8 +239,9 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
                 look.surfaces[0].opacity = opacity;
                 if (colored)
                     look.values = {.map = map.name()};
+                look.mesh_level = opacity < 1 && colored ? 1 : 0;
                 const Image whole = draw(set, footprint, look);
-                part_ = 700;
+                part_ = footprint == Footprint::mesh && look.mesh_level > 0 ? 250 : 700;
                 EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
                 // Without an order, as on a GPU, quads are drawn in one piece.
                 if (footprint != Footprint::quad || takes_processor_ways(gl_)) {
@@ -216,18 +286,18 @@ TEST_P(MeshPassTest, AnyOrderOfPlanesGivesTheSamePicture) {
     std::vector<std::size_t> cell_of; // of each triangle
     for (std::size_t i = 0; i < cells.size(); ++i)
         cell_of.insert(cell_of.end(), index::mesh_cases()[mesh.cases[i]].triangles, i);
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> number_of; // of a triangle
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); i += 3)
+        number_of[{mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]}] = i / 3;
+    ASSERT_EQ(number_of.size(), mesh.triangles.size() / 3);
     for (int axis = 0; axis < 3; ++axis)
         for (const bool descending : {false, true}) {
-            OrderedTriangles triangles{{1, 2, 3}, {0}}; // of a surface before
-            append_in_order(cells, mesh, {axis, descending}, triangles);
-            ASSERT_EQ(triangles.numbers.size(), 1 + mesh.triangles.size() / 3);
-            ASSERT_EQ(triangles.corners.size(), 3 + mesh.triangles.size());
-            std::vector<std::uint32_t> order;
-            for (std::size_t i = 1; i < triangles.numbers.size(); ++i) {
-                order.push_back(triangles.numbers[i] - 1);
-                for (std::size_t k = 0; k < 3; ++k)
-                    ASSERT_EQ(triangles.corners[3 * i + k], mesh.triangles[3 * order.back() + k]);
-            }
+            std::vector<std::uint32_t> corners{1, 2, 3}; // of a surface before
+            append_in_order(cells, mesh, {axis, descending}, corners);
+            ASSERT_EQ(corners.size(), 3 + mesh.triangles.size());
+            std::vector<std::uint32_t> order; // triangles differ in their vertices
+            for (std::size_t i = 3; i < corners.size(); i += 3)
+                order.push_back(number_of.at({corners[i], corners[i + 1], corners[i + 2]}));
             const auto plane = [&](std::uint32_t triangle) {
                 const CellPlace& cell = cells[cell_of[triangle]];
                 return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;

@@ -1,0 +1,31 @@
+// Simplifies the meshes of all surfaces of an extraction.
+#include "index/extraction/simplified_meshes.h"
+
+#include "index/extraction/extraction.h"
+#include "index/surface/mesh_clusters.h"
+
+namespace isochron::index {
+
+std::uint64_t SimplifiedMeshes::bytes() const {
+    std::uint64_t all = 0;
+    for (const auto& surfaces : levels)
+        for (const CellMeshPtr& mesh : surfaces)
+            all += mesh ? bytes_of(*mesh) : 0;
+    return all;
+}
+
+SimplifiedMeshesPtr simplified(const Extraction& extraction, const std::stop_token& stop) {
+    auto made = std::make_shared<SimplifiedMeshes>();
+    for (std::size_t level = 0; level < kClusterEdges.size(); ++level)
+        for (const CellSet& surface : extraction.surfaces) {
+            CellMeshPtr& mesh = made->levels[level].emplace_back();
+            if (surface.mesh)
+                mesh = std::make_shared<const CellMesh>(
+                    clustered(*surface.mesh, kClusterEdges[level], stop));
+            if (stop.stop_requested())
+                return nullptr;
+        }
+    return made;
+}
+
+} // namespace isochron::index

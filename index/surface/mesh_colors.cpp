@@ -1,0 +1,36 @@
+// Colors vertices by values, or by cells.
+#include "index/surface/mesh_colors.h"
+
+#include "index/surface/cell_colors.h"
+#include "index/surface/mesh_cases.h"
+
+#include <algorithm>
+
+namespace isochron::index {
+
+void color_by_values(CellMesh& mesh, double low, double high) {
+    mesh.colors.resize(mesh.values.size());
+    std::ranges::transform(mesh.values, mesh.colors.begin(),
+                           [&](float value) { return fine_color_coordinate(value, low, high); });
+    mesh.values = {};
+}
+
+void color_by_cells(CellMesh& mesh, std::span<const std::uint16_t> colors) {
+    std::vector<bool> known(mesh.vertices.size());
+    mesh.colors.assign(mesh.vertices.size(), kNoFineColor);
+    const std::uint32_t* corner = mesh.triangles.data();
+    for (std::size_t cell = 0; cell < colors.size(); ++cell) {
+        const std::uint16_t coarse = colors[cell];
+        const auto fine = static_cast<std::uint16_t>(
+            coarse == kNoColor ? kNoFineColor : coarse * kFineColorSteps / kColorSteps);
+        const std::uint32_t* const end =
+            corner + std::size_t{3} * mesh_cases()[mesh.cases[cell]].triangles;
+        for (; corner != end; ++corner)
+            if (!known[*corner]) {
+                known[*corner] = true;
+                mesh.colors[*corner] = fine;
+            }
+    }
+}
+
+} // namespace isochron::index

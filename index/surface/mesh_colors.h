@@ -1,0 +1,17 @@
+// Color coordinates of a mesh's vertices.
+#pragma once
+
+#include "index/surface/cell_mesh.h"
+
+#include <cstdint>
+#include <span>
+
+namespace isochron::index {
+
+/// Makes fine coordinates (cell_colors.h) of the mesh's values, which it drops: between the ends of
+/// an edge they are interpolated, as anywhere on the surface.
+void color_by_values(CellMesh& mesh, double low, double high);
+/// Gives each vertex the color of the first cell that has it. @param colors of the cells
+void color_by_cells(CellMesh& mesh, std::span<const std::uint16_t> colors);
+
+} // namespace isochron::index

@@ -1,6 +1,8 @@
 // The program and its subcommands.
 #include "app/command_line/subcommands.h"
+#include "app/output/left_files.h"
 #include "commit.h"
+#include "index/decoders/file_fence.h"
 
 #include <string>
 #include <string_view>
@@ -11,13 +13,18 @@ namespace {
 std::string version_details() {
     std::string details = "\ncommit " + std::string(kCommit) + "\nwith " ISOCHRON_PARTS_WITH;
     constexpr std::string_view kWithout = ISOCHRON_PARTS_WITHOUT;
-    return kWithout.empty() ? details : details.append("; without ").append(kWithout);
+    if (!kWithout.empty())
+        details.append("; without ").append(kWithout);
+    if (isochron::index::file_fence_version() < 1)
+        details.append("\nthis kernel has no Landlock: readers can read every file that you can");
+    return details;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     using namespace isochron::app;
+    remove_left_files(argc, argv);
     return run_program({.name = "isochron",
                         .description = "Explore time-varying volume data immersively.",
                         .version_details = version_details,

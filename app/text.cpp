@@ -27,6 +27,30 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+/// Control characters as `\x1b`, but for those of `stay`. Terminals also obey those of eight bits,
+/// U+0080 to U+009F, of which the second byte alone is a control character in older encodings.
+std::string without_control(std::string_view text, std::string_view stay) {
+    std::string safe;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto code = static_cast<unsigned char>(text[i]);
+        const bool of_eight_bits = code == 0xc2 && i + 1 < text.size() &&
+                                   (static_cast<unsigned char>(text[i + 1]) & 0xe0) == 0x80;
+        if (stay.find(text[i]) != stay.npos)
+            safe += text[i];
+        else if (text[i] == '\n')
+            safe += "\\n";
+        else if (text[i] == '\t')
+            safe += "\\t";
+        else if (of_eight_bits)
+            safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[++i]));
+        else if (code < 0x20 || code == 0x7f)
+            safe += fmt::format("\\x{:02x}", code);
+        else
+            safe += text[i];
+    }
+    return safe;
+}
+
 } // namespace
 
 std::string human_bytes(double bytes) {
@@ -61,19 +85,15 @@ std::string one_line(std::string_view text) {
     if (text.size() > kLongest)
         return one_line(text.substr(0, kLongest - kEnd)) + " ... " +
                one_line(text.substr(text.size() - kEnd));
-    std::string line;
-    for (const char c : text) {
-        const auto code = static_cast<unsigned char>(c);
-        if (c == '\n')
-            line += "\\n";
-        else if (c == '\t')
-            line += "\\t";
-        else if (code < 0x20 || code == 0x7f)
-            line += fmt::format("\\x{:02x}", code);
-        else
-            line += c;
-    }
-    return line;
+    return without_control(text, "");
+}
+
+std::string safe_lines(std::string_view text) {
+    return without_control(text, "\n");
+}
+
+void print_safely(std::string_view text, std::FILE* out) {
+    fmt::print(out, "{}", safe_lines(text));
 }
 
 std::string human_number(double number) {

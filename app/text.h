@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,9 +25,13 @@ std::string human_number(double number);
 /// `12.5 ms`, `0.0341`, `1.2e+07`: a number with its unit, short enough for a label.
 std::string with_unit(double value, const std::string& unit);
 
-/// Text as one line that is safe for a terminal: line ends and other control characters become
-/// `\n`, `\x1b`; of a very long text only beginning and end remain.
+/// Text as one line that is safe for a terminal: line ends and other control characters, those of
+/// eight bits too, become `\n`, `\x1b`; of a very long text only beginning and end remain.
 std::string one_line(std::string_view text);
+/// The same for a text of lines: line ends stay, and all of its length.
+std::string safe_lines(std::string_view text);
+/// Prints a text of lines in which files and configurations have a say.
+void print_safely(std::string_view text, std::FILE* out = stdout);
 
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);

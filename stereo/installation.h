@@ -22,6 +22,7 @@ struct Screen {
     glm::vec3 upper_left{-0.8f, 2.0f, -1.0f};
     glm::vec3 upper_right{0.8f, 2.0f, -1.0f};
     bool carried_by_head = false;
+    float bezel = 0; ///< [m] of a display's frame, outside of the corners
     /// For desktop windows: enlarge the screen around its middle, in width or height, to the
     /// viewport's aspect.
     bool fit_aspect = false;

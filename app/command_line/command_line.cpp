@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -338,6 +339,8 @@ int parse_and_run(const ProgramText& text,
 
 int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
                 int argc, const char* const* argv) {
+    // A file that may not grow further (ulimit -f) is an error of the call that writes, with a line.
+    std::signal(SIGXFSZ, SIG_IGN);
     int status = 0;
     try {
         status = parse_and_run(text, commands, argc, argv);

@@ -140,17 +140,17 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
             fmt::format("{}: there is not enough memory to build it", arguments.out.string()));
     }
     if (reports)
-        fmt::print("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)), note);
+        print_safely(summary(arguments.out, *index::IndexFile::open(arguments.out)) + note);
     if (reports)
         for (const std::string& left_out : sources.notes)
-            fmt::print("note: {}\n", left_out);
+            print_safely(fmt::format("note: {}\n", left_out));
 }
 
 /// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.
 void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
     if (cluster.size() == 1)
         return;
-    fmt::print(stderr, "isochron: {}\n", what);
+    print_safely(fmt::format("isochron: {}\n", what), stderr);
     cluster.abandon(status);
 }
 
@@ -261,6 +261,7 @@ void add_build(Command& program) {
         "build ... spreads the work over N processes that\nshare a file system.");
     command.on_run([arguments, lattice, variation] {
         arguments->build.with_tree = lattice.given() || variation.given();
+        let_read_allowed(*arguments);
         run_build(with_path_within(*arguments));
     });
 }

@@ -5,6 +5,7 @@
 #include "app/config/pvx_file.h"
 #include "app/config/toml_reader.h"
 #include "app/output/guarded_outputs.h"
+#include "app/text.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -67,7 +68,7 @@ void import(ImportOptions options) {
         fmt::print("{}", text);
     }
     for (const std::string& note : imported.notes)
-        fmt::print(stderr, "note: {}\n", note);
+        print_safely(fmt::format("note: {}\n", note), stderr);
     for (const ConfigProblem& problem : problems_of(config))
         if (asks_for_tracker(problem))
             fmt::print(stderr, "note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",

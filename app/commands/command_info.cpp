@@ -5,6 +5,7 @@
 #include "app/indexing/index_report.h"
 #include "app/indexing/open_index.h"
 #include "app/indexing/series_report.h"
+#include "app/text.h"
 
 #include "index/file/index_series.h"
 
@@ -27,12 +28,15 @@ void describe_sources(BuildArguments arguments, bool in_json) {
     const auto files = expand_patterns(arguments.files);
     const BuildSources sources = open_sources(files, arguments);
     const std::string name = fmt::format("{}", fmt::join(arguments.files, " "));
-    fmt::print("{}",
-               in_json ? source_json(name, *sources.volume) : source_text(name, *sources.volume));
+    if (in_json)
+        fmt::print("{}", source_json(name, *sources.volume));
+    else
+        print_safely(source_text(name, *sources.volume));
 }
 
 void run_info(const InfoArguments& given) {
     const BuildArguments arguments = with_path_within(given.sources);
+    let_read_allowed(arguments);
     const std::string& first = arguments.files.front();
     std::error_code ignored;
     const bool is_data = arguments.files.size() > 1 ||
@@ -44,7 +48,10 @@ void run_info(const InfoArguments& given) {
         return describe_sources(arguments, given.json);
     const auto file = array_called(open_index(first), arguments.read.array);
     const IndexReport report{first, *file, given.tree};
-    fmt::print("{}", given.json ? as_json(report) : as_text(report));
+    if (given.json)
+        fmt::print("{}", as_json(report));
+    else
+        print_safely(as_text(report));
 }
 
 } // namespace

@@ -195,8 +195,10 @@ void run_query(const QueryArguments& arguments) {
                 method_of(arguments, *file), arguments.level, arguments.repeats);
     if (!arguments.ids.empty())
         write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
-    fmt::print("{}", arguments.json ? as_json(arguments, *file, result)
-                                    : as_text(arguments, *file, result));
+    if (arguments.json)
+        fmt::print("{}", as_json(arguments, *file, result));
+    else
+        print_safely(as_text(arguments, *file, result));
 }
 
 } // namespace

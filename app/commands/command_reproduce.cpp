@@ -6,6 +6,7 @@
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
 #include "app/session/replay.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
@@ -28,7 +29,7 @@ struct ReproduceOptions {
     std::string picture;
     std::optional<std::string> data, out;
     std::string context = "egl";
-    bool force = false;
+    bool force = false, any_data = false;
 };
 
 PictureNote note_in(const fs::path& picture) {
@@ -107,6 +108,7 @@ void settle(Session& session, const PictureNote& note) {
 struct MadePicture {
     render::Image image;
     std::string drawn_with;
+    std::vector<std::string> differs; ///< of what it is made of
 };
 
 MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
@@ -116,20 +118,30 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
     if (options.out)
         guard_outputs({{*options.out, OutputKind::picture}}, {{options.picture, data}, file.get()},
                       options.force);
-    if (data_hash_of(*file) != note.data_hash)
-        throw interaction::Error(
-            fmt::format("{}: made of other data: expected hash {}, {} has {}", options.picture,
-                        note.data_hash, data_path(options, note).string(), data_hash_of(*file)));
+    MadePicture made;
+    if (data_hash_of(*file) != note.data_hash) {
+        if (!options.any_data)
+            throw interaction::Error(fmt::format(
+                "{}: made of other data: expected hash {}, {} has {} (--any-data draws them and "
+                "counts the pixels that differ)",
+                options.picture, note.data_hash, data.string(), data_hash_of(*file)));
+        made.differs.push_back(fmt::format("data: hash {}, {} has {}", note.data_hash,
+                                           data.string(), data_hash_of(*file)));
+    }
     Session session(config, file, windows_for(config, note));
     ExplorerState state = session.state();
-    if (!state.resume(note.state, file->info().steps()))
-        throw interaction::Error(fmt::format("{}: its state does not fit the data ({} steps)",
-                                             options.picture, file->info().steps()));
+    for (const std::string& refused : state.refusals(note.state, file->info().steps())) {
+        if (!options.any_data)
+            throw interaction::Error(
+                fmt::format("{}: its state does not fit the data: {} (--any-data goes on without)",
+                            options.picture, refused));
+        made.differs.push_back("state: " + refused);
+    }
+    state.resume(note.state, file->info().steps());
     if (note.footprint == render::name_of(render::Footprint::quad))
         state.quality = interaction::QualityMode::fast;
     session.set_state(state);
     settle(session, note);
-    MadePicture made;
     const PictureNames names = picture_names(config.installation);
     const bool each_eye =
         note.part.shows == "left" || note.part.shows == "right" || note.part.shows == "center";
@@ -156,6 +168,7 @@ std::vector<std::string> differences(const PictureNote& note, const MadePicture&
     if (note.drawn_with != made.drawn_with)
         lines.push_back(fmt::format("driver: {}, here {}", note.drawn_with, made.drawn_with));
     if (there.width != made.image.width || there.height != made.image.height) {
+        lines.insert(lines.begin(), made.differs.begin(), made.differs.end());
         lines.push_back(fmt::format("size: {} x {}, made again {} x {}", there.width, there.height,
                                     made.image.width, made.image.height));
         return lines;
@@ -171,7 +184,8 @@ std::vector<std::string> differences(const PictureNote& note, const MadePicture&
         most = std::max(most, off);
     }
     if (pixels == 0)
-        return {};
+        return made.differs;
+    lines.insert(lines.begin(), made.differs.begin(), made.differs.end());
     lines.push_back(
         fmt::format("pixels: {} of {} differ, by at most {} of 255, the first at {}, {}", pixels,
                     there.rgba.size() / 4, most, first % static_cast<std::size_t>(there.width),
@@ -180,8 +194,8 @@ std::vector<std::string> differences(const PictureNote& note, const MadePicture&
 }
 
 void describe(const std::string& picture, const PictureNote& note) {
-    fmt::print("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
-               note.data_hash, note.program);
+    print_safely(fmt::format("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
+                             note.data_hash, note.program));
 }
 
 void reproduce(const ReproduceOptions& options) {
@@ -206,7 +220,7 @@ void reproduce(const ReproduceOptions& options) {
         fmt::print("wrote {}\n", *options.out);
     }
     const std::string_view mine(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (mine == there) {
+    if (mine == there && made.differs.empty()) {
         fmt::print("made again: the same {} bytes\n", there.size());
         return;
     }
@@ -218,7 +232,7 @@ void reproduce(const ReproduceOptions& options) {
         return;
     }
     for (const std::string& line : lines)
-        fmt::print("differs: {}\n", line);
+        print_safely(fmt::format("differs: {}\n", line));
     throw interaction::Error(options.picture + ": made again, it differs");
 }
 
@@ -241,6 +255,9 @@ void add_reproduce(Command& program) {
     command.flag("--force", options->force,
                  "Let --out replace any file but one that is read; else it replaces only pictures "
                  "that this program wrote");
+    command.flag("--any-data", options->any_data,
+                 "Draw data that differ from those of the picture (another hash), and count the "
+                 "pixels that differ");
     command.option("--context", options->context, "GL context to draw with")
         .one_of({"egl", "osmesa"})
         .shows_default();

@@ -19,7 +19,7 @@ namespace {
 
 void run_verify(const std::filesystem::path& path) {
     const CancelOnSignal signals;
-    const auto file = open_index(path);
+    const auto file = open_index(path, 0, LostState::is_for_the_caller);
     {
         ProgressBar bar(stderr, static_cast<double>(file->stats().file_bytes));
         file->verify([&](std::string_view phase, double fraction) {

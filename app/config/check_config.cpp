@@ -2,6 +2,8 @@
 #include "app/config/check_config.h"
 
 #include "app/config/check_devices.h"
+#include "app/config/check_gaps.h"
+#include "app/config/check_measures.h"
 #include "app/config/tracker_setup.h"
 #include "app/text.h"
 #include "stereo/nodes.h"
@@ -21,7 +23,6 @@ namespace {
 constexpr float kSmallest = 0.02f, kLargest = 30.0f; ///< [m] sides of screens that people build
 constexpr float kSquare = 0.02f;    ///< pixels' width and height may differ by this fraction
 constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to coincide
-constexpr float kSeam = 0.005f;     ///< [m] widest gap between them that is no problem
 constexpr float kSame = 1e-3f;      ///< [m] corners this near are the same
 constexpr float kLevel = 0.7f;      ///< cosine to an axis of the room
 constexpr const char* kScreenKey = "windows.viewports.projection";
@@ -111,6 +112,8 @@ class Judge {
             for (std::size_t j = 0; j < i; ++j)
                 pair(all[j], all[i]);
         }
+        for (ConfigProblem& problem : problems_of_gaps(gaps_, kScreenKey))
+            found_.push_back(std::move(problem));
         windows();
         viewers(all);
         const std::string misfit = stereo::misfit(config_.installation, 1);
@@ -138,11 +141,16 @@ class Judge {
                             name_of(place), size.x, size.y));
         const glm::vec3 up = glm::normalize(screen.upper_left - screen.lower_left);
         const glm::vec3 across = glm::normalize(screen.upper_right - screen.upper_left);
-        if (!screen.carried_by_head && glm::cross(across, up).y > kLevel && up.z > kLevel)
+        const bool is_floor = !screen.carried_by_head && glm::cross(across, up).y > kLevel;
+        if (is_floor && std::max(up.z, std::abs(up.x)) > kLevel)
             add(place.line, kScreenKey,
-                fmt::format("{}: a floor whose upper edge is at the back: upside down to who faces "
-                            "the front (-Z)",
-                            name_of(place)),
+                fmt::format("{}: a floor whose upper edge is at the {}: {} to who faces the front "
+                            "(-Z)",
+                            name_of(place),
+                            up.z > kLevel ? "back"
+                            : up.x > 0    ? "right"
+                                          : "left",
+                            up.z > kLevel ? "upside down" : "turned by 90 degrees"),
                 false);
         const glm::vec2 pixel = pixel_size(place);
         const float aspect = pixel.x / pixel.y;
@@ -189,20 +197,20 @@ class Judge {
                 fmt::format("{} has the same corners as {}", name_of(b), name_of(a)), false);
     }
 
-    /// Checks that walls which meet in a corner of the room leave no gap wider than a seam.
+    /// Looks for a gap wider than a seam, and than the frames of both, where walls meet.
     void seam(const PlacedViewport& a, const PlacedViewport& b) {
         const interaction::Pose anywhere;
+        const float frames = a.viewport.screen.bezel + b.viewport.screen.bezel;
+        // At a corner of four displays, those on the diagonal are farther apart.
+        const float allowed = kSeam + std::sqrt(2.0f) * frames;
         float widest = 0;
         for (const glm::vec3& p : corners_in_room(a.viewport.screen, anywhere, a.window.size))
             for (const glm::vec3& q : corners_in_room(b.viewport.screen, anywhere, b.window.size))
                 if (glm::distance(p, q) < kNeighbors)
                     widest = std::max(widest, glm::distance(p, q));
-        if (widest > kSeam)
-            add(b.line, kScreenKey,
-                fmt::format("{}: a corner is {:.0f} mm from one of {}, where walls meet within "
-                            "{:.0f} mm",
-                            name_of(b), 1000.0f * widest, name_of(a), 1000.0f * kSeam),
-                false);
+        if (widest > allowed)
+            gaps_.push_back(
+                {&a.viewport.screen, &b.viewport.screen, name_of(a), name_of(b), b.line, widest});
     }
 
     void windows() {
@@ -242,6 +250,7 @@ class Judge {
 
     const Config& config_;
     std::vector<ConfigProblem> found_;
+    std::vector<ScreenGap> gaps_;
 };
 
 std::string place_on_desktop(const stereo::Window& window) {
@@ -296,6 +305,8 @@ std::string describe_nodes(const stereo::Installation& installation) {
 
 std::vector<ConfigProblem> problems_of(const Config& config) {
     std::vector<ConfigProblem> all = Judge(config).judge();
+    for (ConfigProblem& problem : problems_of_measures(config))
+        all.push_back(std::move(problem));
     for (ConfigProblem& problem : problems_of_devices(config))
         all.push_back(std::move(problem));
     return all;
@@ -344,12 +355,12 @@ std::string describe(const Config& config) {
 
 void check_config(const std::filesystem::path& path) {
     const Config config = read_config(path);
-    fmt::print("{}", describe(config));
+    print_safely(describe(config));
     const std::vector<ConfigProblem> problems = problems_of(config);
     for (const ConfigProblem& problem : problems)
         fmt::print("{}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
-        fmt::print("{}: warning: {}\n", path.string(), warning);
+        fmt::print("{}\n", one_line(fmt::format("{}: warning: {}", path.string(), warning)));
     std::fflush(stdout); // before the error
     expect_sound(config);
     fmt::print("nothing is wrong\n");

@@ -21,6 +21,7 @@ void read_screen(TomlReader& reader, stereo::Screen& screen) {
     reader.word("carried_by", {"room", "head"},
                 [&](const std::string& word) { screen.carried_by_head = word == "head"; });
     reader.flag("fit_aspect", screen.fit_aspect);
+    reader.number("bezel", 0.0, 0.5, screen.bezel);
     // If some corners are given, all must be: a missing one must not keep its default.
     const std::array kCorners{"lower_left", "upper_left", "upper_right"};
     const auto given = std::count_if(kCorners.begin(), kCorners.end(),

@@ -55,6 +55,8 @@ std::string text_of(const stereo::Viewport& viewport, const stereo::Viewer& view
                         screen.carried_by_head ? "head" : "room");
     if (screen.fit_aspect)
         text += "fit_aspect = true\n";
+    if (screen.bezel != 0)
+        text += fmt::format("bezel = {}\n", screen.bezel);
     return text + fmt::format("lower_left = {}\n"
                               "upper_left = {}\n"
                               "upper_right = {}\n",

@@ -3,8 +3,10 @@
 
 #include "app/cluster/processor_shares.h"
 #include "app/cluster/shared_frames.h"
+#include "app/command_line/cancel.h"
 #include "app/command_line/subcommands.h"
 #include "app/config/display_config_text.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "interaction/recording/commands_json.h"
 #include "render/gl/driver.h"
@@ -16,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
 
@@ -23,6 +26,12 @@ namespace isochron::app {
 namespace {
 
 using nlohmann::json;
+
+/// A process that only follows has no end of its own: a signal ends the job.
+void obey_signals() {
+    if (const int signal = CancelOnSignal::received(); signal != 0)
+        throw Canceled(signal);
+}
 
 /// Where two facts first differ, and what each says there.
 struct FactDifference {
@@ -73,6 +82,7 @@ template <typename Shown>
 void each_order(Shown& shown, const FrameDone& done,
                 const std::function<void(const FrameOrder&, const Latch&)>& show) {
     for (std::size_t number = 0; auto order = shown.frames().next(); ++number) {
+        obey_signals();
         shown.outputs().windows().poll_events();
         show(
             *order, order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
@@ -221,14 +231,23 @@ void run_in_cluster(const std::function<void(ClusterJob&)>& command) {
     const auto team = index::join_team();
     stereo::Cluster cluster(*team);
     ClusterJob job(cluster);
+    if (!job.leads())
+        cluster.while_waiting(obey_signals);
     try {
         command(job);
+    } catch (const Canceled& canceled) {
+        if (cluster.size() == 1 || job.is_over() || job.leads())
+            throw;
+        const char* const name = ::sigabbrev_np(canceled.status - 128);
+        fmt::print(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
+                   name ? name : "NAL");
+        cluster.abandon(canceled.status);
     } catch (const std::exception& error) {
         if (cluster.size() == 1 || job.is_over())
             throw;
         const auto* lost = dynamic_cast<const stereo::ProcessLost*>(&error);
         const std::string where = lost ? "" : cluster.name_of(cluster.rank()) + ": ";
-        std::fputs(fmt::format("isochron: {}{}\n", where, error.what()).c_str(), stderr);
+        print_safely(fmt::format("isochron: {}\n", one_line(where + error.what())), stderr);
         cluster.abandon(1);
     }
 }

@@ -180,9 +180,11 @@ void warn_of_colors(const Config& config, const index::IndexFile& file) {
         return;
     const std::vector<std::string> there = index::color_source_names(file);
     if (std::ranges::find(there, wanted) == there.end())
-        fmt::print(stderr, "isochron: warning: {}: no array {} to color by, there {}\n",
-                   file.name(), wanted,
-                   there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", ")));
+        print_safely(
+            fmt::format("isochron: warning: {}: no array {} to color by, there {}\n", file.name(),
+                        wanted,
+                        there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", "))),
+            stderr);
 }
 
 void warn(const Config& config) {

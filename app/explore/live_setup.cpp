@@ -48,7 +48,7 @@ LiveOptions live_options(const ExploreOptions& options) {
 
 void print_status(const LiveLoop& live) {
     for (const std::string& line : live.status())
-        fmt::print(stderr, "{}\n", line);
+        fmt::print(stderr, "{}\n", one_line(line));
 }
 
 interaction::RecordingHeader header_of(const Session& session, const Config& config,

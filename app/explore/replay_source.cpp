@@ -145,6 +145,7 @@ stereo::Windows windows_of(const ReplaySource& options, const Config& config,
 
 ReplayOptions replay_options(const ReplaySource& options) {
     ReplayOptions replay;
+    replay.any_data = options.any_data;
     if (options.stereo)
         replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
     if (options.quality)

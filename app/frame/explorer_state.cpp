@@ -3,13 +3,17 @@
 
 #include "interaction/command_fields.h"
 #include "interaction/navigation/navigation.h"
+#include "interaction/recording/commands_json.h"
 #include "render/passes/color_map.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <numeric>
 #include <string_view>
 
@@ -102,27 +106,59 @@ bool take(const Field& field, const std::string& given, std::string& kept) {
     return mode.has_value();
 }
 
+/// Sets what the commands hold. @param refused is called with each field whose value is invalid
+template <class Refused>
+void apply_to(ExplorerState& state, const interaction::Commands& commands, std::size_t held,
+              const Refused& refused) {
+    interaction::each_setting(
+        [&](Field field, const auto& given, auto& kept) {
+            const void* member = &kept;
+            if (member == &state.picked)
+                field.high = static_cast<double>(state.isosurfaces.size()) - 1;
+            else if (member == &state.step || member == &state.mark)
+                field.high = static_cast<double>(state.known_steps(held)) - 1;
+            else if (member == &state.steps)
+                field.high = static_cast<double>(held);
+            if (given && !take(field, *given, kept))
+                refused(field);
+            state.picked =
+                std::min(state.picked, static_cast<std::uint32_t>(state.isosurfaces.size() - 1));
+        },
+        commands, state);
+    if (commands.isovalue &&
+        !take({"isovalue"}, *commands.isovalue, state.isosurfaces[state.picked].isovalue))
+        refused(Field{"isovalue"});
+}
+
 } // namespace
 
 bool ExplorerState::apply(const interaction::Commands& commands, std::size_t held) {
     bool all_taken = true;
-    interaction::each_setting(
-        [&](Field field, const auto& given, auto& kept) {
-            const void* member = &kept;
-            if (member == &picked)
-                field.high = static_cast<double>(isosurfaces.size()) - 1;
-            else if (member == &step || member == &mark)
-                field.high = static_cast<double>(known_steps(held)) - 1;
-            else if (member == &steps)
-                field.high = static_cast<double>(held);
-            if (given && !take(field, *given, kept))
-                all_taken = false;
-            picked = std::min(picked, static_cast<std::uint32_t>(isosurfaces.size() - 1));
-        },
-        commands, *this);
-    if (commands.isovalue)
-        all_taken &= take({"isovalue"}, *commands.isovalue, isosurfaces[picked].isovalue);
+    apply_to(*this, commands, held, [&](const Field&) { all_taken = false; });
     return all_taken;
+}
+
+std::vector<std::string> ExplorerState::refusals(const interaction::Commands& commands,
+                                                 std::size_t held) const {
+    constexpr std::size_t kLongest = 120;
+    const nlohmann::json all = interaction::commands_json(commands);
+    std::vector<std::string> lines;
+    ExplorerState trial = *this;
+    apply_to(trial, commands, held, [&](const Field& field) {
+        const auto value = all.find(field.key);
+        std::string line =
+            fmt::format("{} is {}", field.key,
+                        value == all.end() ? "not there" : value->dump().substr(0, kLongest));
+        if (std::string_view(field.key) == "clip" && commands.clip)
+            line += fmt::format(", whose normal has a length of {:.6g}, expected 1",
+                                glm::length(commands.clip->normal));
+        else if (field.high < interaction::kAnyNumber)
+            line +=
+                fmt::format(", expected {:g} to {:g}",
+                            std::max(field.low, std::numeric_limits<double>::lowest()), field.high);
+        lines.push_back(std::move(line));
+    });
+    return lines;
 }
 
 bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) {

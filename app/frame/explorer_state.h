@@ -6,6 +6,9 @@
 #include "stereo/stereo_mode.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -18,6 +21,10 @@ struct ExplorerState : interaction::Settings {
     /// @param held number of steps of the index
     /// @return false when a value was refused
     bool apply(const interaction::Commands& commands, std::size_t held);
+
+    /// What `apply` would refuse: a line for each setting, with its value and what is expected.
+    std::vector<std::string> refusals(const interaction::Commands& commands,
+                                      std::size_t held) const;
 
     /// As `apply`, for a whole state from a recording, a session or a picture. Earlier versions did
     /// not store the look: their states are drawn without occlusion, as those versions drew them.

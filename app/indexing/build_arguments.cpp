@@ -4,6 +4,7 @@
 #include "app/indexing/file_patterns.h"
 #include "index/file/index_file.h"
 #include "index/formats/series/resampled_series.h"
+#include "index/reader/reader_pool.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -175,6 +176,10 @@ std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOp
     return {};
 }
 
+void let_read_allowed(const BuildArguments& arguments) {
+    index::readers_of_this_process().let_read(arguments.allowed);
+}
+
 void add_reading_options(Command& command, BuildArguments& arguments) {
     index::ReadOptions& read = arguments.read;
     command
@@ -243,6 +248,14 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .positive()
         .group("Reading");
     command.option("--length-unit", read.length_unit, "Unit of positions, such as mm")
+        .group("Reading");
+    command
+        .option("--allow", arguments.allowed,
+                "Folder from which the files may read others that they name (links of HDF5, XDMF "
+                "and .pvd); without it only those in their own folders. May be given several times")
+        .repeatable()
+        .existing_folder()
+        .type_name("FOLDER")
         .group("Reading");
     command.option("--time-unit", read.time_unit, "Unit of times, such as s").group("Reading");
     command.option("--value-unit", read.value_unit, "Unit of the values, such as K")

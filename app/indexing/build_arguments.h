@@ -13,6 +13,7 @@ namespace isochron::app {
 
 struct BuildArguments {
     std::vector<std::string> files;
+    std::vector<std::filesystem::path> allowed; ///< folders that files may name, besides their own
     std::filesystem::path out;
     index::ReadOptions read;
     std::string type;
@@ -49,6 +50,9 @@ index::Referral referral_to(const std::vector<std::filesystem::path>& files,
 BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held);
 /// Why an index cannot grow in place; empty if it can.
 std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOptions& options);
+
+/// Lets readers read the folders that the user allows. To be called before anything is read.
+void let_read_allowed(const BuildArguments& arguments);
 
 /// Adds the options that say how files are read.
 void add_reading_options(Command& command, BuildArguments& arguments);

@@ -3,6 +3,7 @@
 
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
@@ -33,12 +34,17 @@ std::string state_of_folder(const fs::path& folder) {
     std::error_code error;
     std::uint64_t files = 0, bytes = 0;
     fs::file_time_type newest = fs::file_time_type::min();
-    for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
-        if (!entry.is_regular_file(error))
+    constexpr auto kOthers = fs::directory_options::skip_permission_denied;
+    for (fs::recursive_directory_iterator at(folder, kOthers, error), end; !error && at != end;
+         at.increment(error)) {
+        std::error_code gone; // meanwhile
+        if (!at->is_regular_file(gone))
             continue;
         ++files;
-        bytes += entry.file_size(error);
-        newest = std::max(newest, entry.last_write_time(error));
+        if (const auto size = at->file_size(gone); !gone)
+            bytes += size;
+        if (const auto time = at->last_write_time(gone); !gone)
+            newest = std::max(newest, time);
     }
     return fmt::format("{} {} {}", files, bytes, newest.time_since_epoch().count());
 }
@@ -280,7 +286,7 @@ fs::path kept_index(const BuildArguments& arguments, const fs::path& folder,
     std::vector<std::string> notes = sources.volume->info().notes;
     notes.insert(notes.end(), sources.notes.begin(), sources.notes.end());
     for (const std::string& note : notes)
-        fmt::print(stderr, "note: {}\n", note);
+        print_safely(fmt::format("note: {}\n", note), stderr);
     make_room(folder, path, most_bytes);
     return path;
 }

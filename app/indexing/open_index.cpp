@@ -12,11 +12,12 @@
 namespace isochron::app {
 
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
-                                                   std::uint64_t cache_bytes) {
+                                                   std::uint64_t cache_bytes, LostState lost) {
     try {
         auto file = index::IndexFile::open(path, cache_bytes);
-        if (const auto lost = index::lost_state(*file))
-            fmt::print(stderr, "isochron: {}\n", *lost);
+        const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
+        if (line)
+            fmt::print(stderr, "isochron: {}\n", one_line(*line));
         return file;
     } catch (const index::Error& error) {
         std::error_code ignored;
@@ -68,9 +69,10 @@ std::size_t array_number(const index::IndexFile& file, const std::string& name) 
 void warn_beyond(double isovalue, const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
     if (isovalue < stats.low || isovalue > stats.high)
-        fmt::print(stderr, "isochron: isovalue {} lies beyond the data, {} to {}{}\n",
-                   human_number(isovalue), human_number(stats.low), human_number(stats.high),
-                   with_space(file.info().value_unit));
+        print_safely(fmt::format("isochron: isovalue {} lies beyond the data, {} to {}{}\n",
+                                 human_number(isovalue), human_number(stats.low),
+                                 human_number(stats.high), with_space(file.info().value_unit)),
+                     stderr);
 }
 
 } // namespace isochron::app

@@ -12,11 +12,15 @@
 
 namespace isochron::app {
 
+/// Whether a command says itself what a damaged index has lost.
+enum class LostState : std::uint8_t { is_said, is_for_the_caller };
+
 /// @param cache_bytes as IndexFile::open
 /// @throws index::Error as IndexFile::open; if the file exists but is no .isochron, the message
 /// says how to build an index of it
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
-                                                   std::uint64_t cache_bytes = 0);
+                                                   std::uint64_t cache_bytes = 0,
+                                                   LostState lost = LostState::is_said);
 /// The same for commands that show surfaces.
 /// @throws index::Error also as `check_can_be_shown`
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,

@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,15 +28,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A temporary name in the folder where the movie will lie. It keeps the suffix, which tells ffmpeg
-/// the format.
-fs::path temporary_of(const fs::path& path) {
-    return index::end_of_links(path).parent_path() /
-           fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
+/// A name that ffmpeg takes for nothing but a file: `10:30.mp4` would be a protocol, and what begins
+/// with a slash is none.
+std::string for_ffmpeg(const fs::path& file) {
+    return fs::absolute(file).string();
 }
 
+/// Writes the note as ffmpeg's file of metadata: an argument may have 128 KiB only.
+void write_metadata(const fs::path& path, const std::string& note) {
+    std::string text = ";FFMETADATA1\ncomment=";
+    for (const char c : note) {
+        if (std::string_view("=;#\\\n").find(c) != std::string_view::npos)
+            text += '\\';
+        text += c;
+    }
+    text += '\n';
+    index::NewFile file(path);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+/// @param metadata file with the note; empty: none
 std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, double rate,
-                                       const std::string& note, bool hurried) {
+                                       const fs::path& metadata, bool hurried) {
     std::vector<std::string> all{"ffmpeg",    "-hide_banner",
                                  "-nostdin",  "-y",
                                  "-loglevel", "error",
@@ -43,6 +59,9 @@ std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, dou
                                  "-s",        fmt::format("{}x{}", size.x, size.y),
                                  "-r",        fmt::format("{}", rate),
                                  "-i",        "pipe:0"};
+    if (!metadata.empty())
+        all.insert(all.end(),
+                   {"-f", "ffmetadata", "-i", for_ffmpeg(metadata), "-map_metadata", "1"});
     const auto add = [&](std::initializer_list<const char*> more) {
         all.insert(all.end(), more.begin(), more.end());
     };
@@ -52,9 +71,7 @@ std::vector<std::string> arguments_for(const fs::path& out, glm::ivec2 size, dou
         add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-preset",
              hurried ? "ultrafast" : "veryfast", "-crf", "16", "-pix_fmt", "yuv420p", "-movflags",
              "+faststart"});
-    if (!note.empty())
-        all.insert(all.end(), {"-metadata", "comment=" + note});
-    all.push_back(out.string());
+    all.push_back(for_ffmpeg(out));
     return all;
 }
 
@@ -80,19 +97,26 @@ struct FfmpegPipe {
 };
 
 struct MovieFile::State {
-    fs::path path, temporary;
+    fs::path path;
+    index::TemporaryFolder folder;
+    fs::path temporary; ///< in it, with the suffix by which ffmpeg knows the format
     glm::ivec2 size;
     std::string note;
     FfmpegPipe pictures, complaints;
     pid_t ffmpeg = -1;
     std::size_t frames = 0;
-    bool whole = false;
 
     State(fs::path target, glm::ivec2 pixels, double rate, std::string text, bool hurried)
-        : path(std::move(target)), temporary(temporary_of(path)), size(pixels),
+        : path(std::move(target)), folder(index::end_of_links(path)),
+          temporary(folder.path() / ("movie" + path.extension().string())), size(pixels),
           note(std::move(text)) {
         std::signal(SIGPIPE, SIG_IGN); // so that writing reports an error when ffmpeg has ended
-        std::vector<std::string> words = arguments_for(temporary, size, rate, note, hurried);
+        fs::path metadata;
+        if (!note.empty() && path.extension() != ".gif") {
+            metadata = folder.path() / "note";
+            write_metadata(metadata, note);
+        }
+        std::vector<std::string> words = arguments_for(temporary, size, rate, metadata, hurried);
         std::vector<char*> arguments;
         for (std::string& word : words)
             arguments.push_back(word.data());
@@ -116,9 +140,6 @@ struct MovieFile::State {
             kill(ffmpeg, SIGKILL);
             waitpid(ffmpeg, nullptr, 0);
         }
-        std::error_code ignored;
-        if (!whole)
-            fs::remove(temporary, ignored);
     }
 
     /// Waits until ffmpeg ends. @return its error message, one line; empty: all is well
@@ -178,7 +199,6 @@ void MovieFile::finish() {
     fs::rename(s.temporary, index::end_of_links(s.path), error);
     if (error)
         throw index::Error(fmt::format("{}: {}", s.path.string(), error.message()));
-    s.whole = true;
 }
 
 } // namespace isochron::app

@@ -5,6 +5,7 @@
 //     movie.finish();        // and it has its name
 #pragma once
 
+#include "index/system/temporary_folder.h"
 #include "render/gl/image.h"
 
 #include <glm/vec2.hpp>
@@ -71,7 +72,9 @@ class MovieFolder final : public Movie {
     void finish() override;
 
   private:
-    std::filesystem::path path_, temporary_;
+    std::filesystem::path path_;
+    index::TemporaryFolder temporary_;
+    std::filesystem::path pictures_; ///< in it
     glm::ivec2 size_{0};
     std::size_t frames_ = 0;
 };

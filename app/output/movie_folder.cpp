@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 namespace isochron::app {
 namespace {
 
@@ -21,16 +19,12 @@ bool is_frame(const fs::path& file) {
 } // namespace
 
 MovieFolder::MovieFolder(fs::path path)
-    : path_(index::end_of_links(std::move(path))),
-      temporary_(path_.parent_path() /
-                 fmt::format(".{}.{}.part", path_.filename().string(), getpid())) {
-    index::make_folder(temporary_);
+    : path_(index::end_of_links(std::move(path))), temporary_(path_),
+      pictures_(temporary_.path() / "pictures") { // with the rights of any folder
+    index::make_folder(pictures_);
 }
 
-MovieFolder::~MovieFolder() {
-    std::error_code ignored;
-    fs::remove_all(temporary_, ignored);
-}
+MovieFolder::~MovieFolder() = default;
 
 void MovieFolder::add(const render::Image& image, const std::string& note) {
     const glm::ivec2 size(image.width, image.height);
@@ -38,13 +32,13 @@ void MovieFolder::add(const render::Image& image, const std::string& note) {
         throw index::Error(fmt::format("{}: a picture of {} x {}, the movie has {} x {}",
                                        path_.string(), size.x, size.y, size_.x, size_.y));
     size_ = size;
-    stereo::write_image(image, temporary_ / fmt::format("frame_{:05}.png", frames_), note);
+    stereo::write_image(image, pictures_ / fmt::format("frame_{:05}.png", frames_), note);
     ++frames_;
 }
 
 void MovieFolder::finish() {
     std::error_code error;
-    fs::rename(temporary_, path_, error); // where nothing is, or an empty folder: all or nothing
+    fs::rename(pictures_, path_, error); // where nothing is, or an empty folder: all or nothing
     if (!error)
         return;
     if (!fs::is_directory(path_))
@@ -55,7 +49,7 @@ void MovieFolder::finish() {
             fs::remove(entry.path(), error);
     for (std::size_t i = 0; i < frames_ && !error; ++i) {
         const std::string name = fmt::format("frame_{:05}.png", i);
-        fs::rename(temporary_ / name, path_ / name, error);
+        fs::rename(pictures_ / name, path_ / name, error);
     }
     if (error)
         throw index::Error(fmt::format("{}: {}", path_.string(), error.message()));

@@ -43,9 +43,12 @@ void expect_arrays(const Session& session, const interaction::Recording& recordi
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
                        std::size_t steps, const ReplayOptions& options) {
     ExplorerState state = fallback;
-    if (!state.resume(header.start, steps))
-        throw interaction::Error(
-            fmt::format("the recording's start state does not fit the data ({} steps)", steps));
+    const auto refused = state.refusals(header.start, steps);
+    if (!refused.empty() && !options.any_data)
+        throw interaction::Error(fmt::format(
+            "the recording's start state does not fit the data: {} (--any-data goes on without)",
+            fmt::join(refused, "; ")));
+    state.resume(header.start, steps);
     if (options.stereo)
         state.set_stereo(*options.stereo);
     state.quality = options.quality.value_or(state.quality);

@@ -14,6 +14,7 @@ namespace isochron::app {
 
 struct ReplayOptions {
     bool from_devices = false; ///< recompute the commands from the devices and compare
+    bool any_data = false;     ///< the data need not be the recorded ones
     std::optional<stereo::StereoMode> stereo;        ///< instead of every recorded one
     std::optional<interaction::QualityMode> quality; ///< instead of every recorded one
 };
@@ -43,7 +44,9 @@ void replay_pattern(PatternShow& show, const interaction::Recording& recording,
 void replay_live(Session& session, const interaction::Recording& recording,
                  const ReplayOptions& options, double frame_rate_limit);
 
-/// The start state in a header. @throws interaction::Error when it is not valid for these data
+/// The start state in a header. With `options.any_data` settings that are not valid for these data
+/// keep what `fallback` has.
+/// @throws interaction::Error naming those settings, with their values and what is expected
 ExplorerState start_of(const interaction::RecordingHeader& header, const ExplorerState& fallback,
                        std::size_t steps, const ReplayOptions& options);
 

@@ -2,13 +2,21 @@
 // it.
 #pragma once
 
+#include <filesystem>
+#include <span>
+
 namespace isochron::index {
 
-/// From now on this process, with all its threads, can open files for reading only. It cannot
-/// connect to anything, start programs, or touch, limit or signal other processes: these calls fail
-/// with EPERM. Without libseccomp in the build only the other restrictions are set: no new
+/// From now on this process can open files for reading only. It cannot connect to anything, start
+/// programs, lock files, or touch, limit or signal other processes: these calls fail with EPERM.
+/// Where the kernel has Landlock, it can open only what lies in `readable`, shared libraries and
+/// what describes the processors; other files fail with EACCES, the memory of other processes with
+/// them. Without libseccomp in the build only Landlock and the other restrictions are set: no new
 /// privileges, no file grows, no core dump.
-/// @return whether all restrictions of this build hold; where they do not, nothing may be read
-[[nodiscard]] bool fence_in();
+/// @param readable folders with all that is in them, and single files; what is not there is left
+///   out. Files that are open stay readable.
+/// @return whether all restrictions of this build and this kernel hold; where they do not, nothing
+///   may be read. They cannot hold where the process has several threads.
+[[nodiscard]] bool fence_in(std::span<const std::filesystem::path> readable = {});
 
 } // namespace isochron::index

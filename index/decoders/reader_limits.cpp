@@ -2,15 +2,17 @@
 #include "index/decoders/reader_limits.h"
 
 #include "index/reader/reader_start.h"
+#include "index/system/descriptor.h"
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 
 namespace isochron::index {
@@ -23,9 +25,37 @@ void limit(decltype(RLIMIT_DATA) resource, std::uint64_t most) {
     ::setrlimit(resource, &limits);
 }
 
+/// A file of /proc that stays open: each read from its start tells what holds now.
+class HeldSource {
+  public:
+    explicit HeldSource(const char* path) : file_(::open(path, O_RDONLY | O_CLOEXEC)) {}
+
+    std::istringstream now() const {
+        constexpr std::size_t kLongest = 8192;
+        std::string text(kLongest, '\0');
+        const ssize_t size = ::pread(file_.number(), text.data(), text.size(), 0);
+        text.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+        return std::istringstream(std::move(text));
+    }
+
+  private:
+    Descriptor file_;
+};
+
+const HeldSource& memory_of_this_process() {
+    static const HeldSource source("/proc/self/statm");
+    return source;
+}
+
+const HeldSource& memory_of_the_machine() {
+    static const HeldSource source("/proc/meminfo");
+    return source;
+}
+
 /// [bytes] of private writable memory of this process, which RLIMIT_DATA counts.
 std::uint64_t taken_memory() {
-    std::ifstream statm("/proc/self/statm"); // size, resident, shared, text, 0, data: in pages
+    // size, resident, shared, text, 0, data: in pages
+    std::istringstream statm = memory_of_this_process().now();
     std::uint64_t pages = 0;
     for (int field = 0; field < 6; ++field)
         statm >> pages;
@@ -38,7 +68,7 @@ std::uint64_t free_memory() {
     static std::uint64_t found = 0;
     if (found > 0)
         return found;
-    std::ifstream info("/proc/meminfo");
+    std::istringstream info = memory_of_the_machine().now();
     std::uint64_t kilobytes = 0;
     for (std::string key, line; info >> key && std::getline(info, line);)
         if (key == "MemAvailable:")
@@ -79,6 +109,11 @@ std::uint64_t seconds_for(std::uint64_t bytes) {
 }
 
 } // namespace
+
+void hold_sources_of_limits() {
+    memory_of_this_process();
+    memory_of_the_machine();
+}
 
 ReaderBudget::ReaderBudget(const std::filesystem::path& file, std::uint64_t most)
     : before_(taken_memory()), most_(most > 0 ? most : free_memory()) {

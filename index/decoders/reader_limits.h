@@ -7,6 +7,9 @@
 
 namespace isochron::index {
 
+/// Opens what tells about memory, which the fence hides. To be called before it.
+void hold_sources_of_limits();
+
 /// Limits the memory and time of this process by the size of the file that it reads. Beyond the
 /// limit of memory allocations fail; beyond the limit of time the process is ended with SIGXCPU.
 class ReaderBudget {

@@ -1,7 +1,9 @@
 // The main function of a reader process: sets up its limits, serves, and ends.
 #include "index/decoders/reader_program.h"
 
+#include "index/decoders/denied_files.h"
 #include "index/decoders/fence.h"
+#include "index/decoders/reader_limits.h"
 #include "index/error.h"
 #include "index/reader/reader_start.h"
 
@@ -47,6 +49,16 @@ void go_first() {
     ::close(file);
 }
 
+/// Restricts this process to what the program names first. @return whether that holds
+bool fence_in_as_told(MessageSocket& socket) {
+    const auto told = socket.receive();
+    if (!told)
+        ::_exit(0);
+    const LeftReadable readable = readable_from(told->bytes);
+    hold_sources_of_limits();
+    return kReaderIsWatched || fence_in(readable.places);
+}
+
 /// Answers that nothing is read without the fence, and waits until the program has closed the
 /// socket: if this process ended before the program asks, the program would see only an ended
 /// reader.
@@ -71,14 +83,13 @@ int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection)
     }
     end_with_the_program();
     go_first();
-    const bool fenced = kReaderIsWatched || fence_in();
     try {
         MessageSocket socket{Descriptor(kReaderSocket)};
-        if (!fenced) {
+        if (!fence_in_as_told(socket)) {
             refuse(socket);
             ::_exit(1);
         }
-        serve(socket, decoders, collection);
+        serve(socket, decoders, collection, take_denied_file);
     } catch (const Error&) {
         ::_exit(1); // the program knows which message it sent
     }

@@ -3,6 +3,7 @@
 
 #include "index/decoders/reader_limits.h"
 #include "index/error.h"
+#include "index/reader/readable_places.h"
 #include "index/system/shared_memory.h"
 
 #include <fmt/format.h>
@@ -18,8 +19,8 @@ namespace {
 
 class Service {
   public:
-    Service(std::span<const Decoder> decoders, ReadCollectionFile collection)
-        : decoders_(decoders), collection_(collection) {}
+    Service(std::span<const Decoder> decoders, ReadCollectionFile collection, TakeDenied denied)
+        : decoders_(decoders), collection_(collection), denied_(denied) {}
 
     /// The reply to a request, if it has one.
     std::optional<ReaderReply> answer(const ReaderRequest& request, Descriptor attached) {
@@ -87,6 +88,16 @@ class Service {
 
     template <class Work>
     ReaderReply attempt(const Work& work) const {
+        if (denied_)
+            denied_();
+        ReaderReply reply = tried(work);
+        // Some libraries take what they cannot open for empty, so that the values would be wrong.
+        const std::filesystem::path denied = denied_ ? denied_() : std::filesystem::path();
+        return denied.empty() ? reply : Refused{in_one_line(leads_out(path_, denied))};
+    }
+
+    template <class Work>
+    ReaderReply tried(const Work& work) const {
         try {
             return work();
         } catch (const Error& error) {
@@ -102,6 +113,7 @@ class Service {
 
     std::span<const Decoder> decoders_;
     ReadCollectionFile collection_;
+    TakeDenied denied_;
     std::filesystem::path path_; ///< of the last file that was requested
     std::map<std::uint64_t, std::unique_ptr<DecodedFile>> files_; ///< by number
     std::optional<ReaderBudget> limits_;                          ///< of that file
@@ -124,11 +136,11 @@ std::string in_one_line(std::string message) {
     return message;
 }
 
-void serve(MessageSocket& socket, std::span<const Decoder> decoders,
-           ReadCollectionFile collection) {
+void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection,
+           TakeDenied denied) {
     if (!socket.send(encoded(ReaderReply(Ready{kReaderVersion}))))
         return;
-    Service service(decoders, collection);
+    Service service(decoders, collection, denied);
     while (auto message = socket.receive()) {
         const auto reply =
             service.answer(request_from(message->bytes), std::move(message->attached));

@@ -21,12 +21,17 @@ struct Decoder {
 using ReadCollectionFile =
     std::vector<std::pair<std::filesystem::path, double>> (*)(const std::filesystem::path&);
 
+/// The file that the fence has denied since the last call; empty if none, see denied_files.h.
+using TakeDenied = std::filesystem::path (*)();
+
 /// The message as one line: control characters, as names inside files may have, become blanks.
 std::string in_one_line(std::string message);
 
 /// Answers requests until the other end is closed.
 /// @param collection reads .pvd; null if this reader does not
+/// @param denied null where nothing is denied; a request that needed a denied file is refused
 /// @throws Error when a message is invalid
-void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection);
+void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection,
+           TakeDenied denied = nullptr);
 
 } // namespace isochron::index

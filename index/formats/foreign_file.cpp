@@ -40,6 +40,20 @@ void check(const Described& described, const std::string& name) {
         throw Error(fmt::format("{}: cannot be read: its reader describes no volume", name));
 }
 
+/// A file that describes a folder stands for it: `CASE/system/controlDict`.
+fs::path place_of(const Format& format, const fs::path& path) {
+    for (const std::string_view described : format.describe_folder) {
+        fs::path place = path;
+        fs::path name = described;
+        for (; name.has_filename() && place.filename() == name.filename();
+             place = place.parent_path())
+            name = name.parent_path();
+        if (!name.has_filename())
+            return place.empty() ? "." : place;
+    }
+    return path;
+}
+
 class ForeignFile final : public VolumeFile {
   public:
     ForeignFile(ReaderPool& readers, const Format& format, const fs::path& path,
@@ -49,6 +63,8 @@ class ForeignFile final : public VolumeFile {
                                       .options = options,
                                       .most_memory = readers.limits().memory},
           lease_(readers, program_of(format.reader), path, format.decodes_all_arrays) {
+        readers.let_read(place_of(format, path));
+        readers.let_read(options.slices);
         lease_.work([] {}, [this] { described_ = open(); });
         check(described_, name_);
     }
@@ -162,13 +178,18 @@ OpenVolumeFile opener_of(const Format& format) {
 }
 
 ListedFiles read_pvd(const fs::path& path) {
-    ReaderLease lease(readers_of_this_process(), program_of("vtk"), path, false);
+    ReaderPool& readers = readers_of_this_process();
+    readers.let_read(path);
+    ReaderLease lease(readers, program_of("vtk"), path, false);
     ListedFiles files;
     lease.work([] {},
                [&] {
                    lease.reader().ask(ReadCollection{path});
                    files = lease.expect<Collected>().files;
                });
+    for (const auto& [file, time] : files)
+        if (!readers.may_read(file))
+            throw Error(leads_out(path, file));
     return files;
 }
 

@@ -10,6 +10,7 @@
 #include "index/formats/series/natural_order.h"
 #include "index/formats/series/resampled_series.h"
 #include "index/formats/series/vector_arrays.h"
+#include "index/reader/reader_pool.h"
 
 #include <fmt/format.h>
 
@@ -170,6 +171,7 @@ std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {
+    readers_of_this_process().let_read(files);
     if (const auto names = names_in_list(options.array.value_or(""));
         !names.empty() && !files.empty() && !holds_array(files.front(), options, *options.array))
         return open_vector(files, options, names);

@@ -238,7 +238,7 @@ class ArrayBuild::Work {
                    .first_step = steps_.window};
         if (!kept_.file)
             return;
-        team_.together([&] { written_.emplace(scratch_->sink().temporary()); });
+        team_.together([&] { written_.emplace(scratch_->sink().path_to_open()); });
         values_.first = written_->bytes().data();
     }
 

@@ -11,7 +11,8 @@ NewTarget::NewTarget(Team& team, const std::filesystem::path& target) : team_(te
     std::string temporary;
     team.together([&] {
         if (team.rank() == 0) {
-            file_.emplace(target);
+            file_.emplace(target,
+                          team.size() > 1 ? NewFile::Writers::several : NewFile::Writers::one);
             file_->remove_remains();
             temporary = file_->temporary().string();
         }

@@ -53,7 +53,12 @@ bool MessageSocket::send(std::span<const std::byte> bytes, int attached) {
         std::memcpy(CMSG_DATA(&beside.header), &attached, sizeof attached);
     }
     while (parts[0].iov_len + parts[1].iov_len > 0) {
-        const ssize_t sent = ::sendmsg(socket_.number(), &message, MSG_NOSIGNAL);
+        // A reader's fence allows no call that could send descriptors.
+        const iovec& next = parts[0].iov_len > 0 ? parts[0] : parts[1];
+        const ssize_t sent =
+            message.msg_control
+                ? ::sendmsg(socket_.number(), &message, MSG_NOSIGNAL)
+                : ::send(socket_.number(), next.iov_base, next.iov_len, MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR)
             continue;
         if (sent < 0)

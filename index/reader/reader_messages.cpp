@@ -111,7 +111,13 @@ Message message_from(std::span<const std::byte> bytes) {
 
 } // namespace
 
-const std::string kReaderVersion = ISOCHRON_VERSION " 7";
+const std::string kReaderVersion = ISOCHRON_VERSION " 8";
+
+std::vector<std::byte> encoded(const LeftReadable& readable) {
+    MessageWriter bytes;
+    bytes(readable.places);
+    return bytes.take();
+}
 
 std::vector<std::byte> encoded(const ReaderRequest& request) {
     return bytes_of_kind(request);
@@ -119,6 +125,14 @@ std::vector<std::byte> encoded(const ReaderRequest& request) {
 
 std::vector<std::byte> encoded(const ReaderReply& reply) {
     return bytes_of_kind(reply);
+}
+
+LeftReadable readable_from(std::span<const std::byte> bytes) {
+    LeftReadable readable;
+    MessageReader reader(bytes);
+    reader(readable.places);
+    reader.expect_end();
+    return readable;
 }
 
 ReaderRequest request_from(std::span<const std::byte> bytes) {

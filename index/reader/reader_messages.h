@@ -60,6 +60,11 @@ struct CloseFile {
 
 using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile>;
 
+/// Sent once to the reader, before any request: what its fence leaves readable. Not answered.
+struct LeftReadable {
+    std::vector<std::filesystem::path> places; ///< folders with all that is in them, and files
+};
+
 /// Sent once by the reader, before any request; in its place `Refused` where the reader cannot be
 /// fenced in. @see kReaderVersion
 struct Ready {
@@ -85,10 +90,12 @@ using ReaderReply = std::variant<Ready, Described, SlabRead, Collected, Closed, 
 /// The version that `Ready` must have, so that program and reader are of one build.
 extern const std::string kReaderVersion;
 
+std::vector<std::byte> encoded(const LeftReadable& readable);
 std::vector<std::byte> encoded(const ReaderRequest& request);
 std::vector<std::byte> encoded(const ReaderReply& reply);
 
 /// @throws Error saying in one line what is wrong, when the bytes are no such message
+LeftReadable readable_from(std::span<const std::byte> bytes);
 ReaderRequest request_from(std::span<const std::byte> bytes);
 ReaderReply reply_from(std::span<const std::byte> bytes);
 

@@ -12,10 +12,34 @@ constexpr std::size_t kMostIdle = 4; ///< each takes some megabytes for its libr
 
 } // namespace
 
+void ReaderPool::let_read(const std::filesystem::path& file) {
+    const std::lock_guard lock(mutex_);
+    readable_.add(file);
+}
+
+void ReaderPool::let_read(std::span<const std::filesystem::path> files) {
+    const std::lock_guard lock(mutex_);
+    std::filesystem::path folder;
+    std::error_code ignored;
+    for (bool first = true; const std::filesystem::path& file : files) {
+        if (first || file.parent_path() != folder || std::filesystem::is_symlink(file, ignored))
+            readable_.add(file);
+        folder = file.parent_path();
+        first = false;
+    }
+}
+
+bool ReaderPool::may_read(const std::filesystem::path& file) const {
+    const std::lock_guard lock(mutex_);
+    return readable_.contain(file);
+}
+
 std::unique_ptr<ReaderProcess> ReaderPool::take(const std::string& program) {
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(idle_, [](const auto& reader) { return !reader->is_ours(); });
+        std::erase_if(idle_, [&](const auto& reader) {
+            return !reader->is_ours() || reader->readable_age() != readable_.age();
+        });
         const auto found = std::find_if(idle_.rbegin(), idle_.rend(), [&](const auto& reader) {
             return reader->program() == program;
         });
@@ -29,7 +53,14 @@ std::unique_ptr<ReaderProcess> ReaderPool::take(const std::string& program) {
 }
 
 std::unique_ptr<ReaderProcess> ReaderPool::take_new(const std::string& program) const {
-    return std::make_unique<ReaderProcess>(program, limits_);
+    LeftReadable readable;
+    std::uint64_t age = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        readable.places = readable_.all();
+        age = readable_.age();
+    }
+    return std::make_unique<ReaderProcess>(program, limits_, readable, age);
 }
 
 void ReaderPool::give_back(std::unique_ptr<ReaderProcess> reader) {

@@ -1,10 +1,13 @@
 // The pool of reader processes: one for each open file; idle ones are kept for the next files.
 #pragma once
 
+#include "index/reader/readable_places.h"
 #include "index/reader/reader_process.h"
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,14 @@ class ReaderPool {
 
     const ReaderLimits& limits() const { return limits_; }
 
+    /// From now on readers that are taken can read this file and all that is in its folder; where
+    /// it is a folder, all that is in it. Where it is a symbolic link, also what it leads to.
+    void let_read(const std::filesystem::path& file);
+    /// The same for many files, so that readers that are taken later are started once for all.
+    void let_read(std::span<const std::filesystem::path> files);
+    /// Whether `let_read` has named the file, or a folder that it is in.
+    bool may_read(const std::filesystem::path& file) const;
+
     /// A reader of a program that nobody else uses: the idle one that was given back last, or a new
     /// one. @throws Error when none can be started
     std::unique_ptr<ReaderProcess> take(const std::string& program);
@@ -27,7 +38,8 @@ class ReaderPool {
 
   private:
     ReaderLimits limits_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
+    ReadablePlaces readable_;
     std::vector<std::unique_ptr<ReaderProcess>> idle_;
 };
 

@@ -9,12 +9,15 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -53,6 +56,17 @@ class SpawnSetup {
     posix_spawnattr_t attributes{};
 };
 
+/// HDF5 locks a file that it writes. Its reader cannot see that, since its fence takes locks away.
+void expect_unlocked(const std::filesystem::path& path) {
+    if (const char* const use = std::getenv("HDF5_USE_FILE_LOCKING"); use && use[0] == 'F')
+        return;
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file && ::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw Error(fmt::format("{}: cannot be read: another program is writing it, and has "
+                                "locked it",
+                                path.string()));
+}
+
 /// Waits for the end of a process that has closed its socket: it may end a moment after that.
 std::optional<int> status_at_end(pid_t process) {
     constexpr std::chrono::milliseconds kPause{1};
@@ -82,8 +96,10 @@ std::string text_of_end(int status) {
 
 } // namespace
 
-ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits)
-    : program_(std::move(program)), limits_(limits), parent_(::getpid()) {
+ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits, const LeftReadable& readable,
+                             std::uint64_t readable_age)
+    : program_(std::move(program)), limits_(limits), readable_age_(readable_age),
+      parent_(::getpid()) {
     const std::string file = file_of_program(program_).string();
     auto [ours, theirs] = MessageSocket::pair();
     const SpawnSetup setup(theirs.number());
@@ -93,6 +109,7 @@ ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits)
     if (failure != 0)
         throw Error(fmt::format("{}: cannot be started: {}", file, std::strerror(failure)));
     socket_.emplace(std::move(ours));
+    socket_->send(encoded(readable)); // where the reader has ended, the first reply says so
 }
 
 ReaderProcess::~ReaderProcess() {
@@ -108,6 +125,8 @@ bool ReaderProcess::is_ours() const {
 }
 
 void ReaderProcess::ask(const ReaderRequest& request) {
+    if (const auto* open = std::get_if<OpenFile>(&request))
+        expect_unlocked(open->path);
     if (std::holds_alternative<OpenFile>(request) ||
         std::holds_alternative<ReadCollection>(request))
         ++files_;

@@ -41,13 +41,18 @@ class ReaderEnded : public Error {
 /// Not thread-safe: one owner.
 class ReaderProcess {
   public:
-    /// Starts a reader, without waiting until it is ready. @throws Error when it cannot be started
-    ReaderProcess(std::string program, ReaderLimits limits);
+    /// Starts a reader, without waiting until it is ready.
+    /// @param readable what its fence leaves readable, where the kernel has Landlock
+    /// @param readable_age of these places, see ReadablePlaces
+    /// @throws Error when it cannot be started
+    ReaderProcess(std::string program, ReaderLimits limits, const LeftReadable& readable,
+                  std::uint64_t readable_age);
     ~ReaderProcess();
     ReaderProcess(const ReaderProcess&) = delete;
     ReaderProcess& operator=(const ReaderProcess&) = delete;
 
     const std::string& program() const { return program_; }
+    std::uint64_t readable_age() const { return readable_age_; }
     /// Whether this process has started it. A fork of that process must not use it, nor end it: it
     /// shares the socket.
     bool is_ours() const;
@@ -74,6 +79,7 @@ class ReaderProcess {
 
     std::string program_;
     ReaderLimits limits_;
+    std::uint64_t readable_age_;
     pid_t process_ = -1, parent_;
     std::optional<MessageSocket> socket_;
     bool ready_ = false;

@@ -15,8 +15,12 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <random>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace isochron::index {
@@ -34,7 +38,66 @@ std::string refusal(int error) {
     return error == ENOENT ? "its folder takes nothing new" : std::strerror(error);
 }
 
+/// Where this process can open a file that it has open.
+std::string path_of_open(int file) {
+    return fmt::format("/proc/self/fd/{}", file);
+}
+
+/// Whether nobody writes a file or a folder, which no longer grows. One that was just made may not
+/// be locked yet.
+bool is_abandoned(int file) {
+    struct stat status {};
+    constexpr time_t kOld = 60; // [s]
+    return ::fstat(file, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+           status.st_uid == ::geteuid() && status.st_mtime + kOld < std::time(nullptr) &&
+           ::flock(file, LOCK_EX | LOCK_NB) == 0;
+}
+
+/// Removes files and folders with such a name that nobody writes.
+void remove_abandoned(const fs::path& folder,
+                      const std::function<bool(std::string_view)>& is_of_us) {
+    // Not std::filesystem's iterator, which ends the program when memory runs out.
+    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
+    while (const dirent* entry = entries ? ::readdir(entries.get()) : nullptr) {
+        if (entry->d_name[0] != '.' || !is_of_us(entry->d_name))
+            continue;
+        // Anything may have such a name, even a pipe or a link.
+        const fs::path path = folder / entry->d_name;
+        const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+        if (file < 0)
+            continue;
+        std::error_code ignored;
+        if (is_abandoned(file))
+            fs::remove_all(path, ignored);
+        ::close(file);
+    }
+}
+
+constexpr std::string_view kMark = ".isochron-", kTemporary = ".tmp";
+
 } // namespace
+
+fs::path temporary_name_of(const fs::path& file) {
+    constexpr std::size_t kLongest = 200; // of 255 bytes that a name may have
+    static std::random_device random;
+    return folder_of(file) / fmt::format(".{}{}{:08x}{}",
+                                         file.filename().string().substr(0, kLongest), kMark,
+                                         random(), kTemporary);
+}
+
+void remove_remains_in(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> done;
+    {
+        std::error_code ignored;
+        const std::lock_guard lock(mutex);
+        if (!done.insert(fs::weakly_canonical(fs::absolute(folder, ignored), ignored)).second)
+            return;
+    }
+    remove_abandoned(folder, [](std::string_view name) {
+        return name.ends_with(kTemporary) && name.rfind(kMark) != name.npos;
+    });
+}
 
 void make_folder(const fs::path& folder) {
     std::error_code error;
@@ -57,7 +120,7 @@ fs::path end_of_links(fs::path path) {
     return path;
 }
 
-NewFile::NewFile(fs::path target) : target_(std::move(target)) {
+NewFile::NewFile(fs::path target, Writers writers) : target_(std::move(target)) {
     std::error_code ignored;
     const fs::file_status status = fs::status(target_, ignored);
     if (!target_.has_filename() || (fs::exists(status) && !fs::is_regular_file(status)))
@@ -67,17 +130,39 @@ NewFile::NewFile(fs::path target) : target_(std::move(target)) {
     if (!fs::is_directory(folder, ignored))
         throw Error(fmt::format("{}: cannot be written: there is no folder {}", target_.string(),
                                 folder.string()));
-    std::random_device random;
-    constexpr int kMostTries =
-        1000; // of 65,536 names: a folder that holds most of them is no accident
+    remove_remains_in(folder);
+    temporary_ = temporary_name_of(target_);
+    if (writers == Writers::one && !fs::exists(status))
+        open_unnamed(folder);
+    if (file_ < 0)
+        open_named();
+}
+
+void NewFile::open_unnamed(const fs::path& folder) {
+    file_ = ::open(folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+    std::error_code ignored;
+    // Not every file system knows such files, nor can a name be given where there is no /proc.
+    if (file_ >= 0 && !fs::exists(path_of_open(file_), ignored)) {
+        ::close(file_);
+        file_ = -1;
+    }
+    named_ = file_ < 0;
+}
+
+void NewFile::open_named() {
+    constexpr int kMostTries = 1000; // a folder that holds as many of 2^32 names is no accident
     for (int tries = 0; file_ < 0; ++tries) {
-        temporary_ =
-            folder / fmt::format(".{}.{:04x}.tmp", target_.filename().string(), random() & 0xffff);
-        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        file_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0 && (errno != EEXIST || tries == kMostTries))
             fail(errno);
+        if (file_ < 0)
+            temporary_ = temporary_name_of(target_);
     }
     ::flock(file_, LOCK_EX | LOCK_NB); // shows others that its writer is alive
+}
+
+fs::path NewFile::path_to_open() const {
+    return named_ ? temporary_ : fs::path(path_of_open(file_));
 }
 
 NewFile::NewFile(fs::path target, fs::path temporary)
@@ -91,33 +176,16 @@ NewFile::~NewFile() {
     if (file_ < 0)
         return;
     ::close(file_);
-    if (owner_)
+    if (owner_ && named_)
         ::unlink(temporary_.c_str());
 }
 
 void NewFile::remove_remains() const {
     const std::string start = fmt::format(".{}.", target_.filename().string());
-    const fs::path folder = folder_of(target_);
-    // Not std::filesystem's iterator, which ends the program when memory runs out.
-    const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
-    while (const dirent* entry = entries ? ::readdir(entries.get()) : nullptr) {
-        const std::string_view name = entry->d_name;
-        if (name.size() != start.size() + 8 || !name.starts_with(start) ||
-            !name.ends_with(".tmp") || name == temporary_.filename().string())
-            continue;
-        // Anything may have such a name, even a pipe or a link.
-        const fs::path path = folder / name;
-        const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-        if (file < 0)
-            continue;
-        // A file that was just made may not be locked yet.
-        struct stat status {};
-        const bool old = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-                         status.st_mtime + 60 < std::time(nullptr);
-        if (old && ::flock(file, LOCK_EX | LOCK_NB) == 0)
-            ::unlink(path.c_str());
-        ::close(file);
-    }
+    const auto is_old_name = [&](std::string_view name) { // of versions up to 0.2
+        return name.size() == start.size() + 8 && name.starts_with(start) && name.ends_with(".tmp");
+    };
+    remove_abandoned(folder_of(target_), is_old_name);
 }
 
 void NewFile::fail(int error) const {
@@ -158,13 +226,28 @@ void NewFile::begin_flush() {
     begin_flush_of(file_);
 }
 
+void NewFile::take_name() {
+    const auto link_to = [&](const fs::path& name) {
+        return ::linkat(AT_FDCWD, path_of_open(file_).c_str(), AT_FDCWD, name.c_str(),
+                        AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (!named_) {
+        if (link_to(target_))
+            return;
+        if (errno != EEXIST || !link_to(temporary_))
+            fail(errno);
+        named_ = true; // another file has taken the name meanwhile
+    }
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+        fail(errno);
+}
+
 void NewFile::commit() {
     if (::fsync(file_) != 0)
         fail(errno);
     if (!owner_)
         return;
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
-        fail(errno);
+    take_name();
     ::close(file_);
     file_ = -1;
     // Flushes the folder, so that the new name survives a power failure; not every file system

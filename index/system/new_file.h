@@ -25,15 +25,24 @@ std::filesystem::path end_of_links(std::filesystem::path path);
 /// As ByteSink::begin_flush, for an open file.
 void begin_flush_of(int file);
 
-/// Writes to `.NAME.XXXX.tmp` in the folder of NAME, which is the end of the links that the target
-/// leads through; `commit` renames it. If it is destroyed before
-/// that, it removes the temporary file, and an older file of that name stays as it was. Every
-/// function throws Error with the final name and the system's message (disk full, folder not
-/// writable, ...).
+/// Removes what killed writers have left in a folder, under any name: our temporary files and
+/// folders that nobody has locked and that are older than a minute. Once for each folder and
+/// process, as it reads the whole folder.
+void remove_remains_in(const std::filesystem::path& folder);
+/// A temporary name for that file, beside it, which `remove_remains_in` knows.
+std::filesystem::path temporary_name_of(const std::filesystem::path& file);
+
+/// Writes to a file without a name, which vanishes with its process, in the folder of NAME, which is
+/// the end of the links that the target leads through; `commit` gives it its name. Where NAME exists
+/// already, several processes write, or the file system knows no files without a name, it writes to
+/// a temporary name, which `commit` renames. If it is destroyed before that, it removes the
+/// temporary file, and an older file of that name stays as it was. Every function throws Error with
+/// the final name and the system's message (disk full, folder not writable, ...).
 class NewFile final : public ByteSink {
   public:
+    enum class Writers : std::uint8_t { one, several };
     /// @throws Error also when `target` exists and is not a regular file
-    explicit NewFile(std::filesystem::path target);
+    explicit NewFile(std::filesystem::path target, Writers writers = Writers::one);
     /// Writes to the temporary file of another process, which owns it: `commit` only flushes then.
     NewFile(std::filesystem::path target, std::filesystem::path temporary);
     ~NewFile() override;
@@ -49,13 +58,20 @@ class NewFile final : public ByteSink {
     /// Flushes to disk, then renames the file to its final name.
     void commit();
 
+    /// Its name until then; a file without a name gets it for a moment where another file has taken
+    /// NAME meanwhile.
     const std::filesystem::path& temporary() const { return temporary_; }
+    /// Under which this process can open it.
+    std::filesystem::path path_to_open() const;
 
   private:
     [[noreturn]] void fail(int error) const;
+    void open_unnamed(const std::filesystem::path& folder);
+    void open_named();
+    void take_name();
     std::filesystem::path target_, temporary_;
     int file_ = -1;
-    bool owner_ = true;
+    bool owner_ = true, named_ = true;
 };
 
 } // namespace isochron::index

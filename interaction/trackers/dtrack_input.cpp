@@ -1,10 +1,10 @@
 // Input from an ART tracking system: turns DTrack's datagrams into devices.
 #include "interaction/trackers/dtrack_input.h"
 
+#include "interaction/trackers/datagram_receiver.h"
 #include "interaction/trackers/device_clock.h"
 #include "interaction/trackers/dtrack_protocol.h"
 #include "interaction/trackers/frame_sequence.h"
-#include "interaction/trackers/sender_choice.h"
 
 #include <algorithm>
 
@@ -27,6 +27,29 @@ void add_body(TrackedDevice& device, const DTrackBody& body, Seconds measured,
         device.refuse_pose();
 }
 
+/// Whether a frame tells about a device: tracked or not, DTrack names it in each of its frames.
+bool names(const DTrackFrame& frame, const DTrackDevice& device) {
+    switch (device.kind) {
+    case DTrackKind::body:
+        return std::ranges::find(frame.bodies, device.id, &DTrackBody::id) != frame.bodies.end();
+    case DTrackKind::flystick:
+        return std::ranges::any_of(
+            frame.flysticks, [&](const DTrackFlystick& each) { return each.body.id == device.id; });
+    case DTrackKind::marker: break;
+    }
+    return std::ranges::find(frame.markers, device.id, &DTrackMarker::id) != frame.markers.end();
+}
+
+Worth worth_of(std::string_view bytes, const std::vector<DTrackDevice>& devices) {
+    const auto frame = parse_dtrack(bytes);
+    if (!frame)
+        return Worth::nonsense;
+    return std::ranges::any_of(devices,
+                               [&](const DTrackDevice& each) { return names(*frame, each); })
+               ? Worth::useful
+               : Worth::sensible;
+}
+
 } // namespace
 
 struct DTrackInput::State {
@@ -35,15 +58,20 @@ struct DTrackInput::State {
         int id;
         TrackedDevice tracked;
     };
-    UdpSocket socket;
+    DatagramReceiver receiver;
     std::vector<Device> devices;
-    SenderChoice senders;
     FrameSequence sequence;
     DeviceClock clock;
     std::uint64_t malformed = 0;
 
     explicit State(const DTrackOptions& options)
-        : socket(options.endpoint, options.ages), senders(options.from) {
+        : receiver({.endpoint = options.endpoint,
+                    .from = options.from,
+                    .ages = options.ages,
+                    .kept = kMostDatagrams,
+                    .worth = [devices = options.devices](std::string_view bytes) {
+                        return worth_of(bytes, devices);
+                    }}) {
         for (const DTrackDevice& each : options.devices)
             devices.push_back({each.kind, each.id, TrackedDevice(each.device)});
     }
@@ -84,23 +112,14 @@ struct DTrackInput::State {
 
     void take(const Datagram& datagram, Seconds now) {
         const Seconds arrival = now - datagram.age;
-        // Asked again, as an earlier datagram may have shown that its sender makes no sense.
-        if (!senders.admits(datagram.sender, arrival))
-            return;
         const auto frame = parse_dtrack(datagram.bytes);
         malformed += frame ? static_cast<std::uint64_t>(frame->malformed_lines) : 1;
-        if (!frame)
-            return senders.made_no_sense(arrival);
-        senders.heard(arrival);
-        if (sequence.accept(frame->counter, arrival))
+        if (frame && sequence.accept(frame->counter, arrival))
             take(*frame, arrival);
     }
 
     void receive(Seconds now) {
-        const auto admits = [&](const Endpoint& sender, Seconds age) {
-            return senders.admits(sender, now - age);
-        };
-        for (const Datagram& datagram : socket.take(kMostDatagrams, admits))
+        for (const Datagram& datagram : receiver.take(now))
             take(datagram, now);
     }
 };
@@ -117,7 +136,7 @@ InputState DTrackInput::poll(Seconds now) {
 }
 
 void DTrackInput::begin() {
-    state_->socket.drain();
+    state_->receiver.drain();
 }
 
 InputState DTrackInput::latch(Seconds now) {
@@ -130,17 +149,17 @@ InputState DTrackInput::latch(Seconds now) {
 
 std::vector<std::string> DTrackInput::status() const {
     const State& s = *state_;
-    std::vector<std::string> lines{
-        fmt::format("dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away{}",
-                    to_string(s.socket.endpoint()), s.sequence.accepted(), s.sequence.missing(),
-                    s.sequence.late(), s.malformed, s.socket.thrown_away(), s.senders.strangers())};
+    std::vector<std::string> lines{fmt::format(
+        "dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away{}",
+        to_string(s.receiver.endpoint()), s.sequence.accepted(), s.sequence.missing(),
+        s.sequence.late(), s.malformed, s.receiver.thrown_away(), s.receiver.strangers())};
     for (const State::Device& device : s.devices)
         lines.push_back(device.tracked.status());
     return lines;
 }
 
 const Endpoint& DTrackInput::endpoint() const {
-    return state_->socket.endpoint();
+    return state_->receiver.endpoint();
 }
 
 } // namespace isochron::interaction

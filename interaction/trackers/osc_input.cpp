@@ -1,6 +1,7 @@
 // Input from devices that send Open Sound Control messages; liblo parses the messages.
 #include "interaction/trackers/osc_input.h"
 
+#include "interaction/trackers/datagram_receiver.h"
 #include "interaction/trackers/device_clock.h"
 
 #include <lo/lo.h>
@@ -84,6 +85,15 @@ std::optional<std::size_t> index_of(double value) {
     return static_cast<std::size_t>(value);
 }
 
+/// A first look, without reading it all: the messages of a bundle have their addresses in it.
+Worth worth_of(std::string_view bytes, std::string_view prefix) {
+    const bool bundle = bytes.starts_with(kBundle);
+    if (!bundle && !bytes.starts_with('/'))
+        return Worth::nonsense;
+    const bool ours = bundle ? bytes.find(prefix) != bytes.npos : bytes.starts_with(prefix);
+    return ours ? Worth::useful : Worth::sensible;
+}
+
 } // namespace
 
 struct OscInput::State {
@@ -92,12 +102,19 @@ struct OscInput::State {
         TrackedDevice tracked;
         std::optional<Velocity> velocity; ///< of the next pose
     };
-    UdpSocket socket;
+    DatagramReceiver receiver;
     std::vector<Device> devices;
     DeviceClock clock;
     std::uint64_t messages = 0, wrong_types = 0, unknown = 0, malformed = 0;
 
-    explicit State(const OscOptions& options) : socket(options.endpoint) {
+    explicit State(const OscOptions& options)
+        : receiver({.endpoint = options.endpoint,
+                    .from = std::nullopt,
+                    .one_sender = false,
+                    .kept = kMostMessages,
+                    .worth = [prefix = options.prefix + "/"](std::string_view bytes) {
+                        return worth_of(bytes, prefix);
+                    }}) {
         for (const OscDevice& each : options.devices)
             devices.push_back({fmt::format("{}/{}/", options.prefix, each.source),
                                TrackedDevice(each.device),
@@ -215,7 +232,7 @@ struct OscInput::State {
     }
 
     void receive(Seconds now) {
-        for (const Datagram& datagram : socket.take(kMostMessages))
+        for (const Datagram& datagram : receiver.take(now))
             take(datagram.bytes, {now - datagram.age, now - datagram.age, std::nullopt});
     }
 };
@@ -232,7 +249,7 @@ InputState OscInput::poll(Seconds now) {
 }
 
 void OscInput::begin() {
-    state_->socket.drain();
+    state_->receiver.drain();
 }
 
 InputState OscInput::latch(Seconds now) {
@@ -248,15 +265,15 @@ std::vector<std::string> OscInput::status() const {
     std::vector<std::string> lines{fmt::format(
         "osc {}: {} messages, {} of wrong types, {} to unknown addresses, {} malformed, "
         "{} thrown away",
-        to_string(s.socket.endpoint()), s.messages, s.wrong_types, s.unknown, s.malformed,
-        s.socket.thrown_away())};
+        to_string(s.receiver.endpoint()), s.messages, s.wrong_types, s.unknown, s.malformed,
+        s.receiver.thrown_away())};
     for (const State::Device& device : s.devices)
         lines.push_back(device.tracked.status());
     return lines;
 }
 
 const Endpoint& OscInput::endpoint() const {
-    return state_->socket.endpoint();
+    return state_->receiver.endpoint();
 }
 
 } // namespace isochron::interaction

@@ -45,6 +45,12 @@ void SenderChoice::made_no_sense(Seconds arrival) {
     current_.reset();
 }
 
+std::optional<Endpoint> SenderChoice::proven(Seconds now) const {
+    if (!current_ || !current_->proven || now - current_->arrival > kSenderGone)
+        return std::nullopt;
+    return current_->sender;
+}
+
 std::string SenderChoice::strangers() const {
     if (strangers_ == 0)
         return {};

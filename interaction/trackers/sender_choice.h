@@ -27,6 +27,9 @@ class SenderChoice {
     void heard(Seconds arrival);
     void made_no_sense(Seconds arrival);
 
+    /// The sender that is used, while its datagrams make sense and it is not silent for a second.
+    std::optional<Endpoint> proven(Seconds now) const;
+
     /// `, 12 from others (127.0.0.1:4000)`; empty if there were none.
     std::string strangers() const;
 

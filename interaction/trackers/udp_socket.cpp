@@ -4,6 +4,7 @@
 #include "interaction/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -12,8 +13,11 @@
 #include <memory>
 
 #include <arpa/inet.h>
+#include <linux/filter.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -83,6 +87,41 @@ Seconds wall_clock() {
            Seconds(1e-9 * static_cast<double>(now.tv_nsec));
 }
 
+/// A program of the kernel that passes what comes from this address and port. Not connect(), which
+/// also binds a socket that listens on all addresses to one, so that broadcasts are lost.
+std::vector<sock_filter> filter_for(const sockaddr& sender) {
+    constexpr std::uint32_t kAll = 0xffffffff;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> words; // where they are, and their values
+    std::uint16_t port = 0;
+    if (sender.sa_family == AF_INET6) {
+        const auto& v6 = reinterpret_cast<const sockaddr_in6&>(sender);
+        port = ntohs(v6.sin6_port);
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            std::uint32_t word = 0;
+            std::memcpy(&word, v6.sin6_addr.s6_addr + 4 * i, sizeof word);
+            words.emplace_back(8 + 4 * i, ntohl(word));
+        }
+    } else {
+        const auto& v4 = reinterpret_cast<const sockaddr_in&>(sender);
+        port = ntohs(v4.sin_port);
+        words.emplace_back(12, ntohl(v4.sin_addr.s_addr));
+    }
+    std::vector<sock_filter> code;
+    const auto expect = [&](std::uint32_t value) {
+        code.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 1, 0));
+        code.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
+    };
+    code.push_back(BPF_STMT(BPF_LD | BPF_H | BPF_ABS, 0)); // of UDP's header: the sender's port
+    expect(port);
+    for (const auto& [at, value] : words) { // of IP's header: the sender's address
+        code.push_back(
+            BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(SKF_NET_OFF) + at));
+        expect(value);
+    }
+    code.push_back(BPF_STMT(BPF_RET | BPF_K, kAll));
+    return code;
+}
+
 } // namespace
 
 std::string to_string(const Endpoint& endpoint) {
@@ -143,10 +182,39 @@ UdpSocket::UdpSocket(const Endpoint& endpoint, DatagramAges ages)
         fail(endpoint, reason);
     }
     endpoint_.port = bound_port(socket_);
+    // As much as the system gives: room for what comes while the reading thread has no processor.
+    const int wanted = 4 << 20;
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted);
+    wake_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
 }
 
 UdpSocket::~UdpSocket() {
     close(socket_);
+    if (wake_ >= 0)
+        close(wake_);
+}
+
+void UdpSocket::wait(std::chrono::milliseconds most) const {
+    std::array<pollfd, 2> ready{{{socket_, POLLIN, 0}, {wake_, POLLIN, 0}}};
+    poll(ready.data(), ready.size(), static_cast<int>(most.count()));
+}
+
+void UdpSocket::wake() const {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = write(wake_, &one, sizeof one);
+}
+
+bool UdpSocket::hear_only(const std::optional<Endpoint>& sender) {
+    if (!sender) {
+        const int ignored = 0;
+        return setsockopt(socket_, SOL_SOCKET, SO_DETACH_FILTER, &ignored, sizeof ignored) == 0;
+    }
+    const Addresses address = resolve(sender->address, sender->port);
+    if (!address)
+        return false;
+    std::vector<sock_filter> code = filter_for(*address->ai_addr);
+    const sock_fprog program{static_cast<unsigned short>(code.size()), code.data()};
+    return setsockopt(socket_, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) == 0;
 }
 
 void UdpSocket::drain() {

@@ -3,6 +3,7 @@
 
 #include "interaction/pose.h"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -50,6 +51,14 @@ class UdpSocket {
     /// `admits` refuses are dropped uncounted, so that they take no place among the newest.
     std::vector<Datagram> take(
         std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
+    /// Waits until a datagram is waiting, or `wake` is called, or so much time has passed. May be
+    /// called beside any other function of another thread.
+    void wait(std::chrono::milliseconds most) const;
+    /// Ends a wait, also the next one if there is none.
+    void wake() const;
+    /// From now on the kernel drops datagrams of all other senders; none: of no sender. What waits
+    /// already stays. @return whether the kernel does
+    bool hear_only(const std::optional<Endpoint>& sender);
     /// Throws away all waiting datagrams, uncounted.
     void drain();
     /// Number of datagrams that were taken but not kept, or were too long.
@@ -60,7 +69,7 @@ class UdpSocket {
   private:
     static constexpr std::size_t kLongest = 65536; ///< [byte]
     Endpoint endpoint_;
-    int socket_ = -1;
+    int socket_ = -1, wake_ = -1;
     std::string buffer_;
     std::uint64_t thrown_away_ = 0;
 };

@@ -95,14 +95,10 @@ SeriesWriter::SeriesWriter(fs::path dir, std::string name, SeriesInfo info)
         throw Error(fmt::format("{}: a .vti carries no scaling, slope {} and intercept {} given",
                                 name_, info_.scaling.slope, info_.scaling.intercept));
     make_folder(dir_);
+    temporary_.emplace(dir_ / name_);
 }
 
-SeriesWriter::~SeriesWriter() {
-    std::error_code ignored;
-    for (const Step& step : steps_)
-        fs::remove(temporary(step.file), ignored);
-    fs::remove(temporary(name_ + ".pvd"), ignored);
-}
+SeriesWriter::~SeriesWriter() = default;
 
 std::string SeriesWriter::file_of(const std::string& name, std::size_t step) {
     return fmt::format("{}_{:04}.vti", name, step);

@@ -6,10 +6,12 @@
 //     writer.finish();      // only now do the files appear under their names
 #pragma once
 
+#include "index/system/temporary_folder.h"
 #include "index/volume/volume_series.h"
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,9 +49,9 @@ class SeriesWriter {
         double time;
     };
 
-    // Files get temporary names; a NewFile for each would keep a descriptor open for each step.
+    // A NewFile for each step would keep its descriptor open until the end.
     std::filesystem::path temporary(const std::string& file) const {
-        return dir_ / (file + ".tmp");
+        return temporary_->path() / file;
     }
     void publish(const std::string& file) const;
     std::string vti(std::span<const std::byte> values, double time) const;
@@ -57,6 +59,7 @@ class SeriesWriter {
     std::filesystem::path dir_;
     std::string name_;
     SeriesInfo info_;
+    std::optional<TemporaryFolder> temporary_;
     std::vector<Step> steps_;
 };
 

@@ -287,6 +287,62 @@ TEST_F(CommandLine, VerifyFindsDamageThatOpeningDoesNotTouch) {
     expect_failure(isochron({"verify", "b.isochron"}), 1, "b.isochron: damaged: volume, step ");
 }
 
+TEST_F(CommandLine, TextsOfFilesCannotCommandTheTerminal) {
+    folder.write("e.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                           "space units: \"m\033[31m\" \"m\x07\" \"\xc2\x9b m\"\n\n12345678");
+    folder.write("c.toml", "version = 1\n[[windows]]\nname = \"w\\u001b[31m\\u009bx\"\n");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"info", "e.nrrd"}, {"explore", "--check-config", "c.toml"}}) {
+        const ChildResult result = isochron(command);
+        const std::string all = result.out + result.err;
+        EXPECT_THAT(all, HasSubstr("\\x1b[31m"));
+        for (const char* control : {"\033", "\x07", "\xc2\x9b"})
+            EXPECT_THAT(all, testing::Not(HasSubstr(control))) << command[0];
+    }
+}
+
+TEST_F(CommandLine, ALimitOfFilesIsOneLineAndLeavesNothing) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const auto before = folder.names();
+    const auto limited = [&](const std::string& command) {
+        return run_child("/bin/sh",
+                         {"-c", fmt::format("ulimit -f 1; exec {}/isochron {}",
+                                            test_support::binary_root(), command)},
+                         folder.path());
+    };
+    expect_failure(limited("build t0.raw --dims 14 11 9 --type f32 -o new.isochron"), 1,
+                   "new.isochron: cannot be written: File too large");
+    expect_failure(limited("query a.isochron --isovalue 0.1 --ids ids.bin"), 1,
+                   "ids.bin: cannot be written: File too large");
+    EXPECT_EQ(folder.names(), before);
+}
+
+TEST_F(CommandLine, VerifySaysOnceWhatIsLost) {
+    ASSERT_EQ(isochron(build_of("t[01].raw")).status, 0);
+    ASSERT_EQ(isochron(build_of("t*.raw", {"--append"})).status, 0);
+    // The newer of the two headers is damaged.
+    std::string bytes = folder.read("a.isochron");
+    for (const std::size_t at : {std::size_t{100}, std::size_t{4096 + 100}}) {
+        std::string damaged = bytes;
+        damaged[at] = char(damaged[at] ^ 1);
+        folder.write("b.isochron", damaged);
+        const ChildResult result = isochron({"verify", "b.isochron"});
+        if (result.err.find("a newer state") != std::string::npos)
+            expect_failure(result, 1, "b.isochron: the header of a newer state is damaged");
+    }
+}
+
+TEST_F(CommandLine, MeasuresBeyondWhatCanBeShownAreRefused) {
+    for (const char* option : {"--spacing", "--origin"}) {
+        std::vector<std::string> command = build_of("t0.raw");
+        command.insert(command.end(), {option, "1", "1", "1e308"});
+        expect_failure(isochron(command), 1, option);
+    }
+    std::vector<std::string> command = build_of("t*.raw");
+    command.insert(command.end(), {"--time-step", "1e308"});
+    expect_failure(isochron(command), 1, "--time-step");
+}
+
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
     const ChildResult result = isochron({"info", "a.isochron"}, {.out = "/dev/full"});

@@ -54,6 +54,31 @@ TEST_F(ForeignFiles, OfElementsNestedWithoutEndCostOneLine) {
         expect_failure(build(name), 1, name + ": elements nested more than 64 deep");
 }
 
+using LinksThatLeadOut = ForeignFiles;
+
+TEST_F(LinksThatLeadOut, AreOneLineUnlessTheirFolderIsAllowed) {
+    const std::string image = (kData / "vti" / "ascii.vti").string(),
+                      allowed = (kData / "vti").string();
+    folder.write("out.pvd",
+                 "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"" +
+                     image + "\"/></Collection></VTKFile>");
+    folder.write(
+        "out.pvti",
+        "<VTKFile type=\"PImageData\" version=\"1.0\"><PImageData WholeExtent=\"2 6 -1 2 0 2\" "
+        "GhostLevel=\"0\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><PPointData>"
+        "<PDataArray type=\"Int16\" Name=\"p\"/></PPointData>"
+        "<Piece Extent=\"2 6 -1 2 0 2\" Source=\"" +
+            image + "\"/></PImageData></VTKFile>");
+    fs::create_symlink(image, folder.path() / "link.vti");
+    for (const std::string name : {"out.pvd", "out.pvti"}) {
+        const ChildResult result = build(name);
+        expect_failure(result, 1, name + ": names " + image + ", outside of the folders");
+        EXPECT_THAT(result.err, HasSubstr("--allow " + allowed));
+        EXPECT_EQ(isochron({"build", name, "-o", "a.isochron", "--allow", allowed}).status, 0);
+    }
+    EXPECT_EQ(build("link.vti").status, 0) << "what the user names is read wherever it lies";
+}
+
 TEST_F(ForeignFiles, AreReadWhereverTheProgramIsStartedFrom) {
     const std::string binary = test_support::binary_root();
     const std::string vti = (kData / "vti" / "raw_zlib64.vti").string();

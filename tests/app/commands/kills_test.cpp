@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 
@@ -36,7 +37,21 @@ class Kills : public CommandLine {
             check();
         }
         EXPECT_GT(killed, kills() / 4); // what an earlier one left behind may save some calls
+        expect_nothing_left_later();
         EXPECT_EQ(isochron(command).status, 0);
+    }
+
+    /// What killed commands have left goes when any command, here one that only reads, runs in the
+    /// folder a minute later.
+    void expect_nothing_left_later() {
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+            std::filesystem::last_write_time(entry.path(),
+                                             std::filesystem::file_time_type::clock::now() -
+                                                 std::chrono::minutes(2));
+        EXPECT_EQ(isochron({"info", "t0.raw", "--dims", "14", "11", "9", "--type", "f32"}).status,
+                  0);
+        for (const std::string& name : folder.names())
+            EXPECT_FALSE(name.starts_with('.')) << name;
     }
 
     /// @param at the call at which it is killed; 0: none
@@ -76,6 +91,14 @@ TEST_F(Kills, OfAppendingLeaveTheOldIndexOrTheNewOne) {
         EXPECT_TRUE(now == 2 || now == 5) << now;
         if (now == 5) // what a kill leaves behind is kept until then
             folder.write("a.isochron", held);
+    });
+}
+
+TEST_F(Kills, OfABuildOfANewNameLeaveNothing) {
+    kill(build_of("t*.raw", {"--quiet"}), [&] {
+        for (const std::string& name : folder.names())
+            EXPECT_FALSE(name.starts_with('.')) << name;
+        std::filesystem::remove(folder.path() / "a.isochron");
     });
 }
 

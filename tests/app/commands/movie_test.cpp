@@ -50,6 +50,33 @@ TEST_F(MovieTest, EveryPictureReachesFfmpegAndTheFileAppearsWhole) {
     EXPECT_THAT(folder_.read("a.mp4"), testing::HasSubstr("libx264"));
 }
 
+TEST_F(MovieTest, ANameWithAColonIsNoProtocolAndALongNoteNoArgument) {
+    const std::string note = "a=b;#\\ " + std::string(200'000, 'x');
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(folder_.path());
+    {
+        MovieFile movie("10:30.mp4", {4, 2}, 25, note);
+        movie.add(picture());
+        movie.finish();
+    }
+    std::filesystem::current_path(before);
+    const std::string said = folder_.read("10:30.mp4");
+    EXPECT_THAT(said, testing::HasSubstr("-f ffmetadata -i /"));
+    EXPECT_THAT(said, testing::ContainsRegex(" /[^ ]*/movie.mp4 $"));
+    EXPECT_LT(said.size(), 2000u);
+}
+
+TEST_F(MovieTest, IsMadeInAFolderThatNobodyElseCanOpen) {
+    const auto folder_mode = [&] {
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+            if (entry.is_directory())
+                return entry.status().permissions();
+        return std::filesystem::perms::unknown;
+    };
+    MovieFile movie(folder_.path() / "a.mp4", {4, 2}, 25);
+    EXPECT_EQ(folder_mode(), std::filesystem::perms::owner_all);
+}
+
 TEST_F(MovieTest, AnAbandonedMovieLeavesNothing) {
     {
         MovieFile movie(folder_.path() / "a.gif", {4, 2}, 25);

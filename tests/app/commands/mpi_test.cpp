@@ -167,7 +167,7 @@ ChildResult struck_job(TestFolder& folder, const std::string& signal) {
                               "/isochron build n?.raw --dims 96 96 96 --type u8 --lattice 256 "
                               "--timeout 5 -o job";
     const std::string when_under_way =
-        "(while kill -0 $$ && ! ls .job.????.tmp; do sleep 0.02; done; kill -" + signal +
+        "(while kill -0 $$ && ! ls .job.*.tmp; do sleep 0.02; done; kill -" + signal +
         " $$) >/dev/null 2>&1 & exec " + build;
     for (int step = 0; step < 6; ++step) {
         std::string noise(std::size_t{96} * 96 * 96, '\0');

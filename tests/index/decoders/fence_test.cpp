@@ -30,7 +30,8 @@ bool refused(long result) {
 /// The number of the first claim that does not hold; 0 when all do.
 int first_that_fails(const std::string& file) {
     const int open = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (open < 0 || !fence_in())
+    const std::filesystem::path readable[]{file};
+    if (open < 0 || !fence_in(readable))
         return 1;
     struct rlimit limit {};
     ::getrlimit(RLIMIT_CPU, &limit);

@@ -2,6 +2,7 @@
 // next file is read.
 #include "index/formats/foreign_file.h"
 
+#include "index/decoders/file_fence.h"
 #include "index/reader/process_signs.h"
 #include "tests/support/eventually.h"
 #include "tests/support/paths.h"
@@ -191,6 +192,28 @@ TEST(Readers, AreFencedIn) {
     const auto file = open_in(pool, kFolder / "ascii.vti");
     const std::string status = read_file(fmt::format("/proc/{}/status", running_readers().at(0)));
     EXPECT_THAT(status, AllOf(HasSubstr("NoNewPrivs:\t1"), HasSubstr("Seccomp:\t2")));
+}
+
+TEST(Readers, SeeOnlyTheFoldersOfTheirFiles) {
+    ASSERT_GE(file_fence_version(), 1) << "this kernel has no Landlock";
+    ReaderPool pool;
+    const TestFolder here, elsewhere;
+    for (const TestFolder* each : {&here, &elsewhere})
+        fs::copy_file(kFolder / "ascii.vti", each->path() / "a.vti");
+    expect_good(*open_in(pool, here.path() / "a.vti"));
+    EXPECT_TRUE(pool.may_read(here.path() / "other"));
+    EXPECT_FALSE(pool.may_read(elsewhere.path() / "a.vti"));
+    // A reader that was started for one folder is no use in the other.
+    const auto old = pool.take("isochron-reader-vtk");
+    old->ask(OpenFile{.format = "vti", .path = elsewhere.path() / "a.vti", .options = {}});
+    const ReaderReply reply = old->reply();
+    const auto* refused = std::get_if<Refused>(&reply);
+    ASSERT_TRUE(refused);
+    EXPECT_THAT(refused->message, HasSubstr("--allow " + elsewhere.path().string()));
+    expect_good(*open_in(pool, elsewhere.path() / "a.vti")); // in another
+    fs::remove_all(here.path() / "a.vti");
+    fs::create_symlink(elsewhere.path() / "a.vti", here.path() / "link.vti");
+    expect_good(*open_in(pool, here.path() / "link.vti"));
 }
 
 /// From now on this process and those that it starts get no filter of system calls.

@@ -141,8 +141,11 @@ int open_with(const char* name, const char* path, int flags, unsigned mode) {
         return -1;
     }
     const int file = opened(call(path, flags, mode), watch);
-    if (watch && file >= 0 && (flags & O_ACCMODE) != O_RDONLY)
-        note("open", std::to_string(file).c_str(), path);
+    if (watch && file >= 0 && (flags & O_ACCMODE) != O_RDONLY) {
+        const std::string number = std::to_string(file);
+        const std::string unnamed = "/proc/self/fd/" + number; // by which it gets its name
+        note("open", number.c_str(), (flags & O_TMPFILE) == O_TMPFILE ? unnamed.c_str() : path);
+    }
     return file;
 }
 
@@ -255,6 +258,17 @@ int rename(const char* from, const char* to) {
     if (counts(to))
         note("rename", from, to);
     return call(from, to);
+}
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
+    static const auto call = real<int(int, const char*, int, const char*, int)>("linkat");
+    if (const How how = counts(to) ? fault_of("rename") : How::none;
+        how != How::none && how != How::part) {
+        errno = error_of(how);
+        return -1;
+    }
+    if (counts(to))
+        note("rename", from, to);
+    return call(from_folder, from, to_folder, to, flags);
 }
 int ftruncate(int file, off_t bytes) {
     static const auto call = real<int(int, off_t)>("ftruncate");

@@ -1,0 +1,10 @@
+// Files that killed commands have left.
+#pragma once
+
+namespace isochron::app {
+
+/// Removes temporary files of killed commands from the folders of the files that the arguments
+/// name, see index::remove_remains_in.
+void remove_left_files(int argc, const char* const* argv);
+
+} // namespace isochron::app

@@ -1,0 +1,44 @@
+// What readers may read: the folders of the files that the user has named.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace isochron::index {
+
+/// Grows only. A reader that has started knows the places of its time; its fence cannot learn more.
+class ReadablePlaces {
+  public:
+    /// Adds the folder of a file, and of a symbolic link also the file that it leads to; of a
+    /// folder itself. What is not there is not added.
+    void add(const std::filesystem::path& file);
+    bool contain(const std::filesystem::path& file) const;
+
+    std::vector<std::filesystem::path> all() const;
+    /// Changes whenever something is added.
+    std::uint64_t age() const { return age_; }
+
+  private:
+    /// Which file it is, as far as the fence is concerned: one that was made anew is another.
+    struct Which {
+        dev_t device = 0;
+        ino_t number = 0;
+        bool operator==(const Which&) const = default;
+    };
+    static Which which(const std::filesystem::path& place);
+    bool contain_real(const std::filesystem::path& real) const;
+    void add_real(const std::filesystem::path& real);
+
+    std::map<std::filesystem::path, Which> places_; ///< by absolute paths without links
+    std::uint64_t age_ = 0;
+};
+
+/// The line about a file that names another one outside of these places.
+std::string leads_out(const std::filesystem::path& file, const std::filesystem::path& to);
+
+} // namespace isochron::index

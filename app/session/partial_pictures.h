@@ -29,8 +29,8 @@ class PartialPictures {
     /// @return the picture if it is shown; else empty, and what was shown stays to be shown
     std::optional<Picture> draw(const Frame& frame, const Picture& now,
                                 const Outputs::Overlay& overlay);
-    /// Gives up the picture at rest: another one is drawn.
-    void give_up() { parts_.reset(); }
+    /// Gives up the picture at rest, unless it shows the same cells as the one that is drawn.
+    void give_up_others(const Picture& drawn);
 
     /// A footprint that might serve moving pictures is drawn where nobody sees it, to find out its
     /// time: in the time that frames leave, each piece for the views of its own frame. Where light

@@ -49,6 +49,14 @@ std::vector<stereo::HeadsetEye> Outputs::headset_eyes() const {
     return headset_ ? headset_->eyes() : std::vector<stereo::HeadsetEye>();
 }
 
+std::size_t Outputs::viewports(const Audience& audience) const {
+    std::size_t count = headset_ && !audience.eyes.empty() ? 1 : 0;
+    if (shows_windows(audience))
+        for (const stereo::Display& display : displays_)
+            count += display.window().viewports.size();
+    return count;
+}
+
 std::optional<interaction::Pose>
 Outputs::ray_at(const interaction::MouseMoveEvent& cursor,
                 std::span<const stereo::ViewerPose> viewers) const {

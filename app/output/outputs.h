@@ -84,6 +84,8 @@ class Outputs {
     bool shows_windows(const Audience& audience) const {
         return !headset_ || (audience.in_windows && !displays_.empty());
     }
+    /// Viewports that show a picture: those of the windows, and of a headset.
+    std::size_t viewports(const Audience& audience) const;
     bool shows_windows() const { return shows_windows(drawn_.audience); } ///< in the last frame
 
     /// The ray from the eye through the cursor, in a window as it was drawn last; empty in a

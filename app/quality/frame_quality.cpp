@@ -124,7 +124,8 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     QualityInput input;
     input.pace = report.pace;
     input.mode = state.quality;
-    input.playing = state.playback.playing;
+    // A step that stands for long is a picture at rest.
+    input.playing = state.playback.playing && report.pace == interaction::Pace::moving;
     input.settled = settled_;
     input.by_pace = how == Choosing::by_pace;
     if (input.by_pace)
@@ -132,13 +133,16 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
     // Splats are for the paper's pair, and for pictures at rest: of who asks for them, or of levels
     // that have no surface.
-    const bool may_rest = settled_ || !available.has(render::Footprint::surface);
+    const bool may_rest = settled_ || (!available.has(render::Footprint::surface) &&
+                                       input.mode != interaction::QualityMode::quality);
     const bool splats = input.by_pace || input.mode == interaction::QualityMode::paper ||
                         (may_rest && input.pace != interaction::Pace::moving);
     for (render::FootprintSet* set : {&available, &possible})
         if (!splats)
             set->remove(render::Footprint::gaussian);
     input.available = available;
+    if (resting_ && still) // a button that moves nothing drops no picture
+        input.pace = interaction::Pace::settled;
     const auto in_the_end = partial(input, how);
     if (still || report.pace == interaction::Pace::moving)
         swayed_since_ = report.time;

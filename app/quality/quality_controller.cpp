@@ -141,7 +141,7 @@ QualityChoice QualityController::choice_for(const QualityInput& input) {
                           input.load);
     if (input.load.cells <= 0) // all footprints look the same; start anew with the next set
         return regardless(Footprint::quad, QualityReason::fits, input.load);
-    if (input.mode == QualityMode::quality && !input.playing)
+    if (input.mode == QualityMode::quality)
         return regardless(input.available.best(), QualityReason::best_mode, input.load);
     return within_budget(input);
 }

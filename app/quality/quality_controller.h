@@ -50,9 +50,8 @@ struct QualityChoice {
 
 /// Modes: `fast` draws quads. `auto` draws the best footprint within the budget; while the picture
 /// moves, only one that is expected to fit with room to spare. `paper` draws quads while moving and
-/// splats once settled. `quality` draws the best footprint of all; only while time plays, the best
-/// within the budget, so that time keeps its pace. No order of costs is assumed: a better footprint
-/// may be the cheaper one.
+/// splats once settled. `quality` draws the best footprint of all, whatever the rate. No order of
+/// costs is assumed: a better footprint may be the cheaper one.
 ///
 /// A footprint that is measured over the budget, or expected over it at a new load, is left at
 /// once.

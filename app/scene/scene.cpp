@@ -123,6 +123,7 @@ render::BoxLines box_in(const render::View& view, const Picture& picture,
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
+      kept_(gl),
       cell_pass_(gl, {.shape = config.rendering.cell_shape}, render::prelude_for(info.grid)),
       line_pass_(gl), text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
       veil_pass_(gl) {
@@ -172,7 +173,10 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const render::Placement placement = placement_of(picture);
     // Rank 0 may have chosen a footprint that these cells do not have here yet.
     const render::Footprint footprint = cells_.footprints().best(picture.footprint);
-    if (const auto background = background_of(picture.look); background && part.begins)
+    const bool again = part.begins && part.ends && part.cells == render::DrawPart{} &&
+                       kept_.draw_again(picture, views);
+    const auto background = background_of(picture.look);
+    if (background && part.begins && !again)
         for (const render::View& view : views)
             background_pass_.draw(view, *background);
     // Lines have soft edges, which blend with the pixels below, so lines come after the cells. Only
@@ -185,10 +189,13 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
         cells_.compute_corners();
     if (appearance.near_fade && !views.empty()) // all views are of one viewer
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
-    const std::size_t done =
-        cell_pass_.draw(views, placement, cells_.drawn(), footprint, appearance, part.cells);
+    const std::size_t done = again ? 0
+                                   : cell_pass_.draw(views, placement, cells_.drawn(), footprint,
+                                                     appearance, part.cells);
     if (!part.ends)
         return done;
+    if (depth && part.keeps && !again && footprint == picture.footprint)
+        kept_.keep(picture, views);
     if (depth)
         draw_among_cells(views, picture, placement);
     draw_before_cells(views, picture, placement);

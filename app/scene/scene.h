@@ -7,6 +7,7 @@
 
 #include "app/config/config.h"
 #include "app/scene/cell_sets.h"
+#include "app/scene/kept_cells.h"
 #include "app/scene/picture.h"
 #include "index/volume/volume_series.h"
 #include "render/drawing/cell_pass.h"
@@ -29,7 +30,8 @@ namespace isochron::app {
 struct ScenePart {
     bool begins = true; ///< what comes before the cells
     render::DrawPart cells = {};
-    bool ends = true; ///< what comes after the cells
+    bool ends = true;   ///< what comes after the cells
+    bool keeps = false; ///< its cells are kept, for pictures that differ in what lies over them
 };
 
 /// What it draws depends on the picture alone, and on the cells that `cells()` shows.
@@ -58,6 +60,15 @@ class Scene {
     /// @param most of it, in the same units @return how much was done; 0: none is left
     std::size_t prepare_parts(const Picture& picture, std::size_t most);
 
+    /// Whether the cells of this picture are kept, so that drawing it takes no time for them.
+    /// @param viewports that show it
+    bool keeps_cells(const Picture& picture, std::size_t viewports) const {
+        return kept_.hold(picture, viewports);
+    }
+
+    /// Further pictures draw their cells anew.
+    void forget_cells() { kept_.forget(); }
+
     /// Over a finished picture: a wand's ray, and what a cursor is over.
     void draw_aids(const Picture& picture, const Aids& aids, const render::View& view);
 
@@ -83,6 +94,7 @@ class Scene {
     CellSets cells_;
     std::optional<ColorScale> mapped_; ///< the last scale whose map was needed
     std::optional<render::Texture> map_;
+    KeptCells kept_;
     render::CellPass cell_pass_;
     render::LinePass line_pass_;
     render::TextPass text_pass_;

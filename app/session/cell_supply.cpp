@@ -175,14 +175,15 @@ void CellSupply::say_refused(const index::ExtractionPtr& set, const Frame& frame
 bool CellSupply::is_finest(const Frame& frame) const {
     const index::ExtractionPtr& shown = sets_.shown();
     return !frame.is_live() || !shown || !shown->coarse() ||
-           (shown->query.detail == frame.plan.detail && frame.plan.detail.at_rest);
+           (shown->query.detail == frame.plan.detail &&
+            (frame.plan.detail.at_rest || wants_all(frame)));
 }
 
 /// Whether a picture at rest of more cells than a frame can draw is made in parts.
 bool CellSupply::may_be_partial(const Frame& frame) const {
     return frame.choosing() == Choosing::with_parts && config_.quality.still_budget_ms > 0 &&
            frame.state.quality == interaction::QualityMode::automatic &&
-           !frame.state.playback.playing;
+           !(frame.state.playback.playing && frame.report.pace == interaction::Pace::moving);
 }
 
 bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
@@ -192,13 +193,23 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
         same.footprint = frame.drawn->footprint;
         same.scale = frame.drawn->scale;
     }
-    if (same != frame.drawn) {
+    const bool stays = frame.drawn && same_cells(same, *frame.drawn);
+    if (!stays) {
         constant_since_ = frame.report.time;
         cells_at_first_ = 0;
         frame.plan.all_at_rest = false;
     }
     rests_ = !frame.is_live() || frame.is_kept ||
              frame.report.time - constant_since_ >= FrameQuality::kStillAfter;
+    const index::ExtractionPtr& resting = sets_.held(CellSets::Use::at_rest);
+    if (frame.is_live() && stays && frame.drawn->cells == resting && shows(resting, frame)) {
+        // Pace says when work begins, not which of two sets is shown.
+        if (sets_.shown() == resting)
+            return false;
+        sets_.draw_at_rest(true, frame.report.asked);
+        report_cells(frame.report);
+        return true;
+    }
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     const bool later =
         frame.is_live() && !frame.is_kept && !frame.plan.all_at_rest && comes_late(sets_.shown());
@@ -207,6 +218,12 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
     sets_.draw_at_rest(false, frame.report.asked);
     report_cells(frame.report);
     return true;
+}
+
+/// Whether the mode asks for all cells, moving and at rest, whatever the rate.
+bool CellSupply::wants_all(const Frame& frame) {
+    return frame.state.quality == interaction::QualityMode::fast ||
+           frame.state.quality == interaction::QualityMode::quality;
 }
 
 /// Whether the plan shows the set for pictures at rest while the picture moves: it is there, has what
@@ -221,7 +238,8 @@ bool CellSupply::may_move_finest(const Frame& frame, const FrameQuality& quality
         return false;
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     const bool lacks =
-        !moving || !shows(moving, frame) || moving->cells() < kNearly * quality.least_cells();
+        !moving || !shows(moving, frame) ||
+        static_cast<double>(moving->cells()) < kNearly * static_cast<double>(quality.least_cells());
     return quality.fits_in_motion(resting->cells(), frame.plan.moves_finest) ||
            (lacks && quality.may_be_shown_in_motion(resting->cells()));
 }
@@ -234,10 +252,13 @@ index::DetailQuery CellSupply::wanted_detail(const Frame& frame, const FrameQual
     details_.look(config_.rendering.level_of_detail ? std::span<const render::View>(views_)
                                                     : std::span<const render::View>(),
                   placement);
-    if (frame.is_live() && config_.rendering.level_of_detail)
+    if (frame.is_live() && config_.rendering.level_of_detail && !wants_all(frame))
         return detail_for_live(frame, quality);
     index::DetailQuery all = details_.at_rest();
-    all.at_rest = false; // it is the only set
+    if (frame.is_live() && set_comes() && !frame.plan.detail.at_rest &&
+        frame.plan.detail.most_cells == all.most_cells)
+        return frame.plan.detail; // so that a set comes at all while the view changes
+    all.at_rest = false;          // it is the only set
     return all;
 }
 

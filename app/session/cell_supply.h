@@ -10,6 +10,7 @@
 #include "app/config/config.h"
 #include "app/quality/detail_choice.h"
 #include "app/scene/cell_sets.h"
+#include "app/scene/kept_cells.h"
 #include "app/session/frame.h"
 #include "index/extraction/extractor.h"
 
@@ -65,6 +66,7 @@ class CellSupply {
   private:
     void report_cells(FrameReport& report) const;
     static bool moves_finest(const Frame& frame);
+    static bool wants_all(const Frame& frame);
     bool is_half_sent(const Frame& frame) const;
     bool waits_its_turn(const index::ExtractionPtr& set, const Frame& frame) const;
     bool comes_too_late(const index::ExtractionPtr& set, const Frame& frame) const;

@@ -10,8 +10,11 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
                                              const Outputs::Overlay& overlay) {
     Picture wanted = now;
     wanted.footprint = *frame.plan.in_parts;
-    if (!parts_ || parts_->picture != wanted)
+    if (!parts_ || !same_cells(parts_->picture, wanted))
         parts_.emplace(wanted);
+    // What lies over the cells is drawn last. Where it is drawn already, the next frame draws it anew.
+    if (parts_->place.window == 0 && parts_->place.viewport == 0)
+        parts_->picture = wanted;
     if (!parts_->whole) {
         parts_->pace.begin_frame(quality_.part_budget());
         draw_pieces(*parts_);
@@ -22,8 +25,17 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
     quality_.learn_parts(wanted.footprint, frame.report.cells,
                          frame.sharing.parts_took(parts_->pace.whole()));
     outputs_.show_parts(overlay);
+    const Picture shown = std::move(parts_->picture);
     parts_.reset();
-    return wanted;
+    return shown;
+}
+
+void PartialPictures::give_up_others(const Picture& drawn) {
+    Picture same = drawn;
+    if (parts_)
+        same.footprint = parts_->picture.footprint;
+    if (parts_ && !same_cells(parts_->picture, same))
+        parts_.reset();
 }
 
 /// Draws pieces of a picture while this frame has time for them, or until it is whole.
@@ -50,7 +62,8 @@ void PartialPictures::draw_pieces(Parts& parts) {
 /// after them. @param done work that was done, of at most `work` @return whether it was the last
 bool PartialPictures::draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
                                 std::size_t& done) {
-    ScenePart part{.begins = parts.place.begins, .cells = {parts.done, 0}, .ends = false};
+    ScenePart part{
+        .begins = parts.place.begins, .cells = {parts.done, 0}, .ends = false, .keeps = true};
     const std::size_t all = scene_.work(parts.picture, views.size());
     if (part.begins) {
         parts.done = 0;

@@ -29,8 +29,8 @@ class PartialPictures {
     /// @return the picture if it is shown; else empty, and what was shown stays to be shown
     std::optional<Picture> draw(const Frame& frame, const Picture& now,
                                 const Outputs::Overlay& overlay);
-    /// Gives up the picture at rest: another one is drawn.
-    void give_up() { parts_.reset(); }
+    /// Gives up the picture at rest, unless it shows the same cells as the one that is drawn.
+    void give_up_others(const Picture& drawn);
 
     /// Draws a footprint that might serve moving pictures off screen, to find out its time: in the
     /// time that frames leave, and each piece for the views of the frame that it is drawn in. Not

@@ -41,8 +41,14 @@ PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) 
 
 /// Rank 0's plan, before the others follow it.
 FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
-    return quality_.choose(frame.state, options.changed, frame.choosing(), options.available,
-                           options.possible, frame.report);
+    FramePlan plan = quality_.choose(frame.state, options.changed, frame.choosing(),
+                                     options.available, options.possible, frame.report);
+    // Pace says when work begins, not what is shown: what is there stays until something changes.
+    if (frame.is_live() && !options.changed && !plan.in_parts &&
+        plan.reason == QualityReason::moving && frame.drawn->footprint > plan.footprint &&
+        options.available.has(frame.drawn->footprint))
+        plan.footprint = frame.drawn->footprint;
+    return plan;
 }
 
 /// Takes over rank 0's plan.
@@ -72,7 +78,8 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     if (frame.is_live() && !log_.frames().empty() && !report.after_wait)
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool finer = only_gets_finer(frame, now);
-    const Options options = this->options(frame, now != frame.drawn && !finer);
+    const bool changed = !frame.drawn || !same_cells(now, *frame.drawn);
+    const Options options = this->options(frame, changed && !finer);
     const bool had_mesh = frame.plan.mesh;
     const index::DetailQuery had_detail = frame.plan.detail;
     FramePlan plan = wanted(frame, options);
@@ -104,7 +111,7 @@ void PictureChoice::rest_in_parts(const Frame& frame, Picture& now) const {
     if (!report.in_parts || !frame.drawn)
         return;
     now.footprint = *report.in_parts;
-    const bool shown = now == frame.drawn;
+    const bool shown = same_cells(now, *frame.drawn);
     if (!shown)
         now.footprint = report.footprint;
     report.footprint = now.footprint;

@@ -217,21 +217,28 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
 
 void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay) {
     StopWatch watch;
-    partial_.give_up();
+    partial_.give_up_others(*drawn_);
     supply_.forget_views();
     outputs_.leave_free(now.layout.free);
     outputs_.show_aside(now.layout.aside);
-    choice_.quality().begin(log_.next());
-    const auto scene = [this](const ScenePlace& place, std::span<const render::View> views) {
+    if (plan_.measure)
+        scene_.forget_cells();
+    // What is only drawn over kept cells tells nothing of what cells take.
+    const bool cells = !scene_.keeps_cells(*drawn_, outputs_.viewports(now.audience));
+    if (cells)
+        choice_.quality().begin(log_.next());
+    const bool keeps = frame.is_live() && supply_.rests();
+    const auto scene = [this, keeps](const ScenePlace& place, std::span<const render::View> views) {
         if (place.kept) {
             scene_.draw(pictures_.kept(*drawn_), views);
         } else {
             supply_.note_views(views);
-            scene_.draw(*drawn_, views);
+            scene_.draw(*drawn_, views, {.keeps = keeps});
         }
     };
     const DrawLoad of_cell = outputs_.draw(now.audience, scene, overlay);
-    choice_.quality().end(frame.report, of_cell, frame.report.upload + watch.lap());
+    if (cells)
+        choice_.quality().end(frame.report, of_cell, frame.report.upload + watch.lap());
 }
 
 /// Keeps the last picture. It is composed anew only if something else lies over it.
@@ -338,7 +345,9 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     obey(commands, input);
     report.comfort = comfort_.update(input, state_.room_from_physical);
     report.asked = arrays_.surfaces(state_);
-    report.pace = gate_.update(rest, commands, state_.quality);
+    report.pace = gate_.update(rest, commands, state_.quality,
+                               waiting == Waiting::never ? interaction::Playing::moves_by_steps
+                                                         : interaction::Playing::moves);
     const Frame frame{.state = state_,
                       .file = *arrays_.file(),
                       .steps = steps(),

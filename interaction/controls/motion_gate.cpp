@@ -42,21 +42,21 @@ struct MotionGate::State {
     Pace pace = Pace::moving;
     std::optional<Seconds> still_since;
 
-    bool pending(const InputState& input, const Commands& commands) {
+    bool pending(const InputState& input, const Commands& commands, Playing how) {
         if (commands.playback)
             playing = commands.playback->playing;
-        return playing || is_pending(commands) ||
+        return (playing && how == Playing::moves) || is_pending(commands) ||
                std::ranges::any_of(input.devices,
                                    [](const DeviceState& device) { return is_pending(device); });
     }
 
-    void update(const InputState& input, const Commands& commands) {
+    void update(const InputState& input, const Commands& commands, Playing how) {
         const DeviceState* tracked = input.find("head");
         if (tracked && tracked->pose && tracked->pose_valid && is_finite(*tracked->pose))
             head.add(input.time, *tracked->pose);
         else
             head.forget();
-        if (pending(input, commands)) {
+        if (pending(input, commands, how)) {
             automatic = Pace::moving;
             still_since.reset();
         } else if (automatic == Pace::settled) {
@@ -80,8 +80,9 @@ MotionGate::MotionGate(const StillnessLimits& limits) : state_(std::make_unique<
 }
 MotionGate::~MotionGate() = default;
 
-Pace MotionGate::update(const InputState& input, const Commands& commands, QualityMode mode) {
-    state_->update(input, commands);
+Pace MotionGate::update(const InputState& input, const Commands& commands, QualityMode mode,
+                        Playing playing) {
+    state_->update(input, commands, playing);
     switch (mode) {
     case QualityMode::automatic:
     case QualityMode::paper: state_->pace = state_->automatic; break;

@@ -20,6 +20,10 @@ struct StillnessLimits {
     Seconds settle{0.150};     ///< how long everything must be still before `settled`
 };
 
+/// What time that plays means: a picture that moves all the time, or one that moves with each step,
+/// so that a step which stands for long may settle.
+enum class Playing : std::uint8_t { moves, moves_by_steps };
+
 /// `settled`: no button is down, no valuator is off rest, no command changes isovalue, surfaces,
 /// step, playback or the data's place, time does not play, and the head has been still for long
 /// enough. A wand's buttons and valuators count, its motion alone does not. Keys in `quiet_actions`
@@ -32,7 +36,8 @@ class MotionGate {
     /// Advances by one frame.
     /// @param commands all commands of this frame's devices and panel; in the first frame also the
     ///        start state, since the gate learns only from commands whether time plays
-    Pace update(const InputState& input, const Commands& commands, QualityMode mode);
+    Pace update(const InputState& input, const Commands& commands, QualityMode mode,
+                Playing playing = Playing::moves);
     Pace pace() const;
 
   private:

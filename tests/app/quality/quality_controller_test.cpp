@@ -65,7 +65,7 @@ TEST_F(QualityControllerTest, MotionThatMayNotMeasureAndFastModeDrawQuadsAtOnce)
     EXPECT_TRUE(display.frames.back().choice.final) << "nothing better will come";
 }
 
-TEST_F(QualityControllerTest, QualityModeDrawsTheBestWhateverItCostsUnlessTimePlays) {
+TEST_F(QualityControllerTest, QualityModeDrawsTheBestWhateverItCostsAlsoWhileTimePlays) {
     SimulatedDisplay display(kBudget, constant({1, 5, 300}));
     display.input.mode = QualityMode::quality;
     display.run(100);
@@ -73,10 +73,8 @@ TEST_F(QualityControllerTest, QualityModeDrawsTheBestWhateverItCostsUnlessTimePl
     EXPECT_TRUE(display.frames.front().choice.final);
     display.input.playing = true;
     const std::size_t first = display.frames.size();
-    display.run(2000);
-    EXPECT_LE(display.over_budget(first), 24) << "time keeps its pace and quality gives way";
-    EXPECT_GT(display.at(Footprint::gaussian, first), 1950);
-    expect_no_flicker(display, first);
+    display.run(200);
+    EXPECT_EQ(display.at(Footprint::surface, first), 200);
 }
 
 TEST_F(QualityControllerTest, AFixedFootprintIsTakenWithoutMeasuring) {

@@ -92,10 +92,7 @@ TEST_P(SessionDetail, AllCellsMoveFromTheFirstFrameOnWhereTheyFit) {
         input.devices[0].pose->position.x = 0.3f;
         report = session.frame(input, {}, Waiting::never);
         ASSERT_EQ(report.pace, interaction::Pace::moving);
-        if (budget > 1)
-            EXPECT_EQ(report.cells, all);
-        else
-            EXPECT_LT(report.cells, all);
+        EXPECT_EQ(report.cells == all, budget > 1);
         EXPECT_NE(report.footprint, render::Footprint::gaussian);
         EXPECT_EQ(report.slower, false);
     }

@@ -252,6 +252,32 @@ TEST(MotionGate, ALostHeadCountsAsStillWhereverItReappears) {
     }
 }
 
+TEST(MotionGate, AStepThatStandsForLongSettlesWhileTimePlays) {
+    Commands play, next;
+    play.playback = PlaybackState{true, false, true, 1.0};
+    next.step = 1;
+    for (const int frames_of_step : {6, 60}) { // 0.1 s, 1 s
+        SCOPED_TRACE(frames_of_step);
+        MotionGate by_steps{StillnessLimits{}}, always{StillnessLimits{}};
+        int settled = 0;
+        for (int frame = 0; frame < 180; ++frame) {
+            const InputState input{Seconds(frame / 60.0), {}};
+            const Commands commands = frame == 0                    ? play
+                                      : frame % frames_of_step == 0 ? next
+                                                                    : Commands{};
+            EXPECT_EQ(always.update(input, commands, QualityMode::automatic), Pace::moving);
+            const Pace pace =
+                by_steps.update(input, commands, QualityMode::automatic, Playing::moves_by_steps);
+            if (!(commands == Commands{})) {
+                EXPECT_EQ(pace, Pace::moving) << "a new step";
+            }
+            settled += pace == Pace::settled;
+        }
+        EXPECT_EQ(settled > 0, frames_of_step == 60);
+        EXPECT_LT(settled, 160);
+    }
+}
+
 TEST(MotionGate, FastAndQualityModesOverrule) {
     MotionGate gate{StillnessLimits{}};
     for (int frame = 0; frame < 60; ++frame) {

@@ -1,0 +1,58 @@
+// The picture of the cells, kept apart from the lines, marks, guides and texts that are drawn over it.
+//
+//     if (!kept.draw_again(picture, views)) {
+//         draw the background and the cells
+//         kept.keep(picture, views);
+//     }
+//     draw what lies among and over the cells
+#pragma once
+
+#include "app/scene/picture.h"
+#include "render/gl/render_target.h"
+#include "render/gl/view.h"
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::app {
+
+/// Whether the cells of two pictures look the same, and so does the background: they differ in
+/// nothing but what is drawn over them. Where light shines through the cells, lines are drawn before
+/// them: then all must be the same.
+bool same_cells(const Picture& a, const Picture& b);
+
+/// Color and depth of the newest picture of the cells, a copy for each viewport: what only changes
+/// over them is drawn without them.
+class KeptCells {
+  public:
+    /// @param gl outlives the pictures
+    explicit KeptCells(const render::Gl& gl) : gl_(gl) {}
+
+    /// Keeps what has been drawn into the views of the bound framebuffer, for this picture alone.
+    void keep(const Picture& picture, std::span<const render::View> views);
+    /// Whether the cells of this picture are kept for all of its viewports.
+    /// @param viewports that show the picture
+    bool hold(const Picture& picture, std::size_t viewports) const;
+    /// Draws the kept cells and their background into the views of the bound framebuffer.
+    /// @return false: they are not kept
+    bool draw_again(const Picture& picture, std::span<const render::View> views) const;
+    void forget() { picture_.reset(); }
+
+  private:
+    /// The views of a viewport, which lie in one target.
+    struct Kept {
+        std::vector<render::View> views;
+        render::RenderTarget target;
+        bool newest; ///< of `picture_`; else the target is there for the next one
+    };
+    std::deque<Kept>::const_iterator find(std::span<const render::View> views) const;
+    void copy(GLuint from, GLuint to, std::span<const render::View> views) const;
+
+    const render::Gl& gl_;
+    std::optional<Picture> picture_;
+    std::deque<Kept> kept_;
+};
+
+} // namespace isochron::app

@@ -152,7 +152,7 @@ class GlbFile {
             }
         }
         out.flush();
-        file.commit();
+        file.commit_unflushed();
     }
 
   private:

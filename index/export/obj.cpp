@@ -33,7 +33,7 @@ class ObjWriter : public SurfaceWriter {
             first += step.surfaces[i].mesh->vertices.size();
         }
         out.flush();
-        file.commit();
+        file.commit_unflushed();
     }
 
   private:

@@ -242,14 +242,18 @@ void NewFile::take_name() {
         fail(errno);
 }
 
+void NewFile::commit_unflushed() {
+    take_name();
+    ::close(file_);
+    file_ = -1;
+}
+
 void NewFile::commit() {
     if (::fsync(file_) != 0)
         fail(errno);
     if (!owner_)
         return;
-    take_name();
-    ::close(file_);
-    file_ = -1;
+    commit_unflushed();
     // Flushes the folder, so that the new name survives a power failure; not every file system
     // needs or allows that.
     const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -57,6 +57,9 @@ class NewFile final : public ByteSink {
     void remove_remains() const;
     /// Flushes to disk, then renames the file to its final name.
     void commit();
+    /// Only gives it its name: for files that can be made again, of which there are many. After a
+    /// power failure such a file may be short.
+    void commit_unflushed();
 
     /// Its name until then; a file without a name gets it for a moment where another file has taken
     /// NAME meanwhile.

@@ -86,11 +86,11 @@ void add_gpu_frames(const FirstPageInput& input, std::vector<PageFigure>& figure
     std::string source;
     double vtk = 0;
     for (const std::string& line : lines_of(input.gpu)) {
-        static const std::regex kRow(
+        static const std::regex kLine(
             R"(^vorticity64\s+(\w+)\s+1024\^2\s+1 egl\s+\d+\s+(\d+)\s+(\d+)\s)");
         if (line.starts_with("commit "))
             source = fmt::format("`{}`, {}", input.names.gpu, line);
-        if (std::smatch match; std::regex_search(line, match, kRow)) {
+        if (std::smatch match; std::regex_search(line, match, kLine)) {
             chart.bars.push_back(per_second(name_of(match[1].str()), number(match, 2), true));
             vtk = std::max(vtk, number(match, 3));
         }

@@ -17,11 +17,11 @@ struct FirstPageInput {
     struct {
         std::string index, render, agreement, scale, gpu;
     } names;
-    std::optional<Results> index;
-    std::optional<RenderResults> render;
-    std::optional<AgreementResults> agreement;
-    std::string scale; ///< what `isochron-bench scale` printed
-    std::string gpu;   ///< what programs printed where a GPU drew
+    std::optional<Results> index = {};
+    std::optional<RenderResults> render = {};
+    std::optional<AgreementResults> agreement = {};
+    std::string scale = {}; ///< what `isochron-bench scale` printed
+    std::string gpu = {};   ///< what programs printed where a GPU drew
 };
 
 /// A figure: its heading, what it says, where it comes from, and its chart.

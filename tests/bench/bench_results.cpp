@@ -71,7 +71,7 @@ void add_results(app::Command& program) {
     command
         .option(
             "-o,--out", files->out,
-            "Markdown to write, with its charts in pictures/results beside it (default: print the "
+            "Markdown to write, with its charts in pictures/charts beside it (default: print the "
             "page)")
         .type_name("FILE.md");
     command.on_run([files] { run_bench_results(*files); });

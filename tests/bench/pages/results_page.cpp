@@ -261,7 +261,7 @@ std::string gpu_section(const std::string& lines, const std::string& path) {
 
 ResultsPage whole_page(const ResultPaths& paths,
                        const std::function<std::string(const std::string&)>& read) {
-    constexpr const char* kCharts = "pictures/results";
+    constexpr const char* kCharts = "pictures/charts";
     FirstPageInput input{
         .names = {paths.index, paths.render, paths.agreement, paths.scale, paths.gpu}};
     input.index = results_from_json(read(paths.index), paths.index);

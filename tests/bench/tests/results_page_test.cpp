@@ -75,7 +75,7 @@ TEST(ResultsPage, BeginsWithTenFiguresThatNameTheirSource) {
     };
     EXPECT_THAT(first, StartsWith("# What to expect: 10 figures\n"));
     EXPECT_EQ(count("\n## "), 10);
-    EXPECT_EQ(count(R"(\n!\[[^\]]+\]\(pictures/results/\w+\.svg\)\n)"), 10);
+    EXPECT_EQ(count(R"(\n!\[[^\]]+\]\(pictures/charts/\w+\.svg\)\n)"), 10);
     EXPECT_EQ(count(R"(\n\*From `docs/results/\w+\.(json|txt)`, .{20,}\.\*\n)"), 10);
     EXPECT_THAT(first, AllOf(HasSubstr("**The machines.**"), HasSubstr("**Not measured.**")));
 }

@@ -28,7 +28,7 @@ struct ResultFiles {
 };
 
 void run_bench_results(const ResultFiles& files) {
-    const std::string page = whole_page({.index = files.index.string(),
+    const ResultsPage page = whole_page({.index = files.index.string(),
                                          .render = files.render.string(),
                                          .artifacts = files.artifacts.string(),
                                          .scale = files.scale.string(),
@@ -36,10 +36,16 @@ void run_bench_results(const ResultFiles& files) {
                                          .agreement = files.agreement.string(),
                                          .motion = files.motion.string()},
                                         read_text);
-    if (files.out.empty())
-        fmt::print("{}", page);
-    else
-        write_text(files.out, page);
+    if (files.out.empty()) {
+        fmt::print("{}", page.text);
+        return;
+    }
+    for (const auto& [name, chart] : page.charts) {
+        const fs::path path = files.out.parent_path() / name;
+        fs::create_directories(path.parent_path());
+        write_text(path, chart);
+    }
+    write_text(files.out, page.text);
 }
 
 } // namespace
@@ -65,7 +71,11 @@ void add_results(app::Command& program) {
         .type_name("FILE.json");
     command.option("--motion", files->motion, "Results of `isochron-bench motion --json`")
         .type_name("FILE.json");
-    command.option("-o,--out", files->out, "Markdown to write (default: print it)")
+    command
+        .option(
+            "-o,--out", files->out,
+            "Markdown to write, with its charts in pictures/charts beside it (default: print the "
+            "page)")
         .type_name("FILE.md");
     command.on_run([files] { run_bench_results(*files); });
 }

@@ -5,6 +5,7 @@
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/pages/agreement_rows.h"
 #include "tests/bench/pages/artifact_page.h"
+#include "tests/bench/pages/first_page.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/motion_page.h"
 #include "tests/bench/pages/paper_tables.h"
@@ -257,25 +258,39 @@ std::string gpu_section(const std::string& lines, const std::string& path) {
 
 } // namespace
 
-std::string whole_page(const ResultPaths& paths,
+ResultsPage whole_page(const ResultPaths& paths,
                        const std::function<std::string(const std::string&)>& read) {
-    std::string page = results_page(results_from_json(read(paths.index), paths.index), paths);
-    if (!paths.render.empty())
-        page += render_section(render_results_from_json(read(paths.render), paths.render),
-                               paths.render);
+    constexpr const char* kCharts = "pictures/charts";
+    FirstPageInput input{
+        .names = {paths.index, paths.render, paths.agreement, paths.scale, paths.gpu}};
+    input.index = results_from_json(read(paths.index), paths.index);
+    std::string tables = results_page(*input.index, paths);
+    if (!paths.render.empty()) {
+        input.render = render_results_from_json(read(paths.render), paths.render);
+        tables += render_section(*input.render, paths.render);
+    }
     if (!paths.artifacts.empty())
-        page += artifact_section(artifacts_from_json(read(paths.artifacts), paths.artifacts),
-                                 paths.artifacts);
-    if (!paths.scale.empty())
-        page += scale_section(read(paths.scale), paths.scale);
-    if (!paths.gpu.empty())
-        page += gpu_section(read(paths.gpu), paths.gpu);
-    if (!paths.agreement.empty())
-        page += agreement_section(
-            agreement_results_from_json(read(paths.agreement), paths.agreement), paths.agreement);
+        tables += artifact_section(artifacts_from_json(read(paths.artifacts), paths.artifacts),
+                                   paths.artifacts);
+    if (!paths.scale.empty()) {
+        input.scale = read(paths.scale);
+        tables += scale_section(input.scale, paths.scale);
+    }
+    if (!paths.gpu.empty()) {
+        input.gpu = read(paths.gpu);
+        tables += gpu_section(input.gpu, paths.gpu);
+    }
+    if (!paths.agreement.empty()) {
+        input.agreement = agreement_results_from_json(read(paths.agreement), paths.agreement);
+        tables += agreement_section(*input.agreement, paths.agreement);
+    }
     if (!paths.motion.empty())
-        page += motion_section(motion_from_json(read(paths.motion), paths.motion), paths.motion,
-                               "pictures/motion.jpg");
+        tables += motion_section(motion_from_json(read(paths.motion), paths.motion), paths.motion,
+                                 "pictures/motion.jpg");
+    const std::vector<PageFigure> figures = figures_of(input);
+    ResultsPage page{first_page(figures, kCharts) + tables, {}};
+    for (const PageFigure& figure : figures)
+        page.charts[fmt::format("{}/{}.svg", kCharts, figure.name)] = svg_of(figure.chart);
     return page;
 }
 

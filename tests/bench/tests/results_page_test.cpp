@@ -1,5 +1,7 @@
 // The page of results is the one that the committed figures give, and says what they say.
 #include "tests/bench/measures/artifacts.h"
+#include "tests/bench/pages/bar_chart.h"
+#include "tests/bench/pages/first_page.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/render_goals.h"
 #include "tests/bench/pages/render_page.h"
@@ -16,7 +18,9 @@
 namespace isochron::bench {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::string read(const std::string& path) {
     std::ifstream file(test_support::source_root() + "/" + path, std::ios::binary);
@@ -24,17 +28,26 @@ std::string read(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+const ResultPaths& committed_results() {
+    static const ResultPaths paths{.index = "docs/results/index.json",
+                                   .render = "docs/results/render.json",
+                                   .artifacts = "docs/results/artifacts.json",
+                                   .scale = "docs/results/scale.txt",
+                                   .gpu = "docs/results/gpu.txt",
+                                   .agreement = "docs/results/agreement.json"};
+    return paths;
+}
+
 TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
-    const ResultPaths paths{.index = "docs/results/index.json",
-                            .render = "docs/results/render.json",
-                            .artifacts = "docs/results/artifacts.json",
-                            .scale = "docs/results/scale.txt",
-                            .gpu = "docs/results/gpu.txt",
-                            .agreement = "docs/results/agreement.json"};
-    EXPECT_EQ(whole_page(paths, read), read("docs/RESULTS.md"))
-        << "make it again: ./run bench results " << paths.index << " --render " << paths.render
-        << " --artifacts " << paths.artifacts << " --scale " << paths.scale << " --gpu "
-        << paths.gpu << " --agreement " << paths.agreement << " -o docs/RESULTS.md";
+    const ResultPaths& paths = committed_results();
+    const ResultsPage page = whole_page(paths, read);
+    const std::string how = "make it again: ./run bench results " + paths.index + " --render " +
+                            paths.render + " --artifacts " + paths.artifacts + " --scale " +
+                            paths.scale + " --gpu " + paths.gpu + " --agreement " +
+                            paths.agreement + " -o docs/RESULTS.md";
+    EXPECT_EQ(page.text, read("docs/RESULTS.md")) << how;
+    for (const auto& [name, chart] : page.charts)
+        EXPECT_EQ(chart, read("docs/" + name)) << how;
     for (const Header& header : {results_from_json(read(paths.index), "").header,
                                  render_results_from_json(read(paths.render), "").header,
                                  artifacts_from_json(read(paths.artifacts), "").header}) {
@@ -51,6 +64,57 @@ TEST(ResultsPage, ShowsOnlyPicturesThatAreThere) {
         EXPECT_TRUE(std::filesystem::exists(test_support::source_root() + "/docs/" + (*i)[1].str()))
             << (*i)[1];
     EXPECT_GE(shown, 3);
+}
+
+TEST(ResultsPage, BeginsWithTenFiguresThatNameTheirSource) {
+    const std::string page = whole_page(committed_results(), read).text;
+    const std::string first = page.substr(0, page.find("\n# ", 1));
+    const auto count = [&](const char* pattern) {
+        const std::regex wanted(pattern);
+        return std::distance(std::sregex_iterator(first.begin(), first.end(), wanted), {});
+    };
+    EXPECT_THAT(first, StartsWith("# What to expect: 10 figures\n"));
+    EXPECT_EQ(count("\n## "), 10);
+    EXPECT_EQ(count(R"(\n!\[[^\]]+\]\(pictures/charts/\w+\.svg\)\n)"), 10);
+    EXPECT_EQ(count(R"(\n\*From `docs/results/\w+\.(json|txt)`, .{20,}\.\*\n)"), 10);
+    EXPECT_THAT(first, AllOf(HasSubstr("**The machines.**"), HasSubstr("**Not measured.**")));
+}
+
+TEST(FirstPage, LeavesOutWhatWasNotMeasured) {
+    EXPECT_TRUE(figures_of({}).empty());
+    EXPECT_EQ(first_page({}, "charts"), "");
+    FirstPageInput input;
+    input.names.scale = "s.txt";
+    input.scale = "commit 0123, a processor\n"
+                  "smooth 512^3 u8, codec fitting: index / data 0.5, build 0.25 s of processor "
+                  "time, 1x zstd -1\n";
+    const std::vector<PageFigure> figures = figures_of(input);
+    ASSERT_EQ(figures.size(), 2u);
+    EXPECT_EQ(figures[0].chart.bars[0].text, "0.5");
+    EXPECT_EQ(figures[1].chart.bars[0].text, "2.0 s"); // a GiB is eight times as much
+    EXPECT_THAT(first_page(figures, "charts"),
+                AllOf(HasSubstr("*From `s.txt`, commit 0123, a processor.*"),
+                      HasSubstr("](charts/index_size.svg)")));
+}
+
+TEST(BarChart, DrawsLengthsInProportionAndEscapesItsWords) {
+    const BarChart chart{.title = "a < b",
+                         .bars = {{"one", 1, "1 ms", true}, {"four", 4, "4 & more", false}}};
+    const std::string svg = svg_of(chart);
+    EXPECT_THAT(svg, AllOf(HasSubstr("<title>a &lt; b</title>"), HasSubstr("4 &amp; more"),
+                           HasSubstr("width=\"82.5\""), HasSubstr("width=\"330.0\"")));
+    EXPECT_EQ(svg.find("http", svg.find("viewBox")), std::string::npos); // asks for nothing
+}
+
+TEST(BarChart, MarksAValueAndShowsSmallBarsOfALogarithm) {
+    const BarChart chart{.title = "t",
+                         .bars = {{"little", 1, "1", true}, {"much", 1000, "1000", false}},
+                         .logarithmic = true,
+                         .mark = 1000,
+                         .mark_text = "the budget"};
+    const std::string svg = svg_of(chart);
+    EXPECT_THAT(svg, AllOf(HasSubstr("width=\"30.1\""), HasSubstr("width=\"330.0\""),
+                           HasSubstr("x1=\"620.0\""), HasSubstr("the budget")));
 }
 
 Row row_of(const std::string& structure, const std::string& data, const std::string& type) {

@@ -149,7 +149,9 @@ std::vector<MotionCase> cases_of(const CaseOptions& options) {
         if (in_window != std::end(kInWindow))
             add({.data = data,
                  .budgets = {kBudgetOfWindow},
-                 .motions = {Motion::sway, Motion::orbit, Motion::scrub},
+                 .motions = data.name == "192"
+                                ? std::vector{Motion::sway, Motion::orbit, Motion::scrub}
+                                : std::vector{Motion::orbit},
                  .window = true});
         if (data.name == "192")
             add({.data = data,

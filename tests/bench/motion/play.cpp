@@ -193,6 +193,7 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
     played.stopped = shown(input_);
     MotionRow& row = played.row;
     row.load = load;
+    row.seconds = options_.seconds;
     row.motion = name_of(motion);
     row.drawn = counted.footprints();
     row.frames = counted.frames;
@@ -210,7 +211,7 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
     row.exact_ms = exact;
     const double promised = promised_ms(session_.log().frames().back());
     const FixedWork::Late late =
-        control.run(std::min(row.frame_ms, promised), promised, options_.seconds / 4, check_);
+        control.run(std::min(row.frame_ms, promised), promised, options_.seconds / 6, check_);
     row.control_two = late.over_two;
     row.control_three = late.over_three;
     row.budget_ms = promised;

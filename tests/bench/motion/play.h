@@ -31,7 +31,7 @@ struct Played {
 };
 
 struct PlayOptions {
-    double seconds = 2;       ///< of a motion
+    double seconds = 1.7;     ///< of a motion
     double every = 8.0 / 30;  ///< [s] between pictures that are kept
     double longest_rest = 12; ///< [s] that the picture after it may take
 };

@@ -14,6 +14,7 @@ struct MotionRow {
     int width = 0, height = 0, eyes = 1;
     double load = 0; ///< of the machine before it, mean of a minute
     double budget_ms = 0;
+    double seconds = 0; ///< that the motion lasts
 
     // Beside settled pictures: means, and the worst.
     std::size_t pictures = 0;
@@ -58,6 +59,7 @@ void each_field_of_motion(Row& row, Field&& field) {
     field("eyes", row.eyes);
     field("load", row.load);
     field("budget_ms", row.budget_ms);
+    field("seconds", row.seconds);
     field("pictures", row.pictures);
     field("lit", row.lit);
     field("lit_worst", row.lit_worst);

@@ -12,7 +12,7 @@ namespace isochron::bench {
 namespace {
 
 constexpr std::string_view kHowMotionsAreMeasured =
-    "Each motion is played in real time, two seconds long, in a session that had settled: *sway*, "
+    "Each motion is played in real time, in a session that had settled: *sway*, "
     "a head that moves by three centimeters; *walk-in*, 2.4 m to the data and into them; *orbit*, "
     "the data turn by a radian a second; *scrub*, the isovalue goes up and down by 12 %; "
     "*jump-on*, four other steps a second. At every eighth picture of 33 ms the eyes' picture is "
@@ -89,9 +89,10 @@ std::string motion_section(const MotionResults& results, const std::string& sour
     const Header& header = results.header;
     std::string text = fmt::format(
         "\n# The picture in motion\n\nMade from `{}`, which `./run bench motion` wrote. Measured "
-        "on {} with commit {}, {}, on {}, {} threads; load of the machine {}.\n\n",
+        "on {} with commit {}, {}, on {}, {} threads; load of the machine {}. A motion lasts "
+        "{:.3g} s.\n\n",
         source, header.date, header.commit, header.compiler, header.processor, header.threads,
-        loads(results.rows));
+        loads(results.rows), results.rows.empty() ? 0 : results.rows.front().seconds);
     text += kHowMotionsAreMeasured;
     text += "## Goals of the picture in motion\n\nThe worst row that a goal speaks of decides.\n\n";
     text += motion_goals_table(results.rows) + "\n";

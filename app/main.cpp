@@ -2,7 +2,7 @@
 #include "app/command_line/subcommands.h"
 #include "app/output/left_files.h"
 #include "commit.h"
-#include "index/decoders/file_fence.h"
+#include "index/reader/file_fence.h"
 
 #include <string>
 #include <string_view>

@@ -2,6 +2,7 @@
 #include "stereo/image_file.h"
 
 #include "index/error.h"
+#include "index/reader/reader_pool.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
 #include "render/gl/gl.h"
@@ -12,8 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace isochron::stereo {
 namespace {
@@ -59,6 +65,55 @@ void check(const std::string& error, const std::filesystem::path& picture) {
         throw render::Error(fmt::format("{}: {}", picture.string(), error));
 }
 
+struct ReadFile {
+    std::string note;
+    render::Image image;
+};
+
+/// The reply, which must be of this kind. @throws render::Error with the reader's message if not
+template <class Reply>
+Reply expect_reply(index::ReaderReply reply, const std::filesystem::path& picture) {
+    if (const auto* refused = std::get_if<index::Refused>(&reply))
+        throw render::Error(refused->message);
+    auto* expected = std::get_if<Reply>(&reply);
+    if (!expected)
+        throw render::Error(
+            fmt::format("{}: its reader sent another reply than was asked for", picture.string()));
+    return std::move(*expected);
+}
+
+/// Pictures come from elsewhere, and the libraries that decode them have had faults: a process
+/// behind the fence reads them. What it says is not trusted either.
+ReadFile read_in_reader(const std::filesystem::path& path, bool pixels) {
+    picture_function<image_module::Encode>(image_module::kEncode, path); // or says what is missing
+    constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;        // as the module has it
+    ReadFile file;
+    try {
+        index::ReaderPool& readers = index::readers_of_this_process();
+        readers.let_read(path);
+        auto reader = readers.take("isochron-reader-image");
+        reader->ask(index::ReadPicture{path, pixels});
+        auto read = expect_reply<index::PictureRead>(reader->reply(), path);
+        file.note = std::move(read.note);
+        if (pixels) {
+            const std::uint64_t count = std::uint64_t{read.width} * read.height;
+            if (count == 0 || count > kMostPixels)
+                throw render::Error(fmt::format("{}: a picture of {} x {} pixels cannot be read",
+                                                path.string(), read.width, read.height));
+            const auto memory = reader->memory(4 * count);
+            reader->ask(index::TakePicture{});
+            expect_reply<index::SlabRead>(reader->reply(), path);
+            file.image = {static_cast<int>(read.width), static_cast<int>(read.height),
+                          std::vector<std::uint8_t>(4 * count)};
+            std::memcpy(file.image.rgba.data(), memory.data(), 4 * count);
+        }
+        readers.give_back(std::move(reader));
+    } catch (const index::ReaderEnded& ended) {
+        throw render::Error(fmt::format("{}: cannot be read: {}", path.string(), ended.what()));
+    }
+    return file;
+}
+
 } // namespace
 
 bool is_picture_name(const std::filesystem::path& path) {
@@ -96,21 +151,11 @@ void write_image(const render::Image& image, const std::filesystem::path& path,
 }
 
 std::string read_note(const std::filesystem::path& path) {
-    static const auto read =
-        picture_function<image_module::ReadNote>(image_module::kReadNote, path);
-    std::string note, error;
-    read(path.string(), note, error);
-    check(error, path);
-    return note;
+    return read_in_reader(path, false).note;
 }
 
 render::Image read_image(const std::filesystem::path& path) {
-    static const auto read = picture_function<image_module::Read>(image_module::kRead, path);
-    render::Image image;
-    std::string error;
-    read(path.string(), image, error);
-    check(error, path);
-    return image;
+    return read_in_reader(path, true).image;
 }
 
 render::Image decoded_image(std::span<const std::byte> bytes, const std::filesystem::path& path) {

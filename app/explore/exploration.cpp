@@ -134,6 +134,8 @@ void Exploration::open_session() {
         open_outputs();
     session_.emplace(config_, file_, std::move(*windows_), index::Extract(), std::move(headset_));
     set_start();
+    if (!options_.report)
+        session_->keep_few_reports();
     session_->outputs().set_screenshots(options_.screenshots);
     session_->set_data_name(std::filesystem::path(options_.data_name).filename().string());
     if (config_.cluster.swap_group && job_.size() > 1)

@@ -92,12 +92,9 @@ TimeSummary summarize(std::vector<double> milliseconds) {
 }
 
 void FrameLog::add(const FrameReport& frame) {
-    constexpr std::size_t kKept = 60 * 60 * 60;
-    if (frames_.size() == kKept) {
-        frames_.pop_front();
-        ++dropped_;
-    }
     frames_.push_back(frame);
+    for (; frames_.size() > most_; ++dropped_)
+        frames_.pop_front();
     constexpr std::size_t kShown = 120;
     if (frame.redrawn)
         speed_ = {stage(&FrameReport::total, kShown), frames_per_second(kShown)};

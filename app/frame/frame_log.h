@@ -29,6 +29,10 @@ struct FrameSpeed {
 /// Keeps the newest frames only, an hour at 60 frames per second, as a session may last for days.
 class FrameLog {
   public:
+    static constexpr std::size_t kTenMinutes = 60 * 60 * 10, kHour = 6 * kTenMinutes; ///< [frames]
+
+    /// How many are kept from now on. Each takes some two kilobytes.
+    void keep(std::size_t frames) { most_ = frames; }
     void add(const FrameReport& frame);
     /// Number of the next frame to be added, from 0.
     std::uint64_t next() const { return dropped_ + frames_.size(); }
@@ -91,6 +95,7 @@ class FrameLog {
 
   private:
     std::deque<FrameReport> frames_;
+    std::size_t most_ = kHour;  ///< kept
     std::uint64_t dropped_ = 0; ///< frames before those kept
     FrameSpeed speed_;
 };

@@ -153,6 +153,8 @@ class Session {
     Outputs& outputs() { return outputs_; }
     const Outputs& outputs() const { return outputs_; }
     const FrameLog& log() const { return log_; }
+    /// Nobody will ask for the rows of a report: ten minutes of frames are enough for summaries.
+    void keep_few_reports() { log_.keep(FrameLog::kTenMinutes); }
     /// The context, its driver, and the driver's features that do not work; one line for reports.
     std::string drawing() const;
     /// What has been read from the index since it was opened.

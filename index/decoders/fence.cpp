@@ -1,7 +1,7 @@
 // The fence: files by Landlock, and a list of allowed system calls, enforced by seccomp(2).
 #include "index/decoders/fence.h"
 
-#include "index/decoders/file_fence.h"
+#include "index/reader/file_fence.h"
 
 #ifdef ISOCHRON_WITH_SECCOMP
 #include <seccomp.h>

@@ -73,7 +73,8 @@ void refuse(MessageSocket& socket) {
 
 } // namespace
 
-int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection) {
+int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection,
+               ReadPictureFile picture) {
     int type = 0;
     socklen_t size = sizeof type;
     if (::getsockopt(kReaderSocket, SOL_SOCKET, SO_TYPE, &type, &size) != 0) {
@@ -89,7 +90,7 @@ int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection)
             refuse(socket);
             ::_exit(1);
         }
-        serve(socket, decoders, collection, take_denied_file);
+        serve(socket, decoders, collection, picture, take_denied_file);
     } catch (const Error&) {
         ::_exit(1); // the program knows which message it sent
     }

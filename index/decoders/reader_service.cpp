@@ -19,8 +19,9 @@ namespace {
 
 class Service {
   public:
-    Service(std::span<const Decoder> decoders, ReadCollectionFile collection, TakeDenied denied)
-        : decoders_(decoders), collection_(collection), denied_(denied) {}
+    Service(std::span<const Decoder> decoders, ReadCollectionFile collection,
+            ReadPictureFile picture, TakeDenied denied)
+        : decoders_(decoders), collection_(collection), picture_(picture), denied_(denied) {}
 
     /// The reply to a request, if it has one.
     std::optional<ReaderReply> answer(const ReaderRequest& request, Descriptor attached) {
@@ -81,6 +82,29 @@ class Service {
         return attempt([&]() -> ReaderReply { return Collected{collection_(collection.path)}; });
     }
 
+    std::optional<ReaderReply> answer_to(const ReadPicture& asked) {
+        constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30; // [bytes] of its pixels
+        path_ = asked.path;
+        pixels_.clear();
+        limits_.emplace(asked.path, 0);
+        limits_->expect(kLargestPicture);
+        if (!picture_)
+            throw Error("asked for a picture, which are for another reader");
+        return attempt([&]() -> ReaderReply {
+            DecodedPicture found = picture_(asked.path, asked.pixels);
+            pixels_ = std::move(found.rgba);
+            return PictureRead{std::move(found.note), found.width, found.height};
+        });
+    }
+
+    std::optional<ReaderReply> answer_to(const TakePicture& /*asked*/) {
+        const auto shared = memory_ ? memory_->bytes() : std::span<std::byte>{};
+        if (pixels_.empty() || pixels_.size() > shared.size())
+            throw Error("asked for pixels that there are not, or to where there is no memory");
+        std::ranges::copy(std::as_bytes(std::span(pixels_)), shared.begin());
+        return SlabRead{};
+    }
+
     std::optional<ReaderReply> answer_to(const CloseFile& close) {
         files_.erase(close.file);
         return Closed{};
@@ -113,11 +137,13 @@ class Service {
 
     std::span<const Decoder> decoders_;
     ReadCollectionFile collection_;
+    ReadPictureFile picture_;
     TakeDenied denied_;
     std::filesystem::path path_; ///< of the last file that was requested
     std::map<std::uint64_t, std::unique_ptr<DecodedFile>> files_; ///< by number
     std::optional<ReaderBudget> limits_;                          ///< of that file
     std::unique_ptr<SharedMemory> memory_;
+    std::vector<std::uint8_t> pixels_; ///< of the last picture
     Descriptor attached_;
 };
 
@@ -137,10 +163,10 @@ std::string in_one_line(std::string message) {
 }
 
 void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection,
-           TakeDenied denied) {
+           ReadPictureFile picture, TakeDenied denied) {
     if (!socket.send(encoded(ReaderReply(Ready{kReaderVersion}))))
         return;
-    Service service(decoders, collection, denied);
+    Service service(decoders, collection, picture, denied);
     while (auto message = socket.receive()) {
         const auto reply =
             service.answer(request_from(message->bytes), std::move(message->attached));

@@ -4,6 +4,7 @@
 #include "index/decoders/decoded_file.h"
 #include "index/reader/message_socket.h"
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,14 @@ struct Decoder {
 using ReadCollectionFile =
     std::vector<std::pair<std::filesystem::path, double>> (*)(const std::filesystem::path&);
 
+struct DecodedPicture {
+    std::string note;
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+/// @param pixels whether they are wanted, or the note alone @throws Error naming the file
+using ReadPictureFile = DecodedPicture (*)(const std::filesystem::path&, bool pixels);
+
 /// The file that the fence has denied since the last call; empty if none, see denied_files.h.
 using TakeDenied = std::filesystem::path (*)();
 
@@ -29,9 +38,10 @@ std::string in_one_line(std::string message);
 
 /// Answers requests until the other end is closed.
 /// @param collection reads .pvd; null if this reader does not
+/// @param picture reads pictures; null if this reader does not
 /// @param denied null where nothing is denied; a request that needed a denied file is refused
 /// @throws Error when a message is invalid
 void serve(MessageSocket& socket, std::span<const Decoder> decoders, ReadCollectionFile collection,
-           TakeDenied denied = nullptr);
+           ReadPictureFile picture = nullptr, TakeDenied denied = nullptr);
 
 } // namespace isochron::index

@@ -208,6 +208,20 @@ void check_grid(const Grid& grid, const std::string& file) {
             throw Error(fmt::format("{}: the origin is not finite", file));
 }
 
+void expect_measurable(const Grid& grid, const ReadOptions& options) {
+    constexpr double kMost = 1e30;
+    const auto text = [](const glm::dvec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
+    for (int axis = 0; axis < 3; ++axis) {
+        if (options.spacing && !(grid.spacing[axis] * grid.vertices[axis] < kMost))
+            throw Error(fmt::format("--spacing: {}, expected a volume of less than {:g} along each "
+                                    "axis",
+                                    text(*options.spacing), kMost));
+        if (options.origin && !(std::abs(grid.origin[axis]) < kMost))
+            throw Error(
+                fmt::format("--origin: {}, expected less than {:g}", text(*options.origin), kMost));
+    }
+}
+
 std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>& sizes,
                                               const std::string& file) {
     const std::string got = fmt::format("{}x{}x{}", sizes[0], sizes[1], sizes[2]);

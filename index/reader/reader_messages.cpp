@@ -63,6 +63,11 @@ void each_field(auto& bytes, Of<CloseFile> auto& close) {
     bytes(close.file);
 }
 
+void each_field(auto& bytes, Of<ReadPicture> auto& picture) {
+    bytes(picture.path, picture.pixels);
+}
+void each_field(auto&, Of<TakePicture> auto&) {}
+
 void each_field(auto& bytes, Of<Ready> auto& ready) {
     bytes(ready.version);
 }
@@ -77,6 +82,10 @@ void each_field(auto& bytes, Of<Collected> auto& collected) {
 void each_field(auto&, Of<Closed> auto&) {}
 void each_field(auto& bytes, Of<Refused> auto& refused) {
     bytes(refused.message);
+}
+
+void each_field(auto& bytes, Of<PictureRead> auto& picture) {
+    bytes(picture.note, picture.width, picture.height);
 }
 
 template <class... Kinds>

@@ -58,7 +58,18 @@ struct CloseFile {
     std::uint64_t file = 0; ///< its number
 };
 
-using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile>;
+/// Asks for the note in a picture, and with `pixels` for its size. Answered by `PictureRead`; the
+/// pixels stay until the next request of this kind.
+struct ReadPicture {
+    std::filesystem::path path;
+    bool pixels = false;
+};
+/// Asks for the pixels of that picture in the shared memory: red, green, blue, alpha. Answered by
+/// `SlabRead`.
+struct TakePicture {};
+
+using ReaderRequest = std::variant<OpenFile, UseMemory, ReadSlab, ReadCollection, CloseFile,
+                                   ReadPicture, TakePicture>;
 
 /// Sent once to the reader, before any request: what its fence leaves readable. Not answered.
 struct LeftReadable {
@@ -80,12 +91,17 @@ struct Collected {
     std::vector<std::pair<std::filesystem::path, double>> files; ///< in their order, with times
 };
 struct Closed {};
+struct PictureRead {
+    std::string note;
+    std::uint32_t width = 0, height = 0; ///< without pixels 0
+};
 /// The reply to any request that failed.
 struct Refused {
     std::string message; ///< one line that names the file, if one was asked for
 };
 
-using ReaderReply = std::variant<Ready, Described, SlabRead, Collected, Closed, Refused>;
+using ReaderReply =
+    std::variant<Ready, Described, SlabRead, Collected, Closed, Refused, PictureRead>;
 
 /// The version that `Ready` must have, so that program and reader are of one build.
 extern const std::string kReaderVersion;

@@ -125,7 +125,9 @@ bool ReaderProcess::is_ours() const {
 }
 
 void ReaderProcess::ask(const ReaderRequest& request) {
-    if (const auto* open = std::get_if<OpenFile>(&request))
+    const auto* open = std::get_if<OpenFile>(&request);
+    const bool locks = program_.ends_with("hdf5") || program_.ends_with("netcdf");
+    if (open && locks)
         expect_unlocked(open->path);
     if (std::holds_alternative<OpenFile>(request) ||
         std::holds_alternative<ReadCollection>(request))

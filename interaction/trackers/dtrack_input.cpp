@@ -5,6 +5,7 @@
 #include "interaction/trackers/device_clock.h"
 #include "interaction/trackers/dtrack_protocol.h"
 #include "interaction/trackers/frame_sequence.h"
+#include "interaction/trackers/sender_choice.h"
 
 #include <algorithm>
 
@@ -58,17 +59,19 @@ struct DTrackInput::State {
         int id;
         TrackedDevice tracked;
     };
-    DatagramReceiver receiver;
     std::vector<Device> devices;
+    SenderChoice senders;
+    bool narrows; ///< the kernel drops others while the configured sender is heard
+    std::optional<Endpoint> narrow; ///< to whom it is narrowed now
     FrameSequence sequence;
     DeviceClock clock;
     std::uint64_t malformed = 0;
+    DatagramReceiver receiver; ///< its thread looks at nothing else here
 
     explicit State(const DTrackOptions& options)
-        : receiver({.endpoint = options.endpoint,
-                    .from = options.from,
+        : senders(options.from), narrows(options.from.has_value()),
+          receiver({.endpoint = options.endpoint,
                     .ages = options.ages,
-                    .kept = kMostDatagrams,
                     .worth = [devices = options.devices](std::string_view bytes) {
                         return worth_of(bytes, devices);
                     }}) {
@@ -112,15 +115,30 @@ struct DTrackInput::State {
 
     void take(const Datagram& datagram, Seconds now) {
         const Seconds arrival = now - datagram.age;
+        // Asked again, as an earlier datagram may have shown that its sender makes no sense.
+        if (!senders.admits(datagram.sender, arrival))
+            return;
         const auto frame = parse_dtrack(datagram.bytes);
         malformed += frame ? static_cast<std::uint64_t>(frame->malformed_lines) : 1;
-        if (frame && sequence.accept(frame->counter, arrival))
+        if (!frame)
+            return senders.made_no_sense(arrival);
+        senders.heard(arrival);
+        if (sequence.accept(frame->counter, arrival))
             take(*frame, arrival);
     }
 
     void receive(Seconds now) {
-        for (const Datagram& datagram : receiver.take(now))
+        const auto admits = [&](const Endpoint& sender, Seconds age) {
+            return senders.admits(sender, now - age);
+        };
+        for (const Datagram& datagram : receiver.take(kMostDatagrams, admits))
             take(datagram, now);
+        if (!narrows)
+            return;
+        const auto heard = senders.proven(now);
+        if (heard != narrow)
+            receiver.hear_only(heard);
+        narrow = heard;
     }
 };
 
@@ -152,7 +170,7 @@ std::vector<std::string> DTrackInput::status() const {
     std::vector<std::string> lines{fmt::format(
         "dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away{}",
         to_string(s.receiver.endpoint()), s.sequence.accepted(), s.sequence.missing(),
-        s.sequence.late(), s.malformed, s.receiver.thrown_away(), s.receiver.strangers())};
+        s.sequence.late(), s.malformed, s.receiver.thrown_away(), s.senders.strangers())};
     for (const State::Device& device : s.devices)
         lines.push_back(device.tracked.status());
     return lines;

@@ -109,9 +109,6 @@ struct OscInput::State {
 
     explicit State(const OscOptions& options)
         : receiver({.endpoint = options.endpoint,
-                    .from = std::nullopt,
-                    .one_sender = false,
-                    .kept = kMostMessages,
                     .worth = [prefix = options.prefix + "/"](std::string_view bytes) {
                         return worth_of(bytes, prefix);
                     }}) {
@@ -232,7 +229,7 @@ struct OscInput::State {
     }
 
     void receive(Seconds now) {
-        for (const Datagram& datagram : receiver.take(now))
+        for (const Datagram& datagram : receiver.take(kMostMessages))
             take(datagram.bytes, {now - datagram.age, now - datagram.age, std::nullopt});
     }
 };

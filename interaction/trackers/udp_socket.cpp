@@ -194,9 +194,9 @@ UdpSocket::~UdpSocket() {
         close(wake_);
 }
 
-void UdpSocket::wait(std::chrono::milliseconds most) const {
+void UdpSocket::wait() const {
     std::array<pollfd, 2> ready{{{socket_, POLLIN, 0}, {wake_, POLLIN, 0}}};
-    poll(ready.data(), ready.size(), static_cast<int>(most.count()));
+    poll(ready.data(), ready.size(), -1);
 }
 
 void UdpSocket::wake() const {

@@ -3,7 +3,6 @@
 
 #include "interaction/pose.h"
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -51,9 +50,9 @@ class UdpSocket {
     /// `admits` refuses are dropped uncounted, so that they take no place among the newest.
     std::vector<Datagram> take(
         std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
-    /// Waits until a datagram is waiting, or `wake` is called, or so much time has passed. May be
-    /// called beside any other function of another thread.
-    void wait(std::chrono::milliseconds most) const;
+    /// Waits until a datagram is waiting, or `wake` is called. May be called beside any other
+    /// function of another thread.
+    void wait() const;
     /// Ends a wait, also the next one if there is none.
     void wake() const;
     /// From now on the kernel drops datagrams of all other senders; none: of no sender. What waits

@@ -39,7 +39,7 @@ const std::map<std::string, Steps> kOrder{
       {"thi", "cells", "scan", "formats"},
       {"reader"},
       {"volume", "system"},
-      {"error", "lower_case", "progress"}}},
+      {"error", "lower_case", "progress", "utf8"}}},
     {"interaction",
      {{"trackers", "recording"}, {"controls"}, {"tools"}, {"navigation"}, {"input"}, {"."}}},
     {"render", {{"drawing"}, {"culling"}, {"cells", "passes"}, {"gl"}}},
@@ -53,8 +53,8 @@ const std::map<std::string, std::set<std::string>> kApart{
     // What is asked on the command line is obeyed elsewhere.
     {"app/command_line",
      {"app/main", "app/commands", "app/explore", "app/indexing", "app/generate"}},
-    // The reader: a program of its own.
-    {"index/decoders", {}},
+    // The readers: programs of their own.
+    {"index/decoders", {"stereo/image_module"}},
     // The module is loaded when a picture is read or written; nobody else knows it.
     {"stereo/image_module", {"stereo/image_file"}},
 };

@@ -10,8 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -235,6 +238,25 @@ TEST_F(ImageFile, ErrorsNameTheFileInOneLine) {
         EXPECT_EQ(read_note(folder_ / name), note);
     }
 }
+
+#ifndef ISOCHRON_SANITIZED // where readers have no fence
+TEST_F(ImageFile, IsReadByAReaderBehindTheFence) {
+    write_image(random_image(24, 16), folder_ / "a.png", "a note");
+    EXPECT_EQ(read_note(folder_ / "a.png"), "a note");
+    const std::string parent = "PPid:\t" + std::to_string(::getpid()) + "\n";
+    int readers = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        std::ifstream file(entry.path() / "status");
+        const std::string status{std::istreambuf_iterator<char>(file), {}};
+        if (!status.starts_with("Name:\tisochron-reader") || status.find(parent) == status.npos)
+            continue;
+        ++readers;
+        EXPECT_THAT(status, testing::HasSubstr("NoNewPrivs:\t1"));
+        EXPECT_THAT(status, testing::HasSubstr("Seccomp:\t2"));
+    }
+    EXPECT_EQ(readers, 1);
+}
+#endif
 
 TEST_F(ImageFile, DamageIsOneLineOrNone) {
     const Image image = random_image(24, 16);

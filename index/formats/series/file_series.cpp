@@ -349,7 +349,7 @@ class FileSeries final : public VolumeSeries {
         }
         if (options_.origin)
             info_.grid.origin = *options_.origin;
-        expect_measurable();
+        expect_measurable(info_.grid, options_);
         if (options_.time_step) {
             const double last = *options_.time_step * static_cast<double>(info_.times.size());
             if (!(*options_.time_step > 0) || !std::isfinite(last))
@@ -366,21 +366,6 @@ class FileSeries final : public VolumeSeries {
             info_.value_unit = *options_.value_unit;
         for (std::string* unit : {&info_.length_unit, &info_.time_unit, &info_.value_unit})
             *unit = as_utf8(*unit);
-    }
-
-    /// Sizes that are given must be such that pictures, which have single precision, can show them.
-    void expect_measurable() const {
-        constexpr double kMost = 1e30;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double length = info_.grid.spacing[axis] * info_.grid.vertices[axis];
-            if (options_.spacing && !(length < kMost))
-                throw Error(fmt::format("--spacing: {}, expected a volume of less than {:g} along "
-                                        "each axis",
-                                        text(*options_.spacing), kMost));
-            if (options_.origin && !(std::abs(info_.grid.origin[axis]) < kMost))
-                throw Error(fmt::format("--origin: {}, expected less than {:g}",
-                                        text(*options_.origin), kMost));
-        }
     }
 
     std::vector<SeriesFile> files_;

@@ -343,6 +343,23 @@ TEST_F(CommandLine, MeasuresBeyondWhatCanBeShownAreRefused) {
     expect_failure(isochron(command), 1, "--time-step");
 }
 
+TEST_F(CommandLine, TheTimesOfSourcesAreInNoBytesButThoseThatThePageNames) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string first = folder.read("a.isochron");
+    for (std::size_t t = 0; t < steps.size(); ++t)
+        std::filesystem::last_write_time(folder.path() / fmt::format("t{}.raw", t),
+                                         std::filesystem::file_time_type::clock::now() -
+                                             std::chrono::hours(1 + t));
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    const std::string second = folder.read("a.isochron");
+    ASSERT_EQ(first.size(), second.size());
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < first.size(); ++i)
+        differ += first[i] != second[i] ? 1 : 0;
+    EXPECT_GT(differ, 0u);
+    EXPECT_LE(differ, 8 * steps.size() + 8 + 8);
+}
+
 TEST_F(CommandLine, AnOutputThatCannotBeWrittenIsAFailure) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
     const ChildResult result = isochron({"info", "a.isochron"}, {.out = "/dev/full"});

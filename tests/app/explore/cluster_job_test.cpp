@@ -1,4 +1,5 @@
 // The whole program as a job of several processes: they show one picture and end together.
+#include "tests/app/explore/small_cave.h"
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
@@ -23,18 +24,6 @@ namespace isochron::app {
 namespace {
 
 using testing::HasSubstr;
-
-/// A CAVE of four small walls on nodes 1 to 4, whose windows stand on a desktop.
-std::string small_cave(const std::string& more = "") {
-    std::string text = read_config("cave4").text;
-    const auto replace = [&](const std::string& from, const std::string& to) {
-        for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
-            text.replace(at, from.size(), to);
-    };
-    replace("size = [1920, 1200]", "size = [64, 40]");
-    replace("fullscreen = true\n", "");
-    return text + more;
-}
 
 class ClusterJobTest : public testing::Test {
   protected:
@@ -282,10 +271,7 @@ TEST_F(ClusterJobTest, TheTestPatternIsTheOneOfASingleProcess) {
 
 TEST_F(ClusterJobTest, TheLiveTestPatternEndsOnAllWallsAtOnce) {
     const test_support::VirtualDisplay screen;
-    std::string lab = small_cave();
-    for (std::size_t at; (at = lab.find("\"quadbuffer\"")) != lab.npos;)
-        lab.replace(at, 12, "\"mono\"");
-    folder_.write("lab.toml", lab);
+    folder_.write("lab.toml", mono_cave());
     auto ended = std::async(std::launch::async, [&] {
         return job(2, "$isochron explore --test-pattern --config lab.toml");
     });
@@ -333,10 +319,7 @@ TEST_F(ClusterJobTest, ADriverWithoutSwapGroupsIsNamedWhereOneIsAskedFor) {
 
 TEST_F(ClusterJobTest, InWindowsEveryProcessShowsItsOwnAndAllLeaveTogether) {
     const test_support::VirtualDisplay screen;
-    std::string lab = small_cave();
-    for (std::size_t at; (at = lab.find("\"quadbuffer\"")) != lab.npos;)
-        lab.replace(at, 12, "\"mono\"");
-    folder_.write("lab.toml", lab);
+    folder_.write("lab.toml", mono_cave());
     const std::string explore = "$isochron explore sphere.isochron --config lab.toml --no-panel "
                                 "--record walk.jsonl --report timing.json";
     auto ended = std::async(std::launch::async, [&] { return job(2, explore); });
@@ -377,10 +360,8 @@ TEST_F(ClusterJobTest, InWindowsEveryProcessShowsItsOwnAndAllLeaveTogether) {
 
 TEST_F(ClusterJobTest, AStillPictureEndsExactOnAllWallsInTheSameFrameThoughNoFrameHoldsIt) {
     const test_support::VirtualDisplay screen;
-    std::string lab = small_cave("\n[quality]\nframe_budget_ms = 0.001\nstill_budget_ms = 0.001\n");
-    for (std::size_t at; (at = lab.find("\"quadbuffer\"")) != lab.npos;)
-        lab.replace(at, 12, "\"mono\"");
-    folder_.write("lab.toml", lab);
+    folder_.write("lab.toml",
+                  mono_cave("\n[quality]\nframe_budget_ms = 0.001\nstill_budget_ms = 0.001\n"));
     const std::string explore = "$isochron explore sphere.isochron --config lab.toml --no-panel "
                                 "--report timing.json";
     auto ended = std::async(std::launch::async, [&] { return job(2, explore); });

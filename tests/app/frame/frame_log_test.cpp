@@ -39,6 +39,22 @@ TEST(FrameLog, GpuTimesReachTheirFramesLater) {
     EXPECT_EQ(log.known(&FrameReport::gpu).worst, 8);
 }
 
+TEST(FrameLog, KeepsSoManyOfTheNewestAsItIsToldTo) {
+    FrameLog log;
+    for (int i = 0; i < 10; ++i)
+        log.add({});
+    log.keep(3);
+    FrameReport last;
+    last.cells = 7;
+    log.add(last);
+    EXPECT_EQ(log.frames().size(), 3u);
+    EXPECT_EQ(log.frames().back().cells, 7u);
+    EXPECT_EQ(log.next(), 11u);
+    log.set_gpu(10, Milliseconds(4));
+    log.set_gpu(2, Milliseconds(99)); // no longer there
+    EXPECT_EQ(log.known(&FrameReport::gpu).worst, 4);
+}
+
 TEST(FrameLog, TimeInWhichNothingWasToBeDoneIsNoFramesTime) {
     FrameLog log;
     double time = 0;

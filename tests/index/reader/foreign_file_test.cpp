@@ -2,7 +2,7 @@
 // next file is read.
 #include "index/formats/foreign_file.h"
 
-#include "index/decoders/file_fence.h"
+#include "index/reader/file_fence.h"
 #include "index/reader/process_signs.h"
 #include "tests/support/eventually.h"
 #include "tests/support/paths.h"

@@ -1,5 +1,5 @@
 // Finds measures of a configuration that no room has.
-#include "app/config/check_measures.h"
+#include "app/config/check/check_measures.h"
 
 #include "stereo/screen.h"
 

@@ -1,5 +1,5 @@
 // Warns of gaps between screens, once for each wall.
-#include "app/config/check_gaps.h"
+#include "app/config/check/check_gaps.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,0 +1,61 @@
+// `isochron-reader-image`: pictures, which OpenImageIO and the libraries behind it decode.
+#include "index/decoders/reader_program.h"
+#include "index/error.h"
+#include "index/system/module.h"
+#include "stereo/image_module/image_module.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace isochron::stereo::image_module {
+namespace {
+
+/// Loaded before the fence, which hides the module's own folder.
+struct Functions {
+    ReadNote* note = nullptr;
+    Read* pixels = nullptr;
+    std::string missing; ///< why there are none
+};
+
+Functions& functions() {
+    static Functions loaded;
+    return loaded;
+}
+
+void load() {
+    try {
+        functions().note =
+            reinterpret_cast<ReadNote*>(index::module_symbol("isochron_images", kReadNote));
+        functions().pixels =
+            reinterpret_cast<Read*>(index::module_symbol("isochron_images", kRead));
+    } catch (const index::Error& error) {
+        functions().missing = error.what();
+    }
+}
+
+index::DecodedPicture read_picture(const std::filesystem::path& path, bool pixels) {
+    std::string error = functions().missing;
+    index::DecodedPicture picture;
+    render::Image image;
+    if (error.empty() && pixels)
+        functions().pixels(path.string(), image, error);
+    else if (error.empty())
+        functions().note(path.string(), picture.note, error);
+    if (!error.empty())
+        throw index::Error(fmt::format("{}: {}", path.string(), error));
+    picture.width = static_cast<std::uint32_t>(image.width);
+    picture.height = static_cast<std::uint32_t>(image.height);
+    picture.rgba = std::move(image.rgba);
+    return picture;
+}
+
+} // namespace
+} // namespace isochron::stereo::image_module
+
+int main() {
+    using namespace isochron::stereo::image_module;
+    load();
+    return isochron::index::run_reader({}, nullptr, read_picture);
+}

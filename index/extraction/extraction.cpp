@@ -138,7 +138,8 @@ class Extracting {
             return false;
         find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
-        if (!colors_.fill(result.query, result.surfaces, step, result.colors, stop))
+        if (!colors_.fill(result.query, result.surfaces, step, result.colors, result.corner_colors,
+                          stop))
             return false;
         if (result.query.coloring == CellColoring::first_crossing && !result.colors.empty())
             color_meshes_by_cells(result);

@@ -25,6 +25,9 @@ struct Extraction {
     /// Color coordinates of the cells, surface after surface in the order of ids; empty if none
     /// were asked for, or the index has no array to color by.
     std::vector<std::uint16_t> colors;
+    /// Where cells of the volume itself are colored by values: the fine color coordinates
+    /// (cell_colors.h) at the eight vertices of each cell, in the same order.
+    std::vector<std::uint16_t> corner_colors;
     VolumeBlocks blocks;           ///< of the step, for all surfaces
     SurroundingField surroundings; ///< of all surfaces; none where there are no cells
     /// The level of each region's cells (detail_regions.h). Empty: all cells are the volume's own.

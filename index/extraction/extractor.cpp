@@ -114,7 +114,7 @@ void Extractor::State::simplify(const ExtractionPtr& set, std::unique_lock<std::
     lock.unlock();
     bool failed = false;
     try {
-        if (SimplifiedMeshesPtr made = simplified(*set, stop))
+        if (SimplifiedMeshesPtr made = index::simplified(set->surfaces, stop))
             set->later->put(std::move(made));
     } catch (const std::bad_alloc&) {
         failed = true;
@@ -142,7 +142,7 @@ Extractor::State::Outcome Extractor::State::run(const Job& job) {
         if (!extraction && !job.stop.stop_requested())
             return {nullptr, "the extraction gave no result"};
         if (job.simplified && extraction && extraction->meshed() && !extraction->later->get())
-            extraction->later->put(index::simplified(*extraction, job.stop.get_token()));
+            extraction->later->put(index::simplified(extraction->surfaces, job.stop.get_token()));
         return {std::move(extraction), {}};
     } catch (const std::exception& error) {
         return {nullptr, error.what()};

@@ -1,7 +1,6 @@
 // Simplifies the meshes of all surfaces of an extraction.
 #include "index/extraction/simplified_meshes.h"
 
-#include "index/extraction/extraction.h"
 #include "index/surface/mesh_clusters.h"
 
 namespace isochron::index {
@@ -14,10 +13,10 @@ std::uint64_t SimplifiedMeshes::bytes() const {
     return all;
 }
 
-SimplifiedMeshesPtr simplified(const Extraction& extraction, const std::stop_token& stop) {
+SimplifiedMeshesPtr simplified(std::span<const CellSet> surfaces, const std::stop_token& stop) {
     auto made = std::make_shared<SimplifiedMeshes>();
     for (std::size_t level = 0; level < kClusterEdges.size(); ++level)
-        for (const CellSet& surface : extraction.surfaces) {
+        for (const CellSet& surface : surfaces) {
             CellMeshPtr& mesh = made->levels[level].emplace_back();
             if (surface.mesh)
                 mesh = std::make_shared<const CellMesh>(

@@ -1,20 +1,19 @@
 // Meshes with fewer triangles of an extraction's surfaces, which come after the rest of it.
 #pragma once
 
-#include "index/surface/cell_mesh.h"
+#include "index/surface/cell_set.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
 
 namespace isochron::index {
-
-struct Extraction;
 
 /// Edges of the clusters of which each simplified mesh has one vertex (mesh_clusters.h) [cells]. Mesh
 /// level 0 is the mesh of all triangles; level i is simplified by clusters of kClusterEdges[i - 1].
@@ -28,9 +27,9 @@ struct SimplifiedMeshes {
 };
 using SimplifiedMeshesPtr = std::shared_ptr<const SimplifiedMeshes>;
 
-/// Simplifies the meshes of a meshed extraction, on the calling thread: the same bytes every time.
+/// Simplifies the meshes of surfaces, on the calling thread: the same bytes every time.
 /// @return null when stopped
-SimplifiedMeshesPtr simplified(const Extraction& extraction, const std::stop_token& stop);
+SimplifiedMeshesPtr simplified(std::span<const CellSet> surfaces, const std::stop_token& stop);
 
 /// Where these meshes are kept with their extraction: empty until they are made. Thread-safe.
 class LaterMeshes {

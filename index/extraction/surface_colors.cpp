@@ -14,9 +14,10 @@ SurfaceColors::SurfaceColors(std::shared_ptr<const IndexFile> file,
 
 bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
                          const StepView& step, std::vector<std::uint16_t>& out,
-                         const std::stop_token& stop) {
+                         std::vector<std::uint16_t>& corners, const std::stop_token& stop) {
     forget_all_but(query);
     out.clear();
+    corners.clear();
     if (query.coloring == CellColoring::none)
         return true;
     std::optional<ColorSource> source;
@@ -33,7 +34,9 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         out.resize(rank + cells.size(), kNoColor);
         const auto part = std::span(out).subspan(rank);
         if (source) {
-            if (!layers_.color_cells(step, surfaces[i], *source, part, stop))
+            corners.resize(8 * out.size(), kNoFineColor);
+            if (!layers_.color_cells(step, surfaces[i], *source, part, stop,
+                                     std::span(corners).subspan(8 * rank)))
                 return false;
         } else if (!has_wide_ids(file_->info().grid)) {
             const FirstCrossings* first = crossings(query.isovalues[i], stop);

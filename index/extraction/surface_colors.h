@@ -21,12 +21,13 @@ class SurfaceColors {
     /// @param method of the searches, none: the cheapest; the file must have that tier
     SurfaceColors(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method);
 
-    /// Fills `out` with the coordinates in the order of `Extraction::colors`.
+    /// Fills `out` and `corners` as `Extraction::colors` and `corner_colors` are.
     /// @param step of the query
-    /// @return false when it was stopped and `out` is incomplete
+    /// @return false when it was stopped and they are incomplete
     /// @throws Error as loading a step and the search for first crossings do
     bool fill(const SurfacesQuery& query, const std::vector<CellSet>& surfaces,
-              const StepView& step, std::vector<std::uint16_t>& out, const std::stop_token& stop);
+              const StepView& step, std::vector<std::uint16_t>& out,
+              std::vector<std::uint16_t>& corners, const std::stop_token& stop);
 
   private:
     void forget_all_but(const SurfacesQuery& query);

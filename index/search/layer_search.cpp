@@ -226,7 +226,8 @@ StepValues LayerSearch::around(const StepView& other, const CellsOfPart& part, S
 }
 
 bool LayerSearch::color_cells(const StepView& step, const CellSet& set, const ColorSource& source,
-                              std::span<std::uint16_t> out, const std::stop_token& stop) {
+                              std::span<std::uint16_t> out, const std::stop_token& stop,
+                              std::span<std::uint16_t> corners) {
     const ColorArray& array = source.array();
     const StepView colors = source.step(step);
     return for_each_part(
@@ -235,9 +236,12 @@ bool LayerSearch::color_cells(const StepView& step, const CellSet& set, const Co
             if (part.ids.empty())
                 return;
             StepSlab slab;
-            index::color_cells(part.values, around(colors, part, slab, stop), set.query, part.ids,
-                               array.low, array.high, out.subspan(part.before, part.ids.size()),
-                               stop);
+            const StepValues around_cells = around(colors, part, slab, stop);
+            index::color_cells(part.values, around_cells, set.query, part.ids, array.low,
+                               array.high, out.subspan(part.before, part.ids.size()), stop);
+            if (!corners.empty())
+                color_corners(around_cells, set.query.step, part.ids, array.low, array.high,
+                              corners.subspan(8 * part.before, 8 * part.ids.size()));
         },
         stop);
 }

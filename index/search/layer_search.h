@@ -49,8 +49,10 @@ class LayerSearch {
     bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
                    const std::stop_token& stop, const ColorSource* values = nullptr);
     /// @param set as above @param source by chunks, has chunks at the step's level of detail
+    /// @param corners eight for each cell (color_corners); empty: they are not wanted
     bool color_cells(const StepView& step, const CellSet& set, const ColorSource& source,
-                     std::span<std::uint16_t> out, const std::stop_token& stop);
+                     std::span<std::uint16_t> out, const std::stop_token& stop,
+                     std::span<std::uint16_t> corners = {});
 
   private:
     /// Cells in the order of `search`, with points where ids are wide.

@@ -105,6 +105,15 @@ bool color_cells(const StepValues& volume, const StepValues& colors, const Query
     return true;
 }
 
+void color_corners(const StepValues& colors, Instant at, std::span<const CellId> cells, double low,
+                   double high, std::span<std::uint16_t> out) {
+    const CornerReader values(colors, at);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        std::ranges::transform(values.at(cells[i]), &out[8 * i], [&](double value) {
+            return fine_color_coordinate(value, low, high);
+        });
+}
+
 std::vector<float> values_at(const StepValues& colors, Instant at,
                              std::span<const MeshVertex> vertices, std::uint32_t first_plane) {
     const auto& n = colors.grid.vertices;

@@ -36,6 +36,11 @@ std::uint16_t fine_color_coordinate(double value, double low, double high);
 bool color_cells(const StepValues& volume, const StepValues& colors, const Query& query,
                  std::span<const CellId> cells, double low, double high,
                  std::span<std::uint16_t> out, const std::stop_token& stop = {});
+/// Fine coordinates of the array's values at the eight vertices of each cell, x fastest: between
+/// them the colors of an exact surface are interpolated.
+/// @param out eight times as long as `cells`
+void color_corners(const StepValues& colors, Instant at, std::span<const CellId> cells, double low,
+                   double high, std::span<std::uint16_t> out);
 
 /// Values of another array at the vertices of a mesh: interpolated linearly between the ends of each
 /// edge.

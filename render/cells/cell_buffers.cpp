@@ -34,8 +34,11 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
       points_(ArrivingSet::points_array(gl)), corners_{corner_values_array(gl),
                                                        corner_gradients_array(gl)},
-      meshes_{KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)},
-              KeptMeshes{MeshBuffers(gl)}},
+      corner_colors_(corner_colors_array(gl)),
+      arriving_colors_(corner_colors_array(gl)), meshes_{KeptMeshes{MeshBuffers(gl)},
+                                                         KeptMeshes{MeshBuffers(gl)},
+                                                         KeptMeshes{MeshBuffers(gl)},
+                                                         KeptMeshes{MeshBuffers(gl)}},
       surroundings_(gl), arriving_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
@@ -132,6 +135,7 @@ void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& wh
     }
     arriving_.end();
     sending_blocks_ = false;
+    colors_sent_ = 0;
     for (KeptMeshes& meshes : meshes_)
         meshes.sending = false;
     volume_version_ = 0; // of no set
@@ -192,11 +196,11 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
                    ? std::make_unique<SlotPlan>(grid_, nullptr, kNoSlots, *set)
                    : std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
     sending_blocks_ = volume == SendVolume::with_cells || !with_points;
+    colors_sent_ = 0;
     if (sending_blocks_)
         blocks_->begin(set->blocks);
     for (KeptMeshes& meshes : meshes_)
-        meshes.sending = false;
-    meshes_[0].sending = with_points && set->meshed();
+        meshes.sending = &meshes == &meshes_[0] && with_points && set->meshed();
     if (meshes_[0].sending)
         meshes_[0].buffers.begin(set->meshes(0));
     arriving_.begin(std::move(set), std::move(plan));
@@ -211,7 +215,37 @@ bool CellBuffers::send_on(SendBudget& budget) {
         return false;
     if (meshes_[0].sending && !send_mesh(0, budget))
         return false;
-    return arriving_.comes_with_points() || arriving_.send_changes(ring_, budget, count_);
+    const bool ranked = arriving_.comes_with_points();
+    if (!ranked && !arriving_.send_changes(ring_, budget, count_))
+        return false;
+    return !sending_blocks_ ||
+           send_colors(*arriving_.set(), ranked ? kNoSlots : arriving_.plan().slots(), ranked,
+                       budget);
+}
+
+/// Sends the colors at the vertices of cells. @param ranked cells' slots are their ranks
+/// @return whether all are on the GPU
+bool CellBuffers::send_colors(const index::Extraction& set, const Slots& slots, bool ranked,
+                              SendBudget& budget) {
+    constexpr std::size_t kOfCell = 8, kBytes = kOfCell * sizeof(std::uint16_t);
+    const std::size_t cells = set.corner_colors.size() / kOfCell;
+    if (cells == 0)
+        return true;
+    if (colors_sent_ == 0) {
+        arriving_colors_.reserve(cells, DeviceArray::Contents::dropped);
+        colors_by_slot_.resize(ranked ? 0 : set.corner_colors.size());
+        for (std::size_t rank = 0; !ranked && rank < cells; ++rank)
+            std::copy_n(&set.corner_colors[kOfCell * rank], kOfCell,
+                        &colors_by_slot_[kOfCell * slots.slot_of_rank[rank]]);
+    }
+    const std::span<const std::uint16_t> all = ranked ? set.corner_colors : colors_by_slot_;
+    const std::size_t part = std::min(budget.left() / kBytes, cells - colors_sent_);
+    gl_->NamedBufferSubData(arriving_colors_.buffer(), static_cast<GLintptr>(colors_sent_ * kBytes),
+                            static_cast<GLsizeiptr>(part * kBytes), &all[kOfCell * colors_sent_]);
+    colors_sent_ += part;
+    budget.sent += part * kBytes;
+    count_.color_bytes += part * kBytes;
+    return colors_sent_ == cells;
 }
 
 /// @return whether all blocks are on the GPU
@@ -265,10 +299,12 @@ void CellBuffers::send_volume_of_shown(SendBudget& budget) {
         if (!make_room_for(shown_->blocks))
             return;
         sending_blocks_ = true;
+        colors_sent_ = 0;
         blocks_->begin(shown_->blocks);
     }
-    if (!send_blocks(budget))
+    if (!send_blocks(budget) || !send_colors(*shown_, *slots_, shown_->shaded(), budget))
         return;
+    std::swap(corner_colors_, arriving_colors_);
     compute_->enter_pages(*blocks_);
     blocks_->show();
     sending_blocks_ = false;
@@ -287,8 +323,10 @@ void CellBuffers::show() {
     shown_ = arriving_.end();
     version_ = next_version();
     count_.surrounding_bytes += surroundings_.show(shown_->surroundings);
-    if (std::exchange(sending_blocks_, false))
+    if (std::exchange(sending_blocks_, false)) {
         volume_version_ = version_;
+        std::swap(corner_colors_, arriving_colors_);
+    }
     if (std::exchange(meshes_[0].sending, false)) {
         meshes_[0].buffers.show();
         meshes_[0].version = version_;
@@ -334,6 +372,10 @@ void CellBuffers::write_corners(DrawPart cells, const CellCompute::Corners& to) 
 
 DeviceArray CellBuffers::corner_values_array(const Gl& gl) {
     return {gl, "cells", GL_RGBA32F, 4 * sizeof(float), 2, DeviceArray::Storage::none};
+}
+
+DeviceArray CellBuffers::corner_colors_array(const Gl& gl) {
+    return {gl, "cells", GL_RGBA32UI, 4 * kWord, 1, DeviceArray::Storage::none};
 }
 
 DeviceArray CellBuffers::corner_gradients_array(const Gl& gl) {

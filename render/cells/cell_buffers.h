@@ -104,9 +104,8 @@ class CellBuffers {
     /// GL_TEXTURE_BUFFER by slot, one RGB32UI texel each: the words of an index::CellPoint.
     GLuint texture() const { return points_.texture(); }
 
-    /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs.
-    /// Those of a level (index/extraction/simplified_meshes.h) above 0 come with a later call of
-    /// `upload` with no newer set.
+    /// Whether the shown set came with meshes of its surfaces, as `Footprint::mesh` needs. Those of
+    /// a level (index/extraction/simplified_meshes.h) above 0 come with a later `upload`.
     bool has_mesh(std::size_t level = 0) const {
         return shown_ && meshes_[level].version == version_;
     }
@@ -130,6 +129,7 @@ class CellBuffers {
     void write_corners(DrawPart cells, const CellCompute::Corners& to) const;
     static DeviceArray corner_values_array(const Gl& gl);
     static DeviceArray corner_gradients_array(const Gl& gl);
+    static DeviceArray corner_colors_array(const Gl& gl);
     /// Most cells that these textures can hold: fewer than can be drawn without them.
     std::size_t corner_limit() const { return corners_.gradients.limit(); }
     /// GL_TEXTURE_BUFFER by slot, two RGBA32F texels each: the values at the cell's vertices minus
@@ -141,6 +141,11 @@ class CellBuffers {
     /// (one-sided at the border) in physical space, towards lower values, times one factor for the
     /// whole data set; zero if they are not finite.
     GLuint corner_gradients_texture() const { return corners_.gradients.texture(); }
+
+    /// GL_TEXTURE_BUFFER by slot, one RGBA32UI texel each: Extraction::corner_colors; 0: none.
+    GLuint corner_colors_texture() const {
+        return shown_ && !shown_->corner_colors.empty() ? corner_colors_.texture() : 0;
+    }
 
     /// What was sent so far.
     const UploadCount& count() const { return count_; }
@@ -173,6 +178,8 @@ class CellBuffers {
     bool send_mesh(std::size_t level, SendBudget& budget);
     void send_simplified(SendBudget& budget);
     bool send_blocks(SendBudget& budget);
+    bool send_colors(const index::Extraction& set, const Slots& slots, bool ranked,
+                     SendBudget& budget);
     void send_volume_of_shown(SendBudget& budget);
     Slots place_cells();
     void show();
@@ -183,6 +190,9 @@ class CellBuffers {
     StagingRing ring_;
     DeviceArray points_;
     KeptCorners corners_;
+    DeviceArray corner_colors_, arriving_colors_; ///< of the shown volume's cells; of the next one
+    std::vector<std::uint16_t> colors_by_slot_; ///< that are being sent, where slots are not ranks
+    std::size_t colors_sent_ = 0;               ///< cells
     std::array<KeptMeshes, index::kMeshLevels> meshes_; ///< by level
     Surroundings surroundings_;
     std::optional<BlockPool> blocks_;                  ///< made when the type is known

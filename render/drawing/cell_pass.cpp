@@ -165,8 +165,8 @@ bool CellPass::wants_order_only(Footprint footprint, bool blended) {
 }
 
 bool CellPass::is_ordered(Footprint footprint, bool blended, std::size_t mesh_level) const {
-    if (footprint == Footprint::mesh && mesh_level > 0)
-        return false;
+    if (footprint == Footprint::mesh)
+        return blended && mesh_level == 0;
     return blended ||
            (seen_only_ && (footprint == Footprint::quad || footprint == Footprint::surface));
 }
@@ -312,12 +312,8 @@ void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence,
     } else {
         gl_->Disable(GL_BLEND);
     }
-    if (footprint == Footprint::surface && !blended)
-        surface_.draw(quads_, corners_.values_texture(), corners_.gradients_texture(), false,
-                      views.size(), part);
-    else if (footprint == Footprint::surface)
-        surface_.draw(quads_, cells.corner_values_texture(), cells.corner_gradients_texture(), true,
-                      views.size(), part);
+    if (footprint == Footprint::surface)
+        surface_.draw(quads_, corners_of(drawing), blended, views.size(), part);
     else if (footprint == Footprint::mesh)
         draw_mesh(drawing, frame, part);
     else

@@ -129,6 +129,14 @@ class CellPass {
     /// Goes on with putting quads and splats in order. @return the part of the work that is left to
     /// draw
     DrawPart put_in_order(const Drawing& drawing, DrawPart part);
+    /// The data of the cells' vertices: where blended of all cells, else of those in the window.
+    SurfacePass::Corners corners_of(const Drawing& drawing) const {
+        const CellBuffers& cells = drawing.cells;
+        const GLuint colors = drawing.appearance.values ? cells.corner_colors_texture() : 0;
+        if (drawing.layer.blended)
+            return {cells.corner_values_texture(), cells.corner_gradients_texture(), colors};
+        return {corners_.values_texture(), corners_.gradients_texture(), colors};
+    }
     void draw_mesh(const Drawing& drawing, const FrameBlock& frame, DrawPart part);
     void draw_footprints(std::size_t cells, int views, Footprint footprint, Form form);
     float gaussian_falloff() const;

@@ -20,9 +20,8 @@ MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
     : gl_(&gl), vertex_array_(gl), near_first_(gl), order_(gl) {
     for (const Kind kind : {Kind::plain, Kind::colored, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
-            if (kind != Kind::blended || way == Way::near) // what blends is asked how near it is
-                programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
-                    make_program(kind, way, grid_prelude);
+            programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
+                make_program(kind, way, grid_prelude);
     gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
     gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
@@ -41,9 +40,9 @@ Program MeshPass::make_program(Kind kind, Way way, const std::string& grid_prelu
 }
 
 GLuint MeshPass::program(Kind kind, const MeshLook& look) const {
-    const Way way = kind == Kind::blended || look.near ? Way::near
-                    : look.small                       ? Way::small
-                                                       : Way::plain;
+    // The full mesh blends as the exact surface does; a simplified one, which moves, may be faster.
+    const bool in_full = look.near || (kind == Kind::blended && look.level == 0);
+    const Way way = in_full ? Way::near : look.small ? Way::small : Way::plain;
     return programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)]->name();
 }
 

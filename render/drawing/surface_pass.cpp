@@ -10,24 +10,29 @@ namespace isochron::render {
 SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude)
     : gl_(&gl) {
     const std::vector sources{shader_file("surface.vert"), shader_file("surface.frag")};
-    for (const bool each_sample : {false, true})
-        for (const bool blended : {false, true})
-            for (const bool two : {false, true})
-                if (!two || two_views_at_once)
-                    programs_[each_sample][blended][two] =
-                        link_program(gl, sources,
-                                     grid_prelude + std::string(two ? kTwoEyes : "") +
-                                         (blended ? "#define BLENDED\n" : "") +
-                                         (each_sample ? "#define EACH_SAMPLE\n" : ""));
+    for (const bool colored : {false, true})
+        for (const bool each_sample : {false, true})
+            for (const bool blended : {false, true})
+                for (const bool two : {false, true})
+                    if (!two || two_views_at_once)
+                        programs_[colored][each_sample][blended][two] =
+                            link_program(gl, sources,
+                                         grid_prelude + std::string(two ? kTwoEyes : "") +
+                                             (blended ? "#define BLENDED\n" : "") +
+                                             (each_sample ? "#define EACH_SAMPLE\n" : "") +
+                                             (colored ? "#define COLORS\n" : ""));
 }
 
-void SurfacePass::draw(const QuadIndices& quads, GLuint values, GLuint gradients, bool blended,
+void SurfacePass::draw(const QuadIndices& quads, const Corners& corners, bool blended,
                        std::size_t views, DrawPart part) const {
-    gl_->BindTextureUnit(3, values);
-    gl_->BindTextureUnit(4, gradients);
+    gl_->BindTextureUnit(3, corners.values);
+    gl_->BindTextureUnit(4, corners.gradients);
+    const bool colored = corners.colors != 0;
+    if (colored)
+        gl_->BindTextureUnit(8, corners.colors);
     GLint samples = 0;
     gl_->GetIntegerv(GL_SAMPLES, &samples); // of the target
-    gl_->UseProgram(programs_[samples > 1][blended][views - 1]->name());
+    gl_->UseProgram(programs_[colored][samples > 1][blended][views - 1]->name());
     quads.draw(part.count, static_cast<int>(views), part.first);
 }
 

@@ -23,19 +23,23 @@ class SurfacePass {
     /// In a multisampled target every sample has its own ray: the edges of the surface are found
     /// only by rays, not by edges of triangles.
     /// @param blended several layers within a cell are blended from far to near, pre-multiplied
-    /// @param values, gradients textures as `CellBuffers` has them; where cells have no order, from
-    /// the first one that is drawn on
+    /// @param corners textures as `CellBuffers` has them; values and gradients, where cells have no
+    /// order, from the first one that is drawn on; colors 0: each cell has one color
     /// @param views 1 or 2
     /// @param part of the cells, in the order in which they are drawn
-    void draw(const QuadIndices& quads, GLuint values, GLuint gradients, bool blended,
-              std::size_t views, DrawPart part) const;
+    struct Corners {
+        GLuint values, gradients, colors;
+    };
+    void draw(const QuadIndices& quads, const Corners& corners, bool blended, std::size_t views,
+              DrawPart part) const;
 
   private:
     /// [blended][views - 1]
     using Programs = std::array<std::array<std::optional<Program>, 2>, 2>;
 
     const Gl* gl_;
-    std::array<Programs, 2> programs_; ///< one ray per pixel; one ray per sample
+    /// [with colors at vertices][one ray per pixel; one ray per sample]
+    std::array<std::array<Programs, 2>, 2> programs_;
 };
 
 } // namespace isochron::render

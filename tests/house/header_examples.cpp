@@ -31,6 +31,7 @@
 #include "index/scan/bricks.h"
 #include "index/search/layer_search.h"
 #include "index/search/surface_mesh.h"
+#include "index/surface/mesh_clusters.h"
 #include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 #include "index/volume/order_key.h"
@@ -92,6 +93,10 @@ namespace {
 void level_choice_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
                           const LevelChooser& other) {
 #include "index/indexing/level_choice.example"
+}
+
+void mesh_clusters_example(const CellMesh& mesh, const std::stop_token& stop) {
+#include "index/surface/mesh_clusters.example"
 }
 
 void cell_thinning_example(std::vector<CellPoint> cells, std::uint64_t most) {

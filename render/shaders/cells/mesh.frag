@@ -50,7 +50,10 @@ void main() {
     vec3 shown = base * lit.x + lit.y;
 #ifdef BLENDED
     shown = written(shown);
-    float alpha = surfaces[of_surface].a * near_share(at_in_eye);
+    float alpha = surfaces[of_surface].a;
+#ifdef NEAR
+    alpha *= near_share(at_in_eye);
+#endif
     result = vec4(shown * alpha, alpha);
 #else
 #if defined(NEAR)

@@ -124,11 +124,23 @@ const vec3 voxel = vec3(1);
 
 vec3 in_eye(vec3 p) { return center_in_eye + mat3(EYE(eye_from_index)) * (voxel * p); }
 
+// The color at a point, in linear light: interpolated as the surface's own value is.
+vec3 base_at(vec3 p) {
+#ifdef COLORS
+    vec3 about = color_mixed.xyz + color_mixed.w * p.zyx;
+    float share = color_linear.x + color_linear.y * p.x + (color_linear.z + color_mixed.x * p.x) * p.y +
+                  (color_linear.w + color_mixed.y * p.x + about.z * p.y) * p.z;
+    return color_known == 0u ? no_value.rgb : mapped_color(share);
+#else
+    return base.rgb;
+#endif
+}
+
 vec3 light_at(vec3 p) {
     vec3 normal = gradient(p);
     vec3 toward_eye = toward_eye_in_index(center_place + voxel * p);
     float share = unshadowed(center_in_index + p, toward_eye, voxel, normal, surface);
-    return written(share * shade(in_eye(p), normal, base.rgb));
+    return written(share * shade(in_eye(p), normal, base_at(p)));
 }
 
 // Pre-multiplied.

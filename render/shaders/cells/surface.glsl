@@ -21,6 +21,10 @@ OF_CELL vec4 base; // color in linear light, opacity
 // for the value, in any scale, and for the gradient towards lower values in physical space.
 OF_CELL vec4 linear, mixed;
 OF_CELL vec3 gradient_linear[4], gradient_mixed[4];
+#ifdef COLORS
+OF_CELL vec4 color_linear, color_mixed; // for the color coordinate, 0 to 1
+OF_CELL uint color_known;               // 0: a vertex has no value
+#endif
 
 // The coefficients of xy, xz and yz relative to `p`.
 vec3 mixed_at(vec3 p) { return mixed.xyz + mixed.w * p.zyx; }

@@ -8,6 +8,9 @@
 layout(binding = 0) uniform usamplerBuffer cells;
 layout(binding = 3) uniform samplerBuffer corner_values;
 layout(binding = 4) uniform usamplerBuffer corner_gradients;
+#ifdef COLORS
+layout(binding = 8) uniform usamplerBuffer corner_colors;
+#endif
 
 #include "frame.glsl"
 #include "pixels.glsl"
@@ -21,7 +24,7 @@ const vec2 kCorners[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 
 const float kMargin = 0.002; // around the surface [voxels], so that rounding leaves no gaps
 
 // @param low, high values at the corners with the lower and the higher z, x fastest
-void set_value(vec4 low, vec4 high) {
+void find_polynomial(vec4 low, vec4 high, out vec4 linear, out vec4 mixed) {
     const vec4 kOne = vec4(1), kX = vec4(-1, 1, -1, 1), kY = vec4(-1, -1, 1, 1), kXY = kX * kY;
     vec4 sum = low + high, difference = high - low;
     linear = vec4(0.125 * dot(sum, kOne), 0.25 * dot(sum, kX), 0.25 * dot(sum, kY),
@@ -185,8 +188,16 @@ void main() {
     float largest = max(max(size.x, size.y), max(size.z, size.w));
     low /= largest;
     high /= largest;
-    set_value(low, high);
+    find_polynomial(low, high, linear, mixed);
     set_gradient(corners);
+#ifdef COLORS
+    // Two corners along x in each word.
+    uvec4 words = texelFetch(corner_colors, slot);
+    uvec4 first = words & 0xffffu, second = words >> 16;
+    color_known = all(lessThan(max(first, second), uvec4(65535u))) ? 1u : 0u;
+    find_polynomial(vec4(first.x, second.x, first.y, second.y) / 65534.0,
+                    vec4(first.z, second.z, first.w, second.w) / 65534.0, color_linear, color_mixed);
+#endif
 
     vec2 x = extent(vec4(low.xz, high.xz), vec4(low.yw, high.yw));
     vec2 y = extent(vec4(low.xy, high.xy), vec4(low.zw, high.zw));

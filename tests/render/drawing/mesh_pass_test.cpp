@@ -64,7 +64,7 @@ class MeshPassTest : public GlTest {
                     set->colors.push_back(
                         static_cast<std::uint16_t>((point.x + 0.5) / 30 * index::kColorSteps));
             }
-        set->later->put(index::simplified(*set, {}));
+        set->later->put(index::simplified(set->surfaces, {}));
         return set;
     }
 

@@ -190,6 +190,7 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
     if (frame.drawn) {
         same.cells = frame.drawn->cells;
         same.footprint = frame.drawn->footprint;
+        same.resolution = frame.drawn->resolution;
         same.scale = frame.drawn->scale;
     }
     const bool stays = frame.drawn && same_cells(same, *frame.drawn);

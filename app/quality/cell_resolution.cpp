@@ -6,6 +6,14 @@
 
 namespace isochron::app {
 
+CellResolution::CellResolution(double least) {
+    constexpr double kRounding = 1e-3;
+    while (count_ < kCellResolutions.size() && kCellResolutions[count_] >= least - kRounding)
+        ++count_;
+    if (count_ <= kBeforeCells)
+        shares_[kBeforeCells] = 1;
+}
+
 void CellResolution::learn(std::size_t step, double share) {
     constexpr double kNewestShare = 0.15, kLeast = 0.2, kMost = 2;
     if (step == 0)
@@ -23,7 +31,7 @@ std::size_t CellResolution::choose(const std::optional<Milliseconds>& expected, 
                shares_[step] * *expected <= (step < step_ ? kFitsFiner : kFits) * budget;
     };
     std::size_t wanted = 0;
-    while (wanted + 1 < kCellResolutions.size() && !fits(wanted))
+    while (wanted + 1 < count_ && !fits(wanted))
         ++wanted;
     // Where fewer pixels save nothing, there is no reason for them.
     constexpr double kSaves = 0.95;

@@ -18,6 +18,9 @@ class CellResolution {
     /// Number of the resolution down to which pixels are given up before cells are.
     static constexpr std::size_t kBeforeCells = 2;
 
+    /// @param least share of width and height that is drawn: 1 gives up no pixel
+    explicit CellResolution(double least = 0);
+
     /// @param step number of a resolution @param share of the expected cost of all pixels
     void learn(std::size_t step, double share);
     double share(std::size_t step) const { return shares_[step]; }
@@ -29,6 +32,7 @@ class CellResolution {
 
   private:
     std::array<double, kCellResolutions.size()> shares_{1.0, 0.8, 0.65, 0.55}; ///< until measured
+    std::size_t count_ = 1; ///< of the resolutions that may be taken
     std::array<bool, kCellResolutions.size()> measured_{};
     std::size_t step_ = 0;
     std::optional<interaction::Seconds> changed_;

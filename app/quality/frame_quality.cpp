@@ -25,6 +25,7 @@ FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
     : settled_(config.quality.settled), wanted_budget_(config.quality.frame_budget_ms),
       still_budget_(config.quality.still_budget_ms), longest_(config.quality.longest_ms),
+      resolution_(config.quality.least_resolution),
       configured_period_(period_of(config, refresh_rate)), period_(configured_period_),
       promise_(promise_for(wanted_budget_.count() > 0 ? wanted_budget_ : period_, false)),
       steady_(promise_.wanted()), still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
@@ -146,7 +147,8 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
         if (!splats)
             set->remove(render::Footprint::gaussian);
     input.available = available;
-    if (resting_ && still) // a button that moves nothing drops no picture
+    // A button that moves nothing drops no picture; what is asked for anew comes first.
+    if (resting_ && still && report.shown == report.asked)
         input.pace = interaction::Pace::settled;
     const auto in_the_end = partial(input, how);
     if (still || report.pace == interaction::Pace::moving)

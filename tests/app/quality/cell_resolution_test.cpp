@@ -24,6 +24,11 @@ TEST(CellResolution, IsTheFinestThatFits) {
         EXPECT_TRUE(resolution.share(step) * cost <= 0.9 * 16 ||
                     step + 1 == kCellResolutions.size());
     }
+    for (const double least : {1.0, 0.71, 0.5, 0.35}) {
+        CellResolution resolution(least);
+        const std::size_t step = resolution.choose(Milliseconds(1000), kOfFrame, Seconds(0));
+        EXPECT_NEAR(kCellResolutions[step], least, 1e-6);
+    }
     CellResolution unknown;
     EXPECT_EQ(unknown.choose(std::nullopt, kOfFrame, Seconds(0)), 0u);
 }

@@ -142,6 +142,7 @@ TEST_P(SessionDetail, FewerPixelsOfTheCellsKeepTheirRimsAndAreGivenUpBeforeCells
     const auto moving = [&](double budget_ms, std::size_t& resolution) {
         Config own = config;
         own.quality.frame_budget_ms = budget_ms;
+        own.quality.least_resolution = 0.35;
         own.rendering.level_of_detail = false; // all cells
         Session session(own, large_, *context_);
         FrameReport report = first_frame(session, true);

@@ -2,6 +2,7 @@
 #include "app/cluster/cluster_messages.h"
 
 #include "app/cluster/cbor_nesting.h"
+#include "app/frame/cell_resolutions.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/json_values.h"
 #include "interaction/recording/recording_json.h"
@@ -81,11 +82,16 @@ DrawLoad load_from(const json& value) {
     return {number(value[0], "load"), number(value[1], "load")};
 }
 
+std::size_t resolution_from(const json& value) {
+    return natural(value, "resolution", static_cast<unsigned>(kCellResolutions.size() - 1));
+}
+
 json sample_json(const DrawSample& sample) {
     json result{{"frame", sample.frame},
                 {"footprint", sample.footprint},
                 {"load", load_json(sample.load)},
-                {"processor", sample.processor.count()}};
+                {"processor", sample.processor.count()},
+                {"resolution", sample.resolution}};
     if (sample.gpu)
         result["gpu"] = sample.gpu->count();
     return result;
@@ -98,9 +104,10 @@ DrawSample sample_from(const json& value) {
     sample.footprint = footprint_from(members.at("footprint"));
     sample.load = load_from(members.at("load"));
     sample.processor = Milliseconds(number(members.at("processor"), "processor"));
+    sample.resolution = resolution_from(members.at("resolution"));
     if (const json* gpu = members.find("gpu"))
         sample.gpu = Milliseconds(number(*gpu, "gpu"));
-    members.done({"frame", "footprint", "load", "processor", "gpu"});
+    members.done({"frame", "footprint", "load", "processor", "resolution", "gpu"});
     return sample;
 }
 
@@ -161,7 +168,8 @@ MessageBytes encoded(const FramePlan& plan) {
                {"shows_parts", plan.shows_parts},
                {"holds_finer", plan.holds_finer},
                {"all_at_rest", plan.all_at_rest},
-               {"moves_finest", plan.moves_finest}};
+               {"moves_finest", plan.moves_finest},
+               {"resolution", plan.resolution}};
     if (plan.in_parts)
         value["in_parts"] = *plan.in_parts;
     if (plan.unseen)
@@ -184,13 +192,15 @@ FramePlan decode_plan(std::span<const std::byte> bytes) {
         boolean(members.at("shows_parts"), "shows_parts"),
         boolean(members.at("holds_finer"), "holds_finer"),
         boolean(members.at("all_at_rest"), "all_at_rest"),
-        boolean(members.at("moves_finest"), "moves_finest")};
+        boolean(members.at("moves_finest"), "moves_finest"),
+        resolution_from(members.at("resolution"))};
     if (const json* in_parts = members.find("in_parts"))
         plan.in_parts = footprint_from(*in_parts);
     if (const json* unseen = members.find("unseen"))
         plan.unseen = footprint_from(*unseen);
     members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
-                  "shows_parts", "holds_finer", "all_at_rest", "moves_finest", "unseen"});
+                  "shows_parts", "holds_finer", "all_at_rest", "moves_finest", "resolution",
+                  "unseen"});
     return plan;
 }
 

@@ -43,6 +43,7 @@ void read_quality(TomlReader& reader, Config& config) {
     });
     reader.number("frame_budget_ms", 0.0, 1000.0, config.quality.frame_budget_ms);
     reader.number("longest_ms", 0.0, 1000.0, config.quality.longest_ms);
+    reader.number("least_resolution", 0.35, 1.0, config.quality.least_resolution);
     reader.number("still_budget_ms", 0.0, 10000.0, config.quality.still_budget_ms);
     reader.number("still_linear", 0.0, 10.0, config.quality.stillness.linear);
     reader.number("still_angular", 0.0, 10.0, config.quality.stillness.angular);

@@ -47,6 +47,9 @@ struct QualityConfig {
     /// [ms] that a moving picture may take, at most, where it could not be recognized otherwise;
     /// 0: the budget.
     double longest_ms = 100;
+    /// Share of a view's width and height in which cells of moving pictures are drawn at least;
+    /// 1: in all pixels.
+    double least_resolution = 0.35;
     /// [ms] for drawing a picture at rest, at once or in parts; 0: the same as for other frames.
     double still_budget_ms = 500;
     interaction::StillnessLimits stillness;

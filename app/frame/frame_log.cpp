@@ -1,6 +1,7 @@
 // A log of all frames, and its summary as text and JSON.
 #include "app/frame/frame_log.h"
 
+#include "app/frame/cell_resolutions.h"
 #include "app/frame/late_frame.h"
 #include "app/version.h"
 #include "index/system/new_file.h"
@@ -228,6 +229,7 @@ void FrameLog::write(const std::filesystem::path& path, const std::string& conte
                                                                : nlohmann::json()},
                            {"reason", name_of(frame.reason)},
                            {"budget_ms", frame.budget.count()},
+                           {"resolution", kCellResolutions[frame.resolution]},
                            {"promised_ms", frame.promised.count()},
                            {"expected_ms", time_json(frame.expected)},
                            {"missed", frame.missed},

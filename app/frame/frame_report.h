@@ -10,6 +10,7 @@
 #include "render/cells/footprints.h"
 #include "render/cells/upload_count.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,6 +31,7 @@ struct FrameDrawing {
     bool slower = false;      ///< that is longer than wanted, so that the picture is recognized
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
+    std::size_t resolution = 0;           ///< of the cells, by number: see `kCellResolutions`
     std::optional<render::Footprint> in_parts; ///< of the picture at rest in parts, if any
     bool redrawn = true;                       ///< false: nothing that the eyes see had changed
 };

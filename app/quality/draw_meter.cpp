@@ -10,9 +10,10 @@ void DrawMeter::begin(std::uint64_t frame) {
     timed_ = timer_.begin(frame, Clock::now());
 }
 
-void DrawMeter::end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor) {
+void DrawMeter::end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor,
+                    std::size_t resolution) {
     timer_.end();
-    const DrawSample sample{frame_, footprint, load, processor, std::nullopt};
+    const DrawSample sample{frame_, footprint, load, processor, std::nullopt, resolution};
     if (timed_)
         under_way_.push_back(sample);
     else if (!timer_.works())

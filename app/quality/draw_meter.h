@@ -20,6 +20,7 @@ struct DrawSample {
     DrawLoad load;
     Milliseconds processor{0};       ///< to give all commands
     std::optional<Milliseconds> gpu; ///< to execute them, from the first to the last
+    std::size_t resolution = 0;      ///< of the cells, by number: see `kCellResolutions`
     bool operator==(const DrawSample&) const = default;
 
     /// The time that limits the frame rate: both work at the same time, so the slower one counts.
@@ -34,7 +35,9 @@ class DrawMeter {
 
     void begin(std::uint64_t frame);
     /// @param processor time of giving the commands
-    void end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor);
+    /// @param resolution of the cells, by number
+    void end(render::Footprint footprint, const DrawLoad& load, Milliseconds processor,
+             std::size_t resolution = 0);
 
     /// Frames whose times have become known since the last call, in order. Does not wait; leaves
     /// out frames that were drawn while the GPU was far behind.

@@ -5,6 +5,7 @@
 #include "index/volume/query.h"
 #include "render/cells/footprints.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace isochron::app {
@@ -25,6 +26,7 @@ struct FramePlan {
     bool all_at_rest = false; ///< all cells are wanted for this picture at rest
     /// The set for pictures at rest is drawn while the picture moves, too: it fits.
     bool moves_finest = false;
+    std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
     /// Footprint to measure off screen, in the time that frames leave; empty: none.
     std::optional<render::Footprint> unseen{};
     bool operator==(const FramePlan&) const = default;

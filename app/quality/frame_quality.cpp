@@ -25,6 +25,7 @@ FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
     : settled_(config.quality.settled), wanted_budget_(config.quality.frame_budget_ms),
       still_budget_(config.quality.still_budget_ms), longest_(config.quality.longest_ms),
+      resolution_(config.quality.least_resolution),
       configured_period_(period_of(config, refresh_rate)), period_(configured_period_),
       promise_(promise_for(wanted_budget_.count() > 0 ? wanted_budget_ : period_, false)),
       steady_(promise_.wanted()), still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
@@ -64,6 +65,11 @@ void FrameQuality::learn(std::span<const DrawSample> samples) {
         // The first picture of all makes what all further ones have, such as the panel's font.
         if (sample.load.cells <= 0 && !std::exchange(begun_, true))
             continue;
+        if (sample.resolution > 0) {
+            if (const auto all = steady_.expected(sample.footprint, sample.load))
+                resolution_.learn(sample.resolution, sample.cost() / *all);
+            continue;
+        }
         for (QualityController* controller : {&steady_, &still_})
             controller->measured(sample.footprint, sample.load, sample.cost());
     }
@@ -80,7 +86,7 @@ std::optional<MotionCosts> FrameQuality::motion_costs() const {
         return std::nullopt;
     // A configured budget is one for drawing alone.
     const Milliseconds beside = wanted_budget_.count() > 0 ? Milliseconds(0) : beside_;
-    return MotionCosts{beside, *none, (*many - *none) / kMany};
+    return MotionCosts{beside, *none, (*many - *none) / kMany, least_share()};
 }
 
 /// Promises a time for moving pictures; what presenting leaves of it is their budget.
@@ -105,7 +111,7 @@ bool FrameQuality::fits_in_motion(std::uint64_t cells, bool moves) const {
     constexpr double kTakenUp = 0.85;
     const auto cost = steady_.expected(
         render::Footprint::quad, {static_cast<double>(cells) * charged_.cells, charged_.pixels});
-    return cost && *cost <= (moves ? 1.0 : kTakenUp) * steady_.budget();
+    return cost && least_share() * *cost <= (moves ? 1.0 : kTakenUp) * steady_.budget();
 }
 
 bool FrameQuality::may_be_shown_in_motion(std::uint64_t cells) const {
@@ -141,7 +147,8 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
         if (!splats)
             set->remove(render::Footprint::gaussian);
     input.available = available;
-    if (resting_ && still) // a button that moves nothing drops no picture
+    // A button that moves nothing drops no picture; what is asked for anew comes first.
+    if (resting_ && still && report.shown == report.asked)
         input.pace = interaction::Pace::settled;
     const auto in_the_end = partial(input, how);
     if (still || report.pace == interaction::Pace::moving)
@@ -173,11 +180,13 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     plan.mesh |= plan.unseen == render::Footprint::mesh;
     if (plan.unseen && !available.has(*plan.unseen))
         plan.unseen.reset();
+    if (how == Choosing::with_parts && !still && input.mode == interaction::QualityMode::automatic)
+        choose_resolution(plan, choice, report);
     // What a mesh or parts may still change is not final.
     plan.holds_finer = in_the_end && *in_the_end != choice.footprint;
     const bool parts_come = plan.holds_finer && report.time - swayed_since_ < kNeverStill;
-    plan.final =
-        choice.final && with_all.final && choice.footprint == with_all.footprint && !parts_come;
+    plan.final = plan.resolution == 0 && choice.final && with_all.final &&
+                 choice.footprint == with_all.footprint && !parts_come;
     report.retries = choice.retries;
     report.budget = controller.budget();
     report.expected = choice.cost;
@@ -190,6 +199,21 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
         resting_->plan.measure = false;
     }
     return plan;
+}
+
+/// Pixels are given up before cells are.
+void FrameQuality::choose_resolution(FramePlan& plan, const QualityChoice& choice,
+                                     const FrameReport& report) {
+    if (choice.footprint != render::Footprint::quad || report.cells == 0)
+        return;
+    plan.resolution = resolution_.choose(choice.cost, steady_.budget(), report.time);
+    plan.measure &= plan.resolution == 0;
+}
+
+/// The share of the time in all pixels that a moving picture takes in as few as are drawn before
+/// cells are given up.
+double FrameQuality::least_share() const {
+    return std::min(resolution_.share(CellResolution::kBeforeCells), 1.0);
 }
 
 /// The footprint that this picture at rest is to have in the end, if it is made in parts.
@@ -231,7 +255,8 @@ std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const
     const bool moves = pace == interaction::Pace::moving;
     const double share = moves ? MotionPromise::kRoom : kShare;
     const Milliseconds budget = (moves ? steady_ : still_).budget();
-    return std::max(0.0, (share * budget - costs->fixed) / costs->of_cell);
+    const Milliseconds room = share * budget / (moves ? least_share() : 1.0);
+    return std::max(0.0, (room - costs->fixed) / costs->of_cell);
 }
 
 void FrameQuality::begin(std::uint64_t frame) {
@@ -241,7 +266,7 @@ void FrameQuality::begin(std::uint64_t frame) {
 void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor) {
     view_ = of_cell;
     meter_.end(report.footprint, {static_cast<double>(report.cells) * view_.cells, view_.pixels},
-               processor);
+               processor, report.resolution);
 }
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {

@@ -14,6 +14,7 @@
 #include "app/config/config.h"
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
+#include "app/quality/cell_resolution.h"
 #include "app/quality/draw_meter.h"
 #include "app/quality/frame_plan.h"
 #include "app/quality/motion_promise.h"
@@ -118,6 +119,8 @@ class FrameQuality {
     };
     std::optional<render::Footprint> partial(const QualityInput& input, Choosing how) const;
     std::optional<MotionCosts> motion_costs() const;
+    double least_share() const;
+    void choose_resolution(FramePlan& plan, const QualityChoice& choice, const FrameReport& report);
     void keep_promise(FrameReport& report, Choosing how);
     MotionPromise promise_for(Milliseconds wanted, bool in_headset) const;
 
@@ -128,6 +131,7 @@ class FrameQuality {
     const Milliseconds configured_period_;            ///< of frames without a headset
     Milliseconds period_;                             ///< of frames now
     MotionPromise promise_;
+    CellResolution resolution_;
     bool begun_ = false;                     ///< a picture without cells was measured
     std::optional<std::uint64_t> all_cells_; ///< of level 0, as last counted
     Milliseconds beside_{0};                 ///< that presenting takes

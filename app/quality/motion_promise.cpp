@@ -13,8 +13,8 @@ constexpr double kSpare = 1.1;
 
 } // namespace
 
-Milliseconds MotionPromise::needed(const MotionCosts& costs, double cells) const {
-    return costs.beside + (costs.fixed + cells * costs.of_cell) / kRoom;
+Milliseconds MotionPromise::needed(const MotionCosts& costs, double cells, double share) {
+    return costs.beside + share * (costs.fixed + cells * costs.of_cell) / kRoom;
 }
 
 void MotionPromise::update(const std::optional<MotionCosts>& costs,
@@ -26,8 +26,9 @@ void MotionPromise::update(const std::optional<MotionCosts>& costs,
         return std::clamp(time, wanted_, std::max(wanted_, limit));
     };
     const auto wish = [&](double spare) {
-        return std::max(within(spare * needed(*costs, all), limits_.all),
-                        within(spare * needed(*costs, kLeastShare * all), limits_.least));
+        return std::max(
+            within(spare * needed(*costs, all), limits_.all),
+            within(spare * needed(*costs, kLeastShare * all, costs->few_pixels), limits_.least));
     };
     const Milliseconds least = wish(1);
     if (time_ >= least && time_ <= std::max(wanted_, kStays * least))

@@ -1,8 +1,4 @@
 // The time that is promised for each moving picture: as short as the picture can still be recognized.
-//
-//     MotionPromise promise(Milliseconds(8.3), {.at_ease = Milliseconds(33.3)});
-//     promise.update({.beside = ..., .fixed = ..., .of_cell = ...}, all_cells, report.time);
-//     draw_within(promise.time() - beside);
 #pragma once
 
 #include "app/frame/milliseconds.h"
@@ -18,6 +14,7 @@ struct MotionCosts {
     Milliseconds beside{0};  ///< what is done for a frame besides drawing: presenting
     Milliseconds fixed{0};   ///< of drawing, what no number of cells changes
     Milliseconds of_cell{0}; ///< of one cell in all views
+    double few_pixels = 1;   ///< share of drawing's time that is left in fewer pixels
 };
 
 /// Recognition comes before the rate. A picture is recognized if it has at least an eighth of the
@@ -52,7 +49,7 @@ class MotionPromise {
     Milliseconds wanted() const { return wanted_; }
 
   private:
-    Milliseconds needed(const MotionCosts& costs, double cells) const;
+    static Milliseconds needed(const MotionCosts& costs, double cells, double share = 1);
 
     Milliseconds wanted_;
     Limits limits_;

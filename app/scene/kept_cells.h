@@ -1,10 +1,4 @@
 // The picture of the cells, kept apart from the lines, marks, guides and texts that are drawn over it.
-//
-//     if (!kept.draw_again(picture, views)) {
-//         draw the background and the cells
-//         kept.keep(picture, views);
-//     }
-//     draw what lies among and over the cells
 #pragma once
 
 #include "app/scene/picture.h"

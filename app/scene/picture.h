@@ -45,6 +45,7 @@ struct Picture {
     render::Veil veil;
     interaction::Similarity room_from_physical;
     render::Footprint footprint{};
+    std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
     index::ExtractionPtr cells;
     std::vector<interaction::Isosurface> isosurfaces;
     std::string value_unit; ///< of their isovalues

@@ -1,6 +1,7 @@
 // Draws what the eyes see: the cells, the volume's box, the legend, the wand and the floor.
 #include "app/scene/scene.h"
 
+#include "app/frame/cell_resolutions.h"
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
@@ -13,6 +14,7 @@
 #include "render/gl/shader.h"
 #include "render/gl/viewport.h"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -101,6 +103,14 @@ render::Line wand_ray(const Picture& picture, const Aids& aids) {
     return {wand.position, end, kWandColor};
 }
 
+/// A box that holds all cells, which may reach a little out of the volume.
+glm::mat4 around_cells(const render::Placement& placement) {
+    constexpr float kBeyond = 0.03f; // of the volume
+    const glm::mat4 larger = glm::translate(glm::mat4(1.0f), -kBeyond * placement.extent);
+    return placement.room_from_index *
+           glm::scale(larger, (1.0f + 2.0f * kBeyond) * placement.extent);
+}
+
 /// Whether the cells write depth, so that they hide things behind them that are drawn later.
 bool writes_depth(render::Footprint footprint, const render::CellAppearance& appearance) {
     return footprint == render::Footprint::quad ||
@@ -126,7 +136,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       kept_(gl),
       cell_pass_(gl, {.shape = config.rendering.cell_shape}, render::prelude_for(info.grid)),
       line_pass_(gl), text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
-      veil_pass_(gl) {
+      enlarge_(gl), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (config.comfort.near_whole > 0)
@@ -173,8 +183,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const render::Placement placement = placement_of(picture);
     // Rank 0 may have chosen a footprint that these cells do not have here yet.
     const render::Footprint footprint = cells_.footprints().best(picture.footprint);
-    const bool again = part.begins && part.ends && part.cells == render::DrawPart{} &&
-                       kept_.draw_again(picture, views);
+    const bool is_whole = part.begins && part.ends && part.cells == render::DrawPart{};
+    const bool again = is_whole && kept_.draw_again(picture, views);
     const auto background = background_of(picture.look);
     if (background && part.begins && !again)
         for (const render::View& view : views)
@@ -189,9 +199,11 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
         cells_.compute_corners();
     if (appearance.near_fade && !views.empty()) // all views are of one viewer
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
-    const std::size_t done = again ? 0
-                                   : cell_pass_.draw(views, placement, cells_.drawn(), footprint,
-                                                     appearance, part.cells);
+    std::size_t done = 0;
+    if (picture.resolution > 0 && footprint == render::Footprint::quad && is_whole && !again)
+        draw_in_few_pixels(picture, views, placement, appearance);
+    else if (!again)
+        done = cell_pass_.draw(views, placement, cells_.drawn(), footprint, appearance, part.cells);
     if (!part.ends)
         return done;
     if (depth && part.keeps && !again && footprint == picture.footprint)
@@ -204,6 +216,14 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     return done;
 }
 
+void Scene::draw_in_few_pixels(const Picture& picture, std::span<const render::View> views,
+                               const render::Placement& placement,
+                               const render::CellAppearance& appearance) {
+    enlarge_.begin(views, kCellResolutions[picture.resolution], appearance.linear_light);
+    cell_pass_.draw(enlarge_.few(), placement, cells_.drawn(), render::Footprint::quad, appearance);
+    enlarge_.end(views, around_cells(placement));
+}
+
 void Scene::warm_up(const Picture& picture, std::span<const render::View> views) {
     draw(picture, views);
     std::vector<render::Footprint> footprints{render::Footprint::quad, render::Footprint::gaussian};
@@ -213,6 +233,8 @@ void Scene::warm_up(const Picture& picture, std::span<const render::View> views)
     render::CellAppearance appearance = appearance_of(picture);
     if (appearance.near_fade && !views.empty())
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
+    enlarge_.begin(views, kCellResolutions.back(), appearance.linear_light);
+    enlarge_.end(views, around_cells(placement_of(picture)));
     draw_small_surface(gl_, cell_pass_, views, info_.grid, matrix(picture.room_from_physical),
                        footprints, appearance);
 }

@@ -13,6 +13,7 @@
 #include "render/drawing/cell_pass.h"
 #include "render/gl/view.h"
 #include "render/passes/background_pass.h"
+#include "render/passes/enlarge_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
 #include "render/passes/text_pass.h"
@@ -75,6 +76,9 @@ class Scene {
   private:
     render::CellAppearance appearance_of(const Picture& picture);
     render::Placement placement_of(const Picture& picture) const;
+    void draw_in_few_pixels(const Picture& picture, std::span<const render::View> views,
+                            const render::Placement& placement,
+                            const render::CellAppearance& appearance);
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
     void draw_before_cells(std::span<const render::View> views, const Picture& picture,
@@ -100,6 +104,7 @@ class Scene {
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;
+    render::EnlargePass enlarge_;
     render::VeilPass veil_pass_;
 };
 

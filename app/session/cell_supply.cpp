@@ -191,6 +191,7 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
     if (frame.drawn) {
         same.cells = frame.drawn->cells;
         same.footprint = frame.drawn->footprint;
+        same.resolution = frame.drawn->resolution;
         same.scale = frame.drawn->scale;
     }
     const bool stays = frame.drawn && same_cells(same, *frame.drawn);
@@ -202,11 +203,13 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
     rests_ = !frame.is_live() || frame.is_kept ||
              frame.report.time - constant_since_ >= FrameQuality::kStillAfter;
     const index::ExtractionPtr& resting = sets_.held(CellSets::Use::at_rest);
-    if (frame.is_live() && stays && frame.drawn->cells == resting && shows(resting, frame)) {
-        // Pace says when work begins, not which of two sets is shown.
+    const bool newest = shows(resting, frame) || !shows(sets_.held(CellSets::Use::always), frame);
+    if (frame.is_live() && stays && resting && frame.drawn->cells == resting && newest) {
+        // Pace says when work begins, not which of two sets is shown; and what is there is shown
+        // until what was asked for has come.
         if (sets_.shown() == resting)
             return false;
-        sets_.draw_at_rest(true, frame.report.asked);
+        sets_.draw_at_rest(true, resting->query.of_cells());
         report_cells(frame.report);
         return true;
     }

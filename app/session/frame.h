@@ -13,6 +13,12 @@
 
 namespace isochron::app {
 
+/// A live step that stands for long settles; a replay goes on by what was recorded.
+constexpr interaction::Playing playing_in(Waiting waiting) {
+    return waiting == Waiting::never ? interaction::Playing::moves_by_steps
+                                     : interaction::Playing::moves;
+}
+
 struct Frame {
     const ExplorerState& state; ///< after this frame's commands
     const index::IndexFile& file;

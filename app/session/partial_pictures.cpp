@@ -32,6 +32,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
 
 void PartialPictures::give_up_others(const Picture& drawn) {
     Picture same = drawn;
+    same.resolution = 0;
     if (parts_)
         same.footprint = parts_->picture.footprint;
     if (parts_ && !same_cells(parts_->picture, same))

@@ -27,6 +27,7 @@ bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) cons
     Picture same = now;
     same.cells = frame.drawn->cells;
     same.footprint = frame.drawn->footprint;
+    same.resolution = frame.drawn->resolution;
     same.scale = frame.drawn->scale; // whose range may be percentiles of the cells
     return same == frame.drawn;
 }
@@ -46,8 +47,10 @@ FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
     // Pace says when work begins, not what is shown: what is there stays until something changes.
     if (frame.is_live() && !options.changed && !plan.in_parts &&
         plan.reason == QualityReason::moving && frame.drawn->footprint > plan.footprint &&
-        options.available.has(frame.drawn->footprint))
+        options.available.has(frame.drawn->footprint)) {
         plan.footprint = frame.drawn->footprint;
+        plan.resolution = frame.drawn->resolution;
+    }
     return plan;
 }
 
@@ -66,6 +69,7 @@ void PictureChoice::agree(const Frame& frame, FramePlan plan) {
     frame.plan = frame.sharing.agree(plan);
     report.in_parts = frame.plan.in_parts;
     report.footprint = frame.plan.footprint;
+    report.resolution = frame.plan.resolution;
     report.reason = frame.plan.reason;
     report.final = frame.plan.final;
 }
@@ -98,6 +102,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
         agree(frame, plan);
     }
     now.footprint = report.footprint;
+    now.resolution = report.resolution;
     rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
     // While a headset wants no picture, there is nothing to draw or to measure.

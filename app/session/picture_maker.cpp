@@ -98,6 +98,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                  static_cast<float>(frame.report.comfort.vignette)},
         .room_from_physical = state.room_from_physical,
         .footprint = frame.drawn ? frame.drawn->footprint : render::Footprint{},
+        .resolution = frame.drawn ? frame.drawn->resolution : 0,
         .cells = sets_.shown(),
         .isosurfaces = state.isosurfaces,
         .value_unit = arrays_.shown(state).info().value_unit,

@@ -12,11 +12,8 @@
 #include <utility>
 
 namespace isochron::app {
-namespace {
 
 using interaction::Commands;
-
-} // namespace
 
 Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  stereo::Windows windows, index::Extract extract,
@@ -345,9 +342,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     obey(commands, input);
     report.comfort = comfort_.update(input, state_.room_from_physical);
     report.asked = arrays_.surfaces(state_);
-    report.pace = gate_.update(rest, commands, state_.quality,
-                               waiting == Waiting::never ? interaction::Playing::moves_by_steps
-                                                         : interaction::Playing::moves);
+    report.pace = gate_.update(rest, commands, state_.quality, playing_in(waiting));
     const Frame frame{.state = state_,
                       .file = *arrays_.file(),
                       .steps = steps(),

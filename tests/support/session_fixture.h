@@ -62,6 +62,7 @@ inline Config small_config(stereo::StereoMode mode = stereo::StereoMode::side_by
     config.installation.windows.front().size = {256, 128};
     config.installation.windows.front().stereo = mode;
     config.quality.longest_ms = 0; // budgets are as tests have them
+    config.quality.least_resolution = 1;
     return config;
 }
 

@@ -169,6 +169,7 @@ mode = "fast"
 settled = "gaussian"
 frame_budget_ms = 8.5
 longest_ms = 50
+least_resolution = 0.5
 still_budget_ms = 200
 )",
                                        "lab.toml");
@@ -185,6 +186,7 @@ still_budget_ms = 200
     EXPECT_EQ(config.quality.settled, render::Footprint::gaussian);
     EXPECT_DOUBLE_EQ(config.quality.frame_budget_ms, 8.5);
     EXPECT_DOUBLE_EQ(config.quality.longest_ms, 50);
+    EXPECT_DOUBLE_EQ(config.quality.least_resolution, 0.5);
     EXPECT_DOUBLE_EQ(config.quality.still_budget_ms, 200);
 }
 

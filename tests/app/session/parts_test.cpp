@@ -163,10 +163,29 @@ TEST_P(Parts, ShowNothingUntilTheyAreWhole) {
     EXPECT_NE(pictures(session), before);
 }
 
+TEST_P(Parts, GoOnWhereOnlyWhatLiesOverTheCellsChanges) {
+    Session session(partial(), file_, *context_);
+    start(session);
+    ASSERT_TRUE(begin_parts(session));
+    Commands commands;
+    commands.bounding_box = false;
+    const FrameReport report = frame(session, commands);
+    EXPECT_TRUE(report.in_parts);
+    EXPECT_TRUE(report.redrawn) << "the box is gone at once";
+    EXPECT_TRUE(rests_until(session, &FrameReport::final, 0));
+    Session reference(partial(), file_, *context_);
+    start(reference);
+    frame(reference, commands);
+    EXPECT_TRUE(rests_until(reference, &FrameReport::final, 0));
+    EXPECT_EQ(pictures(session), pictures(reference));
+}
+
 TEST_P(Parts, AreGivenUpInTheFrameThatChangesSomething) {
     const std::function<void(Commands&, double&)> changes[] = {
         [](Commands&, double& head) { head = 0.2; },
-        [](Commands& commands, double&) { commands.bounding_box = false; },
+        [](Commands& commands, double&) {
+            commands.look.emplace().background = interaction::Background::light;
+        },
         [](Commands& commands, double&) { commands.stereo = "top_bottom"; },
         [](Commands& commands, double&) { commands.step = 1; }};
     for (const auto& change : changes) {

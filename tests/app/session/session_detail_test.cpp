@@ -126,6 +126,42 @@ TEST_P(SessionDetail, WhatMovesCanBeRecognizedHoweverSmallTheBudget) {
     }
 }
 
+/// Pixels of the first window that are not the background's.
+double lit_of(const Session& session) {
+    const auto rgba = session.outputs().display().read_window().rgba;
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        lit += rgba[i] > 60;
+    return static_cast<double>(lit) / static_cast<double>(rgba.size() / 4);
+}
+
+TEST_P(SessionDetail, FewerPixelsOfTheCellsKeepTheirRimsAndAreGivenUpBeforeCells) {
+    Config config = config_with(1e-6);
+    config.installation.windows.front().stereo = stereo::StereoMode::mono;
+    config.rendering.bounding_box = false;
+    const auto moving = [&](double budget_ms, std::size_t& resolution) {
+        Config own = config;
+        own.quality.frame_budget_ms = budget_ms;
+        own.quality.least_resolution = 0.35;
+        own.rendering.level_of_detail = false; // all cells
+        Session session(own, large_, *context_);
+        FrameReport report = first_frame(session, true);
+        EXPECT_TRUE(test_support::eventually([&] {
+            report = frame(session, true);
+            return report.cells > 0 && report.redrawn && (report.resolution > 0 || budget_ms > 1) &&
+                   report.expected;
+        }));
+        resolution = report.resolution;
+        return lit_of(session);
+    };
+    std::size_t few = 0, all = 0;
+    const double lit = moving(1e-6, few), whole = moving(1e7, all);
+    EXPECT_GT(few, 0u);
+    EXPECT_EQ(all, 0u);
+    EXPECT_GT(whole, 0.05);
+    EXPECT_NEAR(lit / whole, 1.0, 0.06);
+}
+
 TEST_P(SessionDetail, AnythingThatMayStillMoveHasTheBudgetOfAFrame) {
     Session session(config_with(1e-6), file_, *context_);
     FrameReport report = frame(session, false);

@@ -1,0 +1,47 @@
+// In how many pixels the cells of a moving picture are drawn.
+#include "app/quality/cell_resolution.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::app {
+
+CellResolution::CellResolution(double least) {
+    constexpr double kRounding = 1e-3;
+    while (count_ < kCellResolutions.size() && kCellResolutions[count_] >= least - kRounding)
+        ++count_;
+    if (count_ <= kBeforeCells)
+        shares_[kBeforeCells] = 1;
+}
+
+void CellResolution::learn(std::size_t step, double share) {
+    constexpr double kNewestShare = 0.15, kLeast = 0.2, kMost = 2;
+    if (step == 0)
+        return;
+    const double newest = std::exchange(measured_[step], true) ? kNewestShare : 1;
+    shares_[step] += newest * (std::clamp(share, kLeast, kMost) - shares_[step]);
+}
+
+std::size_t CellResolution::choose(const std::optional<Milliseconds>& expected, Milliseconds budget,
+                                   interaction::Seconds now) {
+    constexpr double kFits = 0.9, kFitsFiner = 0.75; ///< shares of the budget
+    constexpr interaction::Seconds kBetweenChanges{0.5};
+    const auto fits = [&](std::size_t step) {
+        return !expected ||
+               shares_[step] * *expected <= (step < step_ ? kFitsFiner : kFits) * budget;
+    };
+    std::size_t wanted = 0;
+    while (wanted + 1 < count_ && !fits(wanted))
+        ++wanted;
+    // Where fewer pixels save nothing, there is no reason for them.
+    constexpr double kSaves = 0.95;
+    for (std::size_t step = wanted; step-- > 0;)
+        if (shares_[wanted] > kSaves * shares_[step])
+            wanted = step;
+    if (wanted == step_ || (changed_ && now - *changed_ < kBetweenChanges))
+        return step_;
+    changed_ = now;
+    return step_ = wanted;
+}
+
+} // namespace isochron::app

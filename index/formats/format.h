@@ -63,6 +63,8 @@ struct Format {
     std::vector<SeriesFile> (*join)(const Format& format,
                                     const std::vector<std::filesystem::path>& files,
                                     const ReadOptions& options) = nullptr;
+    /// Whether their names say it.
+    bool joins_by_names = false;
     /// What a file names that is a list of files; null: it holds values. @throws Error naming it
     ListedFiles (*list)(const std::filesystem::path& path) = nullptr;
     /// Whether files of the same time in a list are parts of one volume.

@@ -7,7 +7,7 @@
 #include "index/formats/series/file_series.h"
 #include "index/formats/series/folder_files.h"
 #include "index/formats/series/joined_blocks.h"
-#include "index/formats/series/natural_order.h"
+#include "index/formats/series/numbered_name.h"
 #include "index/formats/series/resampled_series.h"
 #include "index/formats/series/vector_arrays.h"
 
@@ -34,19 +34,23 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                             file.path.string(), known_extensions()));
 }
 
-/// Orders files by the last number in their names, which is their time.
+/// Orders files by the numbers in their names, which are their times.
 std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files,
                                       const ReadOptions& options) {
     if (options.time_step)
         throw Error("--times-from-names and --time-step: expected one of the two");
+    std::vector<fs::path> names;
+    for (const KnownFile& file : files)
+        names.push_back(file.given);
+    const auto times = times_in_names(names);
     std::vector<SeriesFile> series;
-    for (const KnownFile& file : files) {
-        const auto time = last_number_in(file.given.stem().string());
-        if (!time)
-            throw Error(fmt::format("{}: no number in its name, expected one for "
-                                    "--times-from-names, as in t_0030.vti",
-                                    file.given.string()));
-        series.push_back(series_file(file, options, time));
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!times[i])
+            throw Error(
+                fmt::format("{}: no number in its name, expected "
+                            "one for --times-from-names, as in t_0030.vti",
+                            names[i].string()));
+        series.push_back(series_file(files[i], options, times[i]));
     }
     std::ranges::stable_sort(series, {}, &SeriesFile::time);
     return series;
@@ -98,7 +102,9 @@ const Format* joining_format(const std::vector<KnownFile>& files, const ReadOpti
 }
 
 /// The steps of a series and the files of each.
-std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const ReadOptions& options) {
+/// @param notes get what a user should know of their order
+std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const ReadOptions& options,
+                                  std::vector<std::string>& notes) {
     if (files.empty())
         throw Error("no files given");
     const auto list = std::ranges::find_if(
@@ -110,25 +116,32 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const Rea
         return listed_in(*list, options);
     if (options.times_from_names)
         return timed_by_name(files, options);
-    if (const Format* format = joining_format(files, options)) {
-        std::vector<fs::path> paths;
-        for (const KnownFile& file : files)
-            paths.push_back(file.path);
-        return format->join(*format, paths, options);
+    std::vector<fs::path> paths;
+    std::vector<std::string> names;
+    for (const KnownFile& file : files) {
+        paths.push_back(file.path);
+        names.push_back(file.path.string());
     }
+    const Format* joining = joining_format(files, options);
+    const ReadNames read = read_names(names);
+    if (read.note && (!joining || joining->joins_by_names))
+        notes.push_back(*read.note);
+    if (joining)
+        return joining->join(*joining, paths, options);
     std::vector<SeriesFile> series;
-    for (const KnownFile& file : files)
-        series.push_back(series_file(file, options));
-    std::ranges::stable_sort(series, [](const SeriesFile& a, const SeriesFile& b) {
-        return natural_less(a.path.string(), b.path.string());
-    });
+    for (const std::size_t file : read.order)
+        series.push_back(series_file(files[file], options));
     return series;
 }
 
 std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
                                             const ReadOptions& options) {
     const FoundFiles found = found_files(given, options);
-    return open_file_series(series_of(found.files, options), options, found.note);
+    std::vector<std::string> notes;
+    if (found.note)
+        notes.push_back(*found.note);
+    std::vector<SeriesFile> files = series_of(found.files, options, notes);
+    return open_file_series(std::move(files), options, notes);
 }
 
 /// Whether files have an array of exactly this name.

@@ -34,6 +34,8 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                 file->name(), array.name, shape_text(first.dimensions),
                                 array.steps.size(), first.path));
     volume.info.arrays = array.offered;
+    if (array.note)
+        volume.info.notes.push_back(*array.note);
     size_grid(*file, volume);
     const std::size_t steps = layout->time ? first.dimensions[*layout->time] : array.steps.size();
     expect_few_steps(steps, file->name());

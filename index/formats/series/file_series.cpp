@@ -383,10 +383,10 @@ std::uint64_t number_of(std::span<const FileState> states) {
 
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options,
-                                               const std::optional<std::string>& note) {
+                                               const std::vector<std::string>& notes) {
     auto series = std::make_unique<FileSeries>(std::move(files), options);
-    if (note)
-        series->add_note(*note);
+    for (const std::string& note : notes)
+        series->add_note(note);
     return series;
 }
 

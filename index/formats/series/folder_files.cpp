@@ -2,7 +2,7 @@
 #include "index/formats/series/folder_files.h"
 
 #include "index/error.h"
-#include "index/formats/series/natural_order.h"
+#include "index/formats/series/numbered_name.h"
 #include "index/lower_case.h"
 
 #include <fmt/format.h>
@@ -19,9 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 void sort_naturally(std::vector<KnownFile>& files) {
-    std::ranges::sort(files, [](const KnownFile& a, const KnownFile& b) {
-        return natural_less(a.given.string(), b.given.string());
-    });
+    std::vector<std::string> names;
+    for (const KnownFile& file : files)
+        names.push_back(file.given.string());
+    std::vector<KnownFile> sorted;
+    for (const std::size_t file : read_names(names).order)
+        sorted.push_back(std::move(files[file]));
+    files = std::move(sorted);
 }
 
 /// Disks have a file that lists the others.
@@ -113,17 +117,6 @@ void drop_named(std::vector<KnownFile>& files) {
                   [&](const KnownFile& file) { return file.end && named.contains(file.end->end); });
 }
 
-/// What the names of a series have in common, as a pattern.
-std::string pattern_of(const fs::path& path) {
-    std::string pattern;
-    for (const char c : path.string())
-        if (c < '0' || c > '9')
-            pattern += c;
-        else if (pattern.empty() || pattern.back() != '*')
-            pattern += '*';
-    return pattern;
-}
-
 std::string some_of(const std::vector<std::string>& names) {
     constexpr std::size_t kShown = 6;
     const auto shown = static_cast<std::ptrdiff_t>(std::min(names.size(), kShown));
@@ -146,9 +139,14 @@ FoundFiles series_in(const fs::path& folder, const ReadOptions& options) {
         std::erase_if(files, [](const KnownFile& file) { return !is_list(file); });
     drop_named(files);
     sort_naturally(files);
-    std::map<std::string, std::vector<KnownFile>> series;
+    std::vector<std::string> names;
     for (const KnownFile& file : files)
-        series[pattern_of(file.given.lexically_relative(folder))].push_back(file);
+        names.push_back(file.given.lexically_relative(folder).string());
+    // Files whose names have the same pattern are a series.
+    const ReadNames read = read_names(names);
+    std::map<std::string, std::vector<KnownFile>> series;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        series[read.names[i].pattern()].push_back(files[i]);
     const auto is_series = [](const auto& each) { return each.second.size() > 1; };
     if (list ? files.size() == 1 : series.size() == 1)
         return {files, std::nullopt};

@@ -4,7 +4,6 @@
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/foreign_file.h"
-#include "index/formats/series/natural_order.h"
 #include "index/formats/series/numbered_name.h"
 #include "index/formats/text_header.h"
 #include "index/lower_case.h"
@@ -13,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -97,17 +97,19 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
     return found;
 }
 
-/// Gaps would be shown as if they were none.
-void expect_even(const std::map<std::uint64_t, fs::path>& slices) {
+/// Gaps would be shown as if they were none. Decimals in names are rounded.
+void expect_even(const std::map<NameNumber, fs::path>& slices) {
     if (slices.size() < 3)
         return;
-    const std::uint64_t gap = std::next(slices.begin())->first - slices.begin()->first;
+    const double gap = std::next(slices.begin())->first.value - slices.begin()->first.value;
     for (auto slice = std::next(slices.begin()); slice != slices.end(); ++slice) {
         const auto before = std::prev(slice);
-        if (slice->first - before->first != gap)
+        const double rounding =
+            1.5 * std::max(slice->first.rounding(), before->first.rounding()) + 1e-9 * gap;
+        if (std::abs(slice->first.value - before->first.value - gap) > rounding)
             throw Error(fmt::format("{}: slice {} follows {} of {}, expected {}",
-                                    slice->second.string(), slice->first, before->first,
-                                    before->second.string(), before->first + gap));
+                                    slice->second.string(), slice->first.value, before->first.value,
+                                    before->second.string(), before->first.value + gap));
     }
 }
 
@@ -209,37 +211,40 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
     };
     if (files.size() == 1)
         return {of_stack(files.front())};
-    std::vector<fs::path> sorted = files;
-    std::ranges::stable_sort(sorted, [](const fs::path& a, const fs::path& b) {
-        return natural_less(a.string(), b.string());
-    });
-    const bool flat = TiffHead(sorted.front()).flat().value_or(false);
+    std::vector<std::string> within;
+    const std::string::size_type folder = common_folder(files).string().size();
+    for (const fs::path& file : files)
+        within.push_back(file.string().substr(folder));
+    const ReadNames read = read_names(within);
+    std::vector<fs::path> sorted;
     std::vector<NumberedName> names;
-    const std::string::size_type folder = common_folder(sorted).string().size();
-    for (const fs::path& file : sorted) {
-        names.push_back(taken_apart(file.string().substr(folder)));
+    for (const std::size_t file : read.order) {
+        sorted.push_back(files[file]);
+        names.push_back(read.names[file]);
         if (names.back().texts != names.front().texts)
             throw Error(fmt::format("{}, {}: names that differ in more than numbers, expected "
                                     "t01_c0_z001.tif and the like",
-                                    sorted.front().string(), file.string()));
+                                    sorted.front().string(), sorted.back().string()));
     }
+    const bool flat = TiffHead(sorted.front()).flat().value_or(false);
     const auto counts = meanings(names, sorted, flat);
-    std::map<std::uint64_t, std::map<std::uint64_t, std::map<std::uint64_t, fs::path>>> found;
+    std::map<NameNumber, std::map<NameNumber, std::map<NameNumber, fs::path>>> found;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-        std::map<Counted, std::uint64_t> at;
+        std::map<Counted, NameNumber> at;
         for (const auto& [number, counted] : counts)
             at[counted] = names[i].numbers[number];
         fs::path& place = found[at[Counted::channel]][at[Counted::step]][at[Counted::slice]];
         if (!place.empty())
             throw Error(fmt::format("{}, {}: both are slice {} of step {}", place.string(),
-                                    sorted[i].string(), at[Counted::slice], at[Counted::step]));
+                                    sorted[i].string(), at[Counted::slice].value,
+                                    at[Counted::step].value));
         place = sorted[i];
     }
     auto channel = found.begin();
     if (found.size() > 1) {
         std::vector<std::string> offered;
         for (const auto& [number, steps] : found)
-            offered.push_back(fmt::format("channel {}", number));
+            offered.push_back(fmt::format("channel {}", number.value));
         const auto chosen = std::ranges::find(offered, options.array.value_or(""));
         if (chosen == offered.end())
             throw Error(fmt::format("{}: files of several channels, choose one with --array: {}",
@@ -251,7 +256,7 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
     for (const auto& [step, of_step] : channel->second) {
         if (of_step.size() != slices)
             throw Error(fmt::format("{}: {} slices in step {}, the first has {}",
-                                    of_step.begin()->second.string(), of_step.size(), step,
+                                    of_step.begin()->second.string(), of_step.size(), step.value,
                                     slices));
         expect_even(of_step);
         std::vector<fs::path> paths;
@@ -260,9 +265,9 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
         series.push_back(flat ? of_slices(format, std::move(paths)) : of_stack(paths.front()));
         if (!flat && found.size() > 1)
             series.back().open = [&format](const fs::path& path, const ReadOptions& given) {
-                ReadOptions within = given;
-                within.array.reset(); // it chose the file
-                return open_in_format(format, path, within);
+                ReadOptions alone = given;
+                alone.array.reset(); // it chose the file
+                return open_in_format(format, path, alone);
             };
     }
     return series;

@@ -18,8 +18,7 @@ struct Decoder {
     OpenDecodedFile open;
 };
 
-using ReadCollectionFile =
-    std::vector<std::pair<std::filesystem::path, double>> (*)(const std::filesystem::path&);
+using ReadCollectionFile = ListedFiles (*)(const std::filesystem::path&);
 
 /// The message as one line: control characters, as names inside files may have, become blanks.
 std::string in_one_line(std::string message);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "index/formats/volume_file.h"
+#include "index/volume/listed_file.h"
 
 #include <string>
 #include <string_view>
@@ -39,10 +40,6 @@ struct NameEnd {
     bool (*only_if)(FileStart& start) = nullptr;
 };
 
-/// Files in the order of their times, which a list gives. Their paths are relative to where the
-/// program runs.
-using ListedFiles = std::vector<std::pair<std::filesystem::path, double>>;
-
 struct Format {
     /// By which its reader knows it, too.
     std::string_view name;
@@ -55,6 +52,8 @@ struct Format {
                                         const ReadOptions& options) = nullptr;
     /// `netcdf` of isochron-reader-netcdf, which opens its files; empty: none does.
     std::string_view reader = {};
+    /// Whether its reader reads no more than the part that `crop` names, where it can.
+    bool reads_parts = false;
     /// Whether the reader's library decodes all arrays of a file together.
     bool decodes_all_arrays = false;
 

@@ -91,7 +91,8 @@ std::vector<Format> table() {
         {.name = "netcdf",
          .ends = {{".nc"}, {".nc4"}, {".cdf"}},
          .recognize = is_netcdf,
-         .reader = "netcdf"},
+         .reader = "netcdf",
+         .reads_parts = true},
 
         // VTK's rectilinear grids, files of several pieces, and, with `resample`, its other grids.
         {.name = "vtk data",
@@ -115,10 +116,12 @@ std::vector<Format> table() {
         {.name = "hdf5",
          .ends = {{".h5"}, {".hdf5"}, {".he5"}, {".hdf"}, {".vtkhdf"}},
          .recognize = is_plain_hdf5,
-         .reader = "hdf5"},
+         .reader = "hdf5",
+         .reads_parts = true},
         {.name = "zarr",
          .ends = {{"zarr.json"}, {".zattrs"}, {".zarray"}, {".zgroup"}, {".zip"}, {".ozx"}},
          .reader = "zarr",
+         .reads_parts = true,
          .describe_folder = {"zarr.json", ".zattrs", ".zarray", ".zgroup"},
          .folder_ends = {".zarr"}},
         {.name = "raw", .ends = {{".raw"}}, .open = open_raw, .headerless = true},

@@ -9,6 +9,7 @@
 #include "index/formats/series/joined_blocks.h"
 #include "index/formats/series/numbered_name.h"
 #include "index/formats/series/resampled_series.h"
+#include "index/formats/series/step_order.h"
 #include "index/formats/series/vector_arrays.h"
 
 #include <fmt/format.h>
@@ -46,10 +47,9 @@ std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files,
     std::vector<SeriesFile> series;
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (!times[i])
-            throw Error(
-                fmt::format("{}: no number in its name, expected "
-                            "one for --times-from-names, as in t_0030.vti",
-                            names[i].string()));
+            throw Error(fmt::format("{}: no number in its name, expected "
+                                    "one for --times-from-names, as in t_0030.vti",
+                                    names[i].string()));
         series.push_back(series_file(files[i], options, times[i]));
     }
     std::ranges::stable_sort(series, {}, &SeriesFile::time);
@@ -75,14 +75,17 @@ std::vector<SeriesFile> joined_by_time(std::vector<SeriesFile> files) {
 }
 
 /// What a list names.
-std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options) {
+/// @param notes get how many entries there are twice
+std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options,
+                                  std::vector<std::string>& notes) {
     if (options.times_from_names)
         throw Error(fmt::format("{}: gives the times itself, --times-from-names cannot",
                                 list.path.string()));
     file_bytes(list.path);
     std::vector<SeriesFile> series;
-    for (const auto& [path, time] : list.format->list(list.path))
-        series.push_back(series_file(known_file(path), options, time));
+    for (const ListedFile& file :
+         ordered_entries(list.format->list(list.path), options.keep_first, notes))
+        series.push_back(series_file(known_file(file.path), options, file.time));
     return list.format->lists_parts ? joined_by_time(std::move(series)) : series;
 }
 
@@ -113,7 +116,7 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const Rea
         throw Error(fmt::format("{}: names its files itself, {} more given", list->path.string(),
                                 files.size() - 1));
     if (list != files.end())
-        return listed_in(*list, options);
+        return listed_in(*list, options, notes);
     if (options.times_from_names)
         return timed_by_name(files, options);
     std::vector<fs::path> paths;
@@ -193,9 +196,17 @@ std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
             of_input.component = component;
             of_input.value_unit.reset(); // it is the result's
             inputs.push_back(open_series(files, of_input));
+            const SeriesInfo& first = inputs.front()->info();
+            if (component && !first.array.ends_with(".0"))
+                throw Error(
+                    fmt::format("{}: --component {} of {}, a scalar, expected a vector of three "
+                                "components; --component gradient is for scalars",
+                                files.front().string(), *options.component, first.array));
         }
         return derived_series(std::move(inputs), *derived, "", options.value_unit);
     }
+    if (options.resample && (options.crop || options.stride))
+        throw Error("--resample with --crop or --stride: expected one of them");
     auto series = open_as_it_is(files, options);
     return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
 }

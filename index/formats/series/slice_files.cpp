@@ -5,6 +5,7 @@
 #include "index/formats/data_stream.h"
 #include "index/formats/foreign_file.h"
 #include "index/formats/series/numbered_name.h"
+#include "index/formats/series/tiff_head.h"
 #include "index/formats/text_header.h"
 #include "index/lower_case.h"
 
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,15 +25,23 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What the numbers in names count.
-enum class Counted : std::uint8_t { slice, step, channel };
+enum class Counted : std::uint8_t { slice, step, channel, place };
 
-/// By the letters before a number.
-std::optional<Counted> counted_behind(const std::string& text) {
-    std::size_t begin = text.size();
+/// The letters before a number, perhaps with `_`, `-`, `=` or a blank between.
+std::string last_word(const std::string& text) {
+    std::size_t end = text.size();
+    if (end > 0 && std::string_view("_-= ").find(text[end - 1]) != std::string_view::npos)
+        --end;
+    std::size_t begin = end;
     const auto is_letter = [](unsigned char c) { return (c | 32) >= 'a' && (c | 32) <= 'z'; };
     while (begin > 0 && is_letter(static_cast<unsigned char>(text[begin - 1])))
         --begin;
-    const std::string word = lower_case(text.substr(begin));
+    return text.substr(begin, end - begin);
+}
+
+/// By the letters before a number.
+std::optional<Counted> counted_behind(const std::string& text) {
+    const std::string word = lower_case(last_word(text));
     for (const char* each : {"z", "slice", "plane", "section", "img"})
         if (word == each)
             return Counted::slice;
@@ -43,6 +51,9 @@ std::optional<Counted> counted_behind(const std::string& text) {
     for (const char* each : {"c", "ch", "chn", "channel", "w"})
         if (word == each)
             return Counted::channel;
+    for (const char* each : {"x", "y", "row", "col", "column", "tile", "fov", "well", "mosaic"})
+        if (word == each)
+            return Counted::place;
     return std::nullopt;
 }
 
@@ -73,6 +84,17 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
     const std::vector<std::size_t> varying = counting_numbers(names);
     std::map<std::size_t, Counted> found;
     std::set<Counted> taken;
+    const auto is_place = [&](std::size_t i) {
+        return counted_behind(names.front().texts[i]) == Counted::place;
+    };
+    for (const std::size_t i : varying)
+        if (is_place(i) &&
+            (last_word(names.front().texts[i]).size() > 1 || // x1.tif alone may be any
+             std::ranges::count_if(varying, is_place) > 1))
+            throw Error(fmt::format(
+                "{}, {}: tiles side by side, by the numbers behind '{}', expected "
+                "slices or steps: give the files of one place",
+                files.front().string(), files.back().string(), last_word(names.front().texts[i])));
     for (const std::size_t i : varying)
         if (const auto counted = counted_behind(names.front().texts[i]);
             counted && taken.insert(*counted).second)
@@ -138,70 +160,6 @@ SeriesFile of_slices(const Format& format, std::vector<fs::path> slices) {
     return file;
 }
 
-/// Tells by the header and the description of a TIFF file, of either byte order and size, whether it
-/// has one page alone.
-class TiffHead {
-  public:
-    explicit TiffHead(const fs::path& path) : size_(file_bytes(path)), file_(path) {}
-
-    /// @return none: it cannot be told
-    std::optional<bool> flat() {
-        const std::uint64_t order = number(0, 2);
-        big_ = order == 0x4d4d;
-        const std::uint64_t kind = number(2, 2);
-        if ((order != 0x4949 && !big_) || (kind != 42 && kind != 43))
-            return std::nullopt;
-        const bool wide = kind == 43; // BigTIFF
-        const std::uint64_t at = wide ? number(8, 8) : number(4, 4);
-        const std::uint64_t entries = number(at, wide ? 8 : 2), size = wide ? 20 : 12;
-        const std::uint64_t first = at + (wide ? 8 : 2);
-        if (at == 0 || at > size_ || entries > 4096)
-            return std::nullopt;
-        if (number(first + entries * size, wide ? 8 : 4) != 0)
-            return false;
-        for (std::uint64_t i = 0; i < entries; ++i) {
-            constexpr std::uint64_t kImageDescription = 270;
-            const std::uint64_t entry = first + i * size;
-            if (number(entry, 2) != kImageDescription)
-                continue;
-            const std::uint64_t count = number(entry + 4, wide ? 8 : 4);
-            const std::uint64_t inside = wide ? 8 : 4;
-            const std::uint64_t text =
-                count <= inside ? entry + (wide ? 12 : 8) : number(entry + (wide ? 12 : 8), inside);
-            return !describes_more(text_at(text, std::min<std::uint64_t>(count, 1 << 16)));
-        }
-        return true;
-    }
-
-  private:
-    static bool describes_more(const std::string& text) {
-        const std::size_t images = text.find("images=");
-        return (text.starts_with("ImageJ=") && images != std::string::npos &&
-                text.compare(images, 9, "images=1\n") != 0) ||
-               text.find("<TiffData") != std::string::npos;
-    }
-
-    std::string text_at(std::uint64_t at, std::uint64_t size) {
-        std::string text(at > size_ ? 0 : std::min(size, size_ - at), '\0');
-        file_.clear();
-        file_.seekg(static_cast<std::streamoff>(at));
-        file_.read(text.data(), static_cast<std::streamsize>(text.size()));
-        return text;
-    }
-    std::uint64_t number(std::uint64_t at, std::uint64_t size) {
-        const std::string bytes = text_at(at, size);
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < bytes.size(); ++i)
-            value |= std::uint64_t{static_cast<unsigned char>(bytes[i])}
-                     << 8 * (big_ ? bytes.size() - 1 - i : i);
-        return value;
-    }
-
-    std::uint64_t size_;
-    std::ifstream file_;
-    bool big_ = false;
-};
-
 } // namespace
 
 std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::path>& files,
@@ -209,6 +167,9 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
     const auto of_stack = [&](const fs::path& path) {
         return SeriesFile{.path = path, .open = opener_of(format), .time = {}};
     };
+    if (const std::vector<fs::path> wholes = not_named_by_others(files);
+        wholes.size() < files.size())
+        return tiff_series(format, wholes, options);
     if (files.size() == 1)
         return {of_stack(files.front())};
     std::vector<std::string> within;
@@ -226,7 +187,7 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
                                     "t01_c0_z001.tif and the like",
                                     sorted.front().string(), sorted.back().string()));
     }
-    const bool flat = TiffHead(sorted.front()).flat().value_or(false);
+    const bool flat = is_flat_tiff(sorted.front()).value_or(false);
     const auto counts = meanings(names, sorted, flat);
     std::map<NameNumber, std::map<NameNumber, std::map<NameNumber, fs::path>>> found;
     for (std::size_t i = 0; i < sorted.size(); ++i) {

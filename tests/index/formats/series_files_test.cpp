@@ -28,8 +28,7 @@ TEST(NaturalOrder, ComparesDigitsAsNumbers) {
     for (std::size_t i = 0; i < sorted.size(); ++i)
         for (std::size_t j = 0; j < sorted.size(); ++j)
             if (sorted[i] != sorted[j]) {
-                EXPECT_EQ(less(sorted[i], sorted[j]), i < j)
-                    << sorted[i] << " " << sorted[j];
+                EXPECT_EQ(less(sorted[i], sorted[j]), i < j) << sorted[i] << " " << sorted[j];
             }
     EXPECT_NE(less("a01", "a1"), less("a1", "a01"));
 }

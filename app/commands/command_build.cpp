@@ -43,6 +43,12 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
     text += "\n";
     for (const std::string& note : info.notes)
         text += fmt::format("note: {}\n", note);
+    const index::IndexStats& stats = file.stats();
+    if (const std::uint64_t all = info.grid.vertex_count() * info.steps(); stats.nan_values == all)
+        text +=
+            fmt::format("note: none of the {} values is there, all are missing: no surface can be "
+                        "found\n",
+                        grouped(all));
     return text;
 }
 
@@ -88,6 +94,11 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     std::optional<index::GrowingFile> file;
     std::shared_ptr<const index::IndexFile> held;
     if (asked.append) {
+        std::error_code ignored;
+        if (!fs::exists(asked.out, ignored))
+            throw index::Error(fmt::format("{}: there is no index yet to append to; the first time "
+                                           "build it without --append",
+                                           asked.out.string()));
         team.together([&] { file.emplace(asked.out, team.rank() == 0); });
         team.together([&] {
             held = index::IndexFile::open(asked.out);

@@ -10,7 +10,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iterator>
 #include <sstream>
+#include <string_view>
 
 namespace isochron::app {
 namespace fs = std::filesystem;
@@ -29,6 +34,62 @@ glm::dvec3 vector_of(const std::vector<double>& numbers) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+/// Whole numbers with one of these characters between each two.
+std::vector<std::uint64_t> whole_numbers(std::string_view text, const std::string& option,
+                                         const std::string& expected) {
+    std::vector<std::uint64_t> numbers;
+    const auto fail = [&] {
+        throw UsageError(fmt::format("{} {}, expected {}", option, text, expected));
+    };
+    for (const char *at = text.data(), *end = at + text.size();; ++at) {
+        std::uint64_t& number = numbers.emplace_back();
+        const auto [behind, error] = std::from_chars(at, end, number);
+        if (error != std::errc{})
+            fail();
+        if (behind == end)
+            return numbers;
+        if (*behind != ':' && *behind != ',')
+            fail();
+        at = behind;
+    }
+}
+
+/// `X0:X1,Y0:Y1,Z0:Z1`, both ends named.
+std::array<std::array<std::uint32_t, 2>, 3> crop_of(const std::string& text) {
+    const std::string expected = "the first and the last vertex along x, y and z: 0:99,20:59,0:31";
+    std::string form;
+    std::ranges::copy_if(text, std::back_inserter(form),
+                         [](char c) { return c == ':' || c == ','; });
+    const auto numbers = whole_numbers(text, "--crop", expected);
+    std::array<std::array<std::uint32_t, 2>, 3> crop{};
+    if (form != ":,:,:" || std::ranges::any_of(numbers, [](auto n) { return n > 65536; }))
+        throw UsageError(fmt::format("--crop {}, expected {}", text, expected));
+    for (std::size_t i = 0; i < 6; ++i)
+        crop[i / 2][i % 2] = static_cast<std::uint32_t>(numbers[i]);
+    return crop;
+}
+
+std::array<std::uint32_t, 3> stride_of(const std::string& text) {
+    const std::string expected = "every how many vertices, for all axes or for each: 2 or 2,2,1";
+    auto numbers = whole_numbers(text, "--stride", expected);
+    if (numbers.size() == 1)
+        numbers.resize(3, numbers.front());
+    if (numbers.size() != 3 || text.find(':') != text.npos ||
+        std::ranges::any_of(numbers, [](auto n) { return n < 1 || n > 65536; }))
+        throw UsageError(fmt::format("--stride {}, expected {}", text, expected));
+    return {static_cast<std::uint32_t>(numbers[0]), static_cast<std::uint32_t>(numbers[1]),
+            static_cast<std::uint32_t>(numbers[2])};
+}
+
+std::array<std::uint64_t, 3> steps_of_text(const std::string& text) {
+    const std::string expected = "the first and the last step, from 0: 0:20, or each fifth: 0:20:5";
+    const auto numbers = whole_numbers(text, "--steps", expected);
+    if ((numbers.size() != 2 && numbers.size() != 3) || text.find(',') != text.npos ||
+        (numbers.size() == 3 && numbers[2] == 0))
+        throw UsageError(fmt::format("--steps {}, expected {}", text, expected));
+    return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1};
+}
+
 /// Takes what the user left open from how files were read before.
 void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
     const auto take = [](auto& of, const auto& held_one) {
@@ -38,6 +99,10 @@ void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
     take(read.allow_surplus, held.allow_surplus);
     take(read.extra_axis_is_time, held.extra_axis_is_time);
     take(read.times_from_names, held.times_from_names);
+    take(read.keep_first, held.keep_first);
+    take(read.crop, held.crop);
+    take(read.stride, held.stride);
+    take(read.steps, held.steps);
     take(read.resample, held.resample);
     take(read.dims, held.dims);
     take(read.type, held.type);
@@ -77,6 +142,12 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
     index::ReadOptions read = arguments.read;
     if (!arguments.dims.empty())
         read.dims = {arguments.dims[0], arguments.dims[1], arguments.dims[2]};
+    if (!arguments.crop.empty())
+        read.crop = crop_of(arguments.crop);
+    if (!arguments.stride.empty())
+        read.stride = stride_of(arguments.stride);
+    if (!arguments.steps.empty())
+        read.steps = steps_of_text(arguments.steps);
     if (!arguments.resample.empty())
         read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
     if (arguments.resample_by_cell)
@@ -224,7 +295,28 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group("Reading");
     command
         .flag("--times-from-names", read.times_from_names,
-              "Take the time of each file from the last number in its name: 30 of t_0030.vti")
+              "Take the time of each file from the number in its name, or in its folder's, that "
+              "differs, the last of several: 30 of t_0030.vti, 0.25 of 0.25/p.vti")
+        .group("Reading");
+    command
+        .flag("--keep-first", read.keep_first,
+              "Of steps with the same time, as a restart leaves them, read the first instead of "
+              "the last")
+        .group("Reading");
+    command
+        .option("--crop", arguments.crop,
+                "Read a part alone: the first and the last vertex along each axis, from 0")
+        .type_name("X0:X1,Y0:Y1,Z0:Z1")
+        .group("Reading");
+    command
+        .option("--stride", arguments.stride,
+                "Read every second vertex alone, or every Nth, along all axes or each: 2 or 2,2,1")
+        .type_name("N")
+        .group("Reading");
+    command
+        .option("--steps", arguments.steps,
+                "Read some steps alone: the first and the last, from 0, and every how many: 0:20:5")
+        .type_name("A:B[:C]")
         .group("Reading");
     command
         .option("--spacing", arguments.spacing,

@@ -71,14 +71,15 @@ std::string options_text(const BuildArguments& arguments) {
         key += fmt::format("{}:{};", array.size(), array);
     if (arguments.all_arrays)
         key += "all;";
-    key += fmt::format("{} {} {} {} {} {} {}", read.allow_surplus, read.extra_axis_is_time,
-                       read.times_from_names, read.big_endian, read.header_bytes,
+    key += fmt::format("{} {} {} {} {} {} {} {}", read.allow_surplus, read.extra_axis_is_time,
+                       read.times_from_names, read.keep_first, read.big_endian, read.header_bytes,
                        read.time_step.value_or(0), arguments.type);
     key += fmt::format("{} {} {} {}", fmt::join(arguments.dims, ","),
                        fmt::join(arguments.resample, ","), fmt::join(arguments.spacing, ","),
                        fmt::join(arguments.origin, ","));
     if (arguments.resample_by_cell)
         key += "by cell";
+    key += fmt::format("{};{};{}", arguments.crop, arguments.stride, arguments.steps);
     return key;
 }
 

@@ -50,8 +50,7 @@ std::unique_ptr<DecodedFile> decode_zarr(const std::filesystem::path& path,
 std::unique_ptr<DecodedFile> decode_dicom(const std::filesystem::path& path,
                                           const ReadOptions& options);
 
-/// The files and times of a ParaView collection (.pvd), in the order of their times, paths made
-/// relative to where the program runs. @throws Error naming the file
-std::vector<std::pair<std::filesystem::path, double>> decode_pvd(const std::filesystem::path& path);
+/// What a ParaView collection (.pvd) lists. @throws Error naming the file
+ListedFiles decode_pvd(const std::filesystem::path& path);
 
 } // namespace isochron::index

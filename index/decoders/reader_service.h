@@ -19,8 +19,7 @@ struct Decoder {
     OpenDecodedFile open;
 };
 
-using ReadCollectionFile =
-    std::vector<std::pair<std::filesystem::path, double>> (*)(const std::filesystem::path&);
+using ReadCollectionFile = ListedFiles (*)(const std::filesystem::path&);
 
 struct DecodedPicture {
     std::string note;

@@ -8,6 +8,7 @@
 #include "index/formats/series/joined_blocks.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
 #include "index/lower_case.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace isochron::index {
@@ -70,6 +73,15 @@ class BovHeader {
         return numbers[0];
     }
 
+    /// Fields that none of these keys are, with their values.
+    std::vector<std::string> others(const std::set<std::string_view>& keys) const {
+        std::vector<std::string> others;
+        for (const auto& [key, value] : fields_)
+            if (!keys.contains(key))
+                others.push_back(fmt::format("{} {}", key, excerpt(value)));
+        return others;
+    }
+
   private:
     std::string file_;
     std::map<std::string, std::string> fields_;
@@ -104,6 +116,12 @@ void place_brick(const BovHeader& header, const Bricklet& brick, const std::stri
     set_axes(info.grid, steps, name);
     if (cells)
         info.notes.push_back("values of cells: taken at the cells' centers");
+    static const std::set<std::string_view> kRead{
+        "time",         "data_file",      "data_size",      "data_format", "variable",
+        "data_endian",  "centering",      "brick_origin",   "brick_size",  "byte_offset",
+        "divide_brick", "data_bricklets", "data_components"};
+    if (auto note = note_on_unread(header.others(kRead)))
+        info.notes.push_back(std::move(*note));
 }
 
 StoredArray array_of(const BovHeader& header, const std::string& name) {

@@ -2,6 +2,7 @@
 #include "index/formats/foreign_file.h"
 
 #include "index/error.h"
+#include "index/formats/cropped_file.h"
 #include "index/formats/reader_lease.h"
 #include "index/formats/stored_file.h"
 #include "index/system/huge_pages.h"
@@ -167,8 +168,16 @@ std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, const Format& form
 
 std::unique_ptr<VolumeFile> open_in_format(const Format& format, const fs::path& path,
                                            const ReadOptions& options) {
-    return format.open ? format.open(path, options)
-                       : open_foreign(readers_of_this_process(), format, path, options);
+    const auto open = [&](const ReadOptions& how) {
+        return format.open ? format.open(path, how)
+                           : open_foreign(readers_of_this_process(), format, path, how);
+    };
+    if (!options.crop && !options.stride)
+        return open(options);
+    ReadOptions whole = options, rest = options;
+    whole.stride.reset();
+    (format.reads_parts ? rest : whole).crop.reset();
+    return cropped(open(whole), rest, path);
 }
 
 OpenVolumeFile opener_of(const Format& format) {

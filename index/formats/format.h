@@ -6,6 +6,7 @@
 #pragma once
 
 #include "index/formats/volume_file.h"
+#include "index/volume/listed_file.h"
 
 #include <string>
 #include <string_view>
@@ -39,10 +40,6 @@ struct NameEnd {
     bool (*only_if)(FileStart& start) = nullptr;
 };
 
-/// Files in the order of their times, which a list gives. Their paths are relative to where the
-/// program runs.
-using ListedFiles = std::vector<std::pair<std::filesystem::path, double>>;
-
 struct Format {
     /// By which its reader knows it, too.
     std::string_view name;
@@ -55,6 +52,8 @@ struct Format {
                                         const ReadOptions& options) = nullptr;
     /// `netcdf` of isochron-reader-netcdf, which opens its files; empty: none does.
     std::string_view reader = {};
+    /// Whether its reader reads no more than the part that `crop` names, where it can.
+    bool reads_parts = false;
     /// Whether the reader's library decodes all arrays of a file together.
     bool decodes_all_arrays = false;
 
@@ -63,8 +62,9 @@ struct Format {
     std::vector<SeriesFile> (*join)(const Format& format,
                                     const std::vector<std::filesystem::path>& files,
                                     const ReadOptions& options) = nullptr;
-    /// Reads a file that is a list of files; null: files of this format hold values.
-    /// @throws Error naming the list
+    /// Whether their names say it.
+    bool joins_by_names = false;
+    /// What a file names that is a list of files; null: it holds values. @throws Error naming it
     ListedFiles (*list)(const std::filesystem::path& path) = nullptr;
     /// Whether files of the same time in a list are parts of one volume.
     bool lists_parts = false;

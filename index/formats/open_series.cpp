@@ -7,8 +7,9 @@
 #include "index/formats/series/file_series.h"
 #include "index/formats/series/folder_files.h"
 #include "index/formats/series/joined_blocks.h"
-#include "index/formats/series/natural_order.h"
+#include "index/formats/series/numbered_name.h"
 #include "index/formats/series/resampled_series.h"
+#include "index/formats/series/step_order.h"
 #include "index/formats/series/vector_arrays.h"
 #include "index/reader/reader_pool.h"
 
@@ -35,19 +36,22 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                             file.path.string(), known_extensions()));
 }
 
-/// Orders files by the last number in their names, which is their time.
+/// Orders files by the numbers in their names, which are their times.
 std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files,
                                       const ReadOptions& options) {
     if (options.time_step)
         throw Error("--times-from-names and --time-step: expected one of the two");
+    std::vector<fs::path> names;
+    for (const KnownFile& file : files)
+        names.push_back(file.given);
+    const auto times = times_in_names(names);
     std::vector<SeriesFile> series;
-    for (const KnownFile& file : files) {
-        const auto time = last_number_in(file.given.stem().string());
-        if (!time)
-            throw Error(fmt::format("{}: no number in its name, expected one for "
-                                    "--times-from-names, as in t_0030.vti",
-                                    file.given.string()));
-        series.push_back(series_file(file, options, time));
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!times[i])
+            throw Error(fmt::format("{}: no number in its name, expected "
+                                    "one for --times-from-names, as in t_0030.vti",
+                                    names[i].string()));
+        series.push_back(series_file(files[i], options, times[i]));
     }
     std::ranges::stable_sort(series, {}, &SeriesFile::time);
     return series;
@@ -72,14 +76,17 @@ std::vector<SeriesFile> joined_by_time(std::vector<SeriesFile> files) {
 }
 
 /// What a list names.
-std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options) {
+/// @param notes get how many entries there are twice
+std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options,
+                                  std::vector<std::string>& notes) {
     if (options.times_from_names)
         throw Error(fmt::format("{}: gives the times itself, --times-from-names cannot",
                                 list.path.string()));
     file_bytes(list.path);
     std::vector<SeriesFile> series;
-    for (const auto& [path, time] : list.format->list(list.path))
-        series.push_back(series_file(known_file(path), options, time));
+    for (const ListedFile& file :
+         ordered_entries(list.format->list(list.path), options.keep_first, notes))
+        series.push_back(series_file(known_file(file.path), options, file.time));
     return list.format->lists_parts ? joined_by_time(std::move(series)) : series;
 }
 
@@ -99,7 +106,9 @@ const Format* joining_format(const std::vector<KnownFile>& files, const ReadOpti
 }
 
 /// The steps of a series and the files of each.
-std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const ReadOptions& options) {
+/// @param notes get what a user should know of their order
+std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const ReadOptions& options,
+                                  std::vector<std::string>& notes) {
     if (files.empty())
         throw Error("no files given");
     const auto list = std::ranges::find_if(
@@ -108,28 +117,35 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const Rea
         throw Error(fmt::format("{}: names its files itself, {} more given", list->path.string(),
                                 files.size() - 1));
     if (list != files.end())
-        return listed_in(*list, options);
+        return listed_in(*list, options, notes);
     if (options.times_from_names)
         return timed_by_name(files, options);
-    if (const Format* format = joining_format(files, options)) {
-        std::vector<fs::path> paths;
-        for (const KnownFile& file : files)
-            paths.push_back(file.path);
-        return format->join(*format, paths, options);
+    std::vector<fs::path> paths;
+    std::vector<std::string> names;
+    for (const KnownFile& file : files) {
+        paths.push_back(file.path);
+        names.push_back(file.path.string());
     }
+    const Format* joining = joining_format(files, options);
+    const ReadNames read = read_names(names);
+    if (read.note && (!joining || joining->joins_by_names))
+        notes.push_back(*read.note);
+    if (joining)
+        return joining->join(*joining, paths, options);
     std::vector<SeriesFile> series;
-    for (const KnownFile& file : files)
-        series.push_back(series_file(file, options));
-    std::ranges::stable_sort(series, [](const SeriesFile& a, const SeriesFile& b) {
-        return natural_less(a.path.string(), b.path.string());
-    });
+    for (const std::size_t file : read.order)
+        series.push_back(series_file(files[file], options));
     return series;
 }
 
 std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
                                             const ReadOptions& options) {
     const FoundFiles found = found_files(given, options);
-    return open_file_series(series_of(found.files, options), options, found.note);
+    std::vector<std::string> notes;
+    if (found.note)
+        notes.push_back(*found.note);
+    std::vector<SeriesFile> files = series_of(found.files, options, notes);
+    return open_file_series(std::move(files), options, notes);
 }
 
 /// Whether files have an array of exactly this name.
@@ -182,9 +198,17 @@ std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
             of_input.component = component;
             of_input.value_unit.reset(); // it is the result's
             inputs.push_back(open_series(files, of_input));
+            const SeriesInfo& first = inputs.front()->info();
+            if (component && !first.array.ends_with(".0"))
+                throw Error(
+                    fmt::format("{}: --component {} of {}, a scalar, expected a vector of three "
+                                "components; --component gradient is for scalars",
+                                files.front().string(), *options.component, first.array));
         }
         return derived_series(std::move(inputs), *derived, "", options.value_unit);
     }
+    if (options.resample && (options.crop || options.stride))
+        throw Error("--resample with --crop or --stride: expected one of them");
     auto series = open_as_it_is(files, options);
     return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
 }

@@ -71,8 +71,12 @@ std::uint32_t component_of(const StoredArray& array, const ReadOptions& options,
     std::uint32_t number = 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (failure != std::errc{} || end != text.data() + text.size() || number >= array.components)
-        throw Error(fmt::format("{}: array {} has no component {}, expected 0 to {} or magnitude",
-                                file, array.name, text, array.components - 1));
+        throw Error(
+            array.components == 1
+                ? fmt::format("{}: array {} is a scalar, without a component {}", file, array.name,
+                              text)
+                : fmt::format("{}: array {} has no component {}, expected 0 to {} or magnitude",
+                              file, array.name, text, array.components - 1));
     return number;
 }
 

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -27,6 +28,12 @@ constexpr Enum kLastValue = Enum{};
 
 template <class T>
 concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// A structure that lists its fields.
+template <class T>
+concept WithFields = requires(T value) {
+    value.fields();
+};
 
 /// Writes numbers as they are in memory: both ends are on one machine and of one build.
 class MessageWriter {
@@ -54,9 +61,9 @@ class MessageWriter {
         for (const T& value : values)
             put(value);
     }
-    template <class A, class B>
-    void put(const std::pair<A, B>& both) {
-        (*this)(both.first, both.second);
+    template <WithFields T>
+    void put(const T& value) {
+        std::apply([this](const auto&... fields) { (*this)(fields...); }, value.fields());
     }
     template <class T>
     void put(const std::optional<T>& value) {
@@ -128,9 +135,9 @@ class MessageReader {
         for (T& value : values)
             get(value);
     }
-    template <class A, class B>
-    void get(std::pair<A, B>& both) {
-        (*this)(both.first, both.second);
+    template <WithFields T>
+    void get(T& value) {
+        std::apply([this](auto&... fields) { (*this)(fields...); }, value.fields());
     }
     template <class T>
     void get(std::optional<T>& value) {

@@ -7,6 +7,7 @@
 // the reader that sent them.
 #pragma once
 
+#include "index/volume/listed_file.h"
 #include "index/volume/volume_series.h"
 
 #include <cstddef>
@@ -88,7 +89,7 @@ struct Described {
 };
 struct SlabRead {};
 struct Collected {
-    std::vector<std::pair<std::filesystem::path, double>> files; ///< in their order, with times
+    ListedFiles files;
 };
 struct Closed {};
 struct PictureRead {

@@ -90,7 +90,8 @@ std::string text_of_end(int status) {
         return fmt::format("its reader was killed ({}), as systems do when memory runs out", text);
     if (signal == SIGXCPU)
         return fmt::format("its reader took longer than any such file does ({})", text);
-    return fmt::format("its reader crashed on it ({}): the file is damaged, or was made to do this",
+    return fmt::format("its reader crashed on it ({}): the file is damaged, or holds what its "
+                       "library cannot read",
                        text);
 }
 

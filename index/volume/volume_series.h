@@ -54,10 +54,16 @@ struct ReadOptions {
     bool any_array = false;
     bool allow_surplus = false; ///< --allow-surplus: more values may follow than the header says
     bool extra_axis_is_time =
-        false;                     ///< --extra-axis-is-time: an axis besides space is time
-    bool times_from_names = false; ///< --times-from-names: the last number in each file's name
+        false;                     ///< --extra-axis-is-time: an axis beside those of space is time
+    bool times_from_names = false; ///< --times-from-names: the number in each file's name
+    bool keep_first = false; ///< --keep-first: of steps with the same time not the last, the first
     /// --resample NX NY NZ: grids that are not regular become one of so many vertices.
     std::optional<std::array<std::uint32_t, 3>> resample;
+    /// --crop X0:X1,Y0:Y1,Z0:Z1: the first and the last vertex to read along each axis.
+    std::optional<std::array<std::array<std::uint32_t, 2>, 3>> crop;
+    std::optional<std::array<std::uint32_t, 3>> stride; ///< --stride: each such vertex only
+    /// --steps A:B[:C]: the first and the last step to read, and each how many of them.
+    std::optional<std::array<std::uint64_t, 3>> steps;
     /// If each slice of a step has its own file: these files, in order. Only `open_series` sets it.
     std::vector<std::filesystem::path> slices;
     // Headerless raw files only:
@@ -110,8 +116,9 @@ class VolumeSeries {
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
-/// Opens files, a glob's result or a .pvd as one series. Files are put in natural order
-/// (`t2` before `t10`), except that a .pvd gives its own order and times.
+/// Opens files, a glob's result or a .pvd as one series. Files are put in the order of the times that
+/// they, or a .pvd, state; without times in that of the numbers in their names (`t0.5` before `t2`
+/// before `t10`).
 /// @throws Error: unreadable, unknown format, several arrays and none chosen (lists them), ...
 std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
                                           const ReadOptions& options = {});

@@ -200,6 +200,8 @@ std::vector<DicomVolume> dicom_volumes(const std::vector<DicomFile>& files) {
         for (const std::size_t i : differing)
             name += fmt::format("{}{}{}", name.empty() ? "" : ", ",
                                 i == 0 ? "" : kind[i].first + " ", kind[i].second);
+        if (name.empty())
+            name = "unnamed";
         std::string unique = name;
         for (int number = 2; !names.insert(unique).second; ++number)
             unique = fmt::format("{} ({})", name, number);

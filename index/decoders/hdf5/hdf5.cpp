@@ -12,9 +12,37 @@
 
 namespace isochron::index {
 
+namespace {
+
+/// Formats within HDF5 that need more than their datasets: what they are, and the way out.
+void expect_no_other_format(const Hdf5File& file) {
+    const auto refuse = [&](const char* what, const char* way_out) {
+        throw Error(fmt::format("{}: {}, expected volumes as plain datasets; {}", file.name(), what,
+                                way_out));
+    };
+    if (file.holds("/minc-2.0"))
+        refuse("MINC 2, which scales each slice in its own way",
+               "mnc2nii of the MINC tools makes NIfTI of it");
+    if (!file.text("/", "ImarisDataSet").empty() || file.holds("/DataSetInfo/Image"))
+        refuse("an Imaris file, whose datasets are padded",
+               "Fiji (Bio-Formats) saves its image as OME-TIFF");
+    if (file.holds("/bounding box") && file.holds("/refine level"))
+        refuse("FLASH's blocks of a refined grid",
+               "yt's covering_grid makes a regular grid of them");
+    if (!file.numbers("/", "NumMeshBlocks").empty() && file.holds("/LogicalLocations"))
+        refuse("Athena++'s blocks of a mesh", "yt's covering_grid makes a regular grid of them");
+    if (file.holds("/Chombo_global"))
+        refuse("Chombo's boxes of a refined grid",
+               "yt's covering_grid makes a regular grid of them");
+}
+
+} // namespace
+
 std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                          const ReadOptions& options) {
     auto file = std::make_unique<Hdf5File>(path);
+    if (!(options.array && options.array->starts_with('/')))
+        expect_no_other_format(*file);
     if (is_vtkhdf(*file) && !(options.array && options.array->starts_with('/')))
         return decode_vtkhdf(std::move(file), options);
     const Hdf5Array array = choose_array(*file, options);
@@ -34,6 +62,8 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                 file->name(), array.name, shape_text(first.dimensions),
                                 array.steps.size(), first.path));
     volume.info.arrays = array.offered;
+    if (array.note)
+        volume.info.notes.push_back(*array.note);
     size_grid(*file, volume);
     const std::size_t steps = layout->time ? first.dimensions[*layout->time] : array.steps.size();
     expect_few_steps(steps, file->name());

@@ -2,7 +2,7 @@
 #include "index/decoders/hdf5/hdf5_arrays.h"
 
 #include "index/error.h"
-#include "index/formats/series/natural_order.h"
+#include "index/formats/series/numbered_name.h"
 
 #include <fmt/format.h>
 
@@ -17,26 +17,17 @@ namespace {
 /// Most components of a vector or tensor, and most that an axis without a name may be.
 constexpr std::uint64_t kMostComponents = 9, kMaybeComponents = 4;
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
 /// The path with its last numbered group replaced by `*`, and the end of that group in the path.
 std::optional<std::pair<std::string, std::size_t>> pattern_of(const std::string& path) {
     std::size_t slash = path.rfind('/');
     while (slash != std::string::npos && slash > 0) {
-        std::size_t digits = slash;
-        while (digits > 0 && is_digit(path[digits - 1]))
-            --digits;
-        if (digits < slash)
-            return std::pair(path.substr(0, digits) + "*" + path.substr(slash), slash);
-        slash = path.rfind('/', slash - 1);
+        const std::size_t before = path.rfind('/', slash - 1);
+        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+        if (const auto number = number_at_end(std::string_view(path).substr(begin, slash - begin)))
+            return std::pair(path.substr(0, begin + *number) + "*" + path.substr(slash), slash);
+        slash = before;
     }
     return std::nullopt;
-}
-
-bool in_natural_order(const Hdf5Dataset& a, const Hdf5Dataset& b) {
-    return natural_less(a.path, b.path);
 }
 
 /// The part of a path that matches the pattern, up to the end of the group at the first `*`.
@@ -50,15 +41,30 @@ std::string group_in(const std::string& path, const std::string& pattern) {
     return path.substr(0, end);
 }
 
-Hdf5Array steps_of(std::string name, std::vector<Hdf5Dataset> steps) {
-    std::ranges::stable_sort(steps, in_natural_order);
-    Hdf5Array array{std::move(name), std::move(steps), {}};
+Hdf5Array steps_of(std::string name, const std::vector<Hdf5Dataset>& steps) {
+    std::vector<std::string> paths;
+    for (const Hdf5Dataset& step : steps)
+        paths.push_back(step.path);
+    const ReadNames read = read_names(paths);
+    Hdf5Array array{.name = std::move(name), .steps = {}, .groups = {}, .note = read.note};
+    for (const std::size_t step : read.order)
+        array.steps.push_back(steps[step]);
     for (const Hdf5Dataset& step : array.steps)
         array.groups.push_back(group_in(step.path, array.name));
     return array;
 }
 
-std::vector<Hdf5Array> put_together(const std::vector<Hdf5Dataset>& datasets) {
+/// The path of a dataset with `*` for the number of its iteration, where each has a file of its own.
+/// After "openPMD - a standard", iterationEncoding `fileBased`.
+std::optional<std::string> pattern_of_iteration(const Hdf5File& file, const std::string& path) {
+    if (file.text("/", "openPMD").empty() || file.text("/", "iterationEncoding") != "fileBased")
+        return std::nullopt;
+    const auto pattern = pattern_of(path);
+    return pattern ? std::optional(pattern->first) : std::nullopt;
+}
+
+std::vector<Hdf5Array> put_together(const Hdf5File& file,
+                                    const std::vector<Hdf5Dataset>& datasets) {
     std::map<std::string, std::vector<Hdf5Dataset>> families;
     for (const Hdf5Dataset& dataset : datasets)
         if (const auto pattern = pattern_of(dataset.path))
@@ -74,7 +80,8 @@ std::vector<Hdf5Array> put_together(const std::vector<Hdf5Dataset>& datasets) {
             if (family->second.front().path == dataset.path)
                 arrays.push_back(steps_of(family->first, family->second));
         } else {
-            arrays.push_back({dataset.path, {dataset}, {}});
+            const auto iteration = pattern_of_iteration(file, dataset.path);
+            arrays.push_back({iteration.value_or(dataset.path), {dataset}, {}});
         }
     }
     return arrays;
@@ -127,7 +134,7 @@ Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& dataset
             throw Error(fmt::format("{}: {} is {}, {} is {}, expected steps that are alike",
                                     file.name(), step.path, shape_text(step.dimensions),
                                     steps.front().path, shape_text(steps.front().dimensions)));
-    return steps_of(pattern, std::move(steps));
+    return steps_of(pattern, steps);
 }
 
 } // namespace
@@ -179,13 +186,16 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         const std::string path =
             options.array->starts_with('/') ? *options.array : "/" + *options.array;
         if (auto dataset = file.dataset(path))
-            return {path, {std::move(*dataset)}, {}};
+            return {pattern_of_iteration(file, path).value_or(path), {std::move(*dataset)}, {}};
     }
     const std::vector<Hdf5Dataset> datasets = file.datasets();
+    if (options.array && options.array->starts_with('/'))
+        if (const auto pattern = pattern_of_iteration(file, *options.array))
+            return matching(file, datasets, *pattern);
     if (options.array && options.array->find('*') != std::string::npos)
         return matching(file, datasets, *options.array);
     std::vector<Hdf5Array> offered;
-    for (Hdf5Array& array : put_together(datasets))
+    for (Hdf5Array& array : put_together(file, datasets))
         if (may_be_volume(array.steps.front()))
             offered.push_back(std::move(array));
     if (offered.empty())

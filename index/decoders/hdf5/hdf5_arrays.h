@@ -17,6 +17,7 @@ struct Hdf5Array {
     std::vector<Hdf5Dataset> steps;        ///< in the order of their numbers
     std::vector<std::string> groups;       ///< of several: what `*` stands for, with all before it
     std::vector<std::string> offered = {}; ///< what it was chosen from, with types
+    std::optional<std::string> note = {};  ///< how the numbers of the groups are read
 };
 
 /// Dimensions of a dataset, counted from the slowest.
@@ -34,7 +35,8 @@ std::optional<Hdf5Layout> layout_of(const Hdf5Dataset& dataset, const ReadOption
                                     std::string* why = nullptr);
 
 /// Picks the array that `options` name: by a path, the end of one, or a path with `*`; without a
-/// name, the only volume.
+/// name, the only volume. In openPMD's files of one iteration each, `*` stands for its number, so
+/// that the array has the same name in all.
 /// @throws Error listing the arrays, with type and shape, when the choice is ambiguous or wrong
 Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options);
 

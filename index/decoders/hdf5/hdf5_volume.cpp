@@ -2,7 +2,9 @@
 #include "index/decoders/hdf5/hdf5_volume.h"
 
 #include "index/error.h"
+#include "index/formats/cropped_file.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 
@@ -64,6 +66,9 @@ class Hdf5Decoder final : public DecodedFile {
         info.scaling = scaling_in(*file_, first().path);
         for (std::string& note : chosen_.notes())
             info.notes.push_back(std::move(note));
+        note_unread();
+        whole_ = info.grid;
+        part_ = crop_description(info, options, file_->name());
         for (const char* unit : {"units", "unit", "Units", "UNITS"})
             if (info.value_unit.empty())
                 info.value_unit = file_->text(first().path, unit);
@@ -87,7 +92,7 @@ class Hdf5Decoder final : public DecodedFile {
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info().grid.vertices[2], worth = slices_worth_asking(info());
         if (volume_.on_cells)
-            return all;
+            return all; // also of a part
         const auto whole_along = [&](std::size_t a) {
             const std::size_t dimension = volume_.layout.space[a];
             return values_->chunk()[dimension] >= first().dimensions[dimension];
@@ -111,8 +116,17 @@ class Hdf5Decoder final : public DecodedFile {
     }
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
+        if (!part_ || crops())
+            return read_slab(step, slices, info().grid, out);
+        std::vector<std::byte> all(whole_.vertex_count() * size_of(info().type));
+        read_slab(step, {0, whole_.vertices[2]}, whole_, all);
+        take_part(all, whole_, *part_, size_of(info().type), out);
+    }
+
+  private:
+    void read_slab(std::size_t step, Slices slices, const Grid& grid, std::span<std::byte> out) {
         open(volume_.datasets.size() > 1 ? step : 0);
-        Grid slab = info().grid;
+        Grid slab = grid;
         slab.vertices[2] = slices.count;
         const bool whole = volume_.on_cells; // then the slab is the whole volume
         const std::uint32_t layers = whole ? slab.vertices[2] - 1 : slices.count;
@@ -134,8 +148,31 @@ class Hdf5Decoder final : public DecodedFile {
         convert(chosen_, tuples, slab, out, file_->name());
     }
 
-  private:
+    /// What openPMD and CF state of a mesh that changes neither values nor places here.
+    void note_unread() {
+        const std::string& path = first().path;
+        const std::string group = path.substr(0, std::max<std::size_t>(path.rfind('/'), 1));
+        std::vector<std::string> unread;
+        for (const std::string& object : {path, group}) {
+            if (const std::string geometry = file_->text(object, "geometry");
+                !geometry.empty() && geometry != "cartesian")
+                unread.push_back(fmt::format("geometry {} (shown as cartesian)", geometry));
+            for (const char* name : {"geometryParameters", "grid_mapping", "cell_methods"})
+                if (const std::string text = file_->text(object, name); !text.empty())
+                    unread.push_back(fmt::format("{} {}", name, text));
+            for (const char* name : {"timeOffset", "valid_min", "valid_max", "valid_range"})
+                if (const auto numbers = file_->numbers(object, name);
+                    std::ranges::any_of(numbers, [](double number) { return number != 0; }))
+                    unread.emplace_back(name);
+        }
+        if (auto note = note_on_unread(unread))
+            volume_.info.notes.push_back(std::move(*note));
+    }
+
     const Hdf5Dataset& first() const { return volume_.datasets.front(); }
+
+    /// Whether a part of the dataset is read; of values of cells all are, for their means.
+    bool crops() const { return part_ && !volume_.on_cells; }
 
     std::uint32_t components() const {
         const auto& at = volume_.layout.component;
@@ -144,6 +181,8 @@ class Hdf5Decoder final : public DecodedFile {
 
     std::size_t values_in(std::uint32_t layers) const {
         const auto& space = volume_.layout.space;
+        if (crops())
+            return std::size_t{part_->count[0]} * part_->count[1] * layers;
         return first().dimensions[space[0]] * first().dimensions[space[1]] * layers;
     }
 
@@ -160,9 +199,12 @@ class Hdf5Decoder final : public DecodedFile {
         const Hdf5Layout& layout = volume_.layout;
         std::vector<std::uint64_t> start(first().dimensions.size()),
             count(first().dimensions.size(), 1);
-        for (const std::size_t dimension : layout.space)
-            count[dimension] = first().dimensions[dimension];
-        start[layout.space[2]] = first_layer;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t dimension = layout.space[axis];
+            start[dimension] = crops() ? part_->first[axis] : 0;
+            count[dimension] = crops() ? part_->count[axis] : first().dimensions[dimension];
+        }
+        start[layout.space[2]] += first_layer;
         count[layout.space[2]] = layers;
         if (layout.time)
             start[*layout.time] = volume_.places.empty() ? step : volume_.places[step];
@@ -207,6 +249,8 @@ class Hdf5Decoder final : public DecodedFile {
     std::unique_ptr<Hdf5File> file_;
     Hdf5Volume volume_;
     std::vector<double> missing_;
+    std::optional<VolumePart> part_; ///< if not all is wanted
+    Grid whole_;
     ChosenScalar chosen_;
     std::optional<Hdf5Values> values_;
     std::size_t open_ = 0;

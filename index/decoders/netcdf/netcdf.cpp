@@ -3,12 +3,17 @@
 #include "index/decoders/netcdf/netcdf_values.h"
 #include "index/error.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -71,10 +76,69 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
     return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
 }
 
+/// Attributes of the CF conventions and others that change neither values nor places here; texts that
+/// only describe are left out.
+std::optional<std::string> note_on_attributes(const NetcdfFile& file,
+                                              const NetcdfVariable& variable) {
+    static const std::set<std::string_view> kReadOrText{"units",
+                                                        "scale_factor",
+                                                        "add_offset",
+                                                        "_FillValue",
+                                                        "missing_value",
+                                                        "valid_min",
+                                                        "valid_max",
+                                                        "valid_range",
+                                                        "_Unsigned",
+                                                        "unitSI",
+                                                        "gridSpacing",
+                                                        "gridUnitSI",
+                                                        "gridGlobalOffset",
+                                                        "axisLabels",
+                                                        "dataOrder",
+                                                        "position",
+                                                        "long_name",
+                                                        "standard_name",
+                                                        "description",
+                                                        "comment",
+                                                        "history",
+                                                        "title",
+                                                        "references",
+                                                        "institution",
+                                                        "source",
+                                                        "DIMENSION_LIST",
+                                                        "_Netcdf4Dimid",
+                                                        "_Netcdf4Coordinates",
+                                                        "FieldType",
+                                                        "MemoryOrder",
+                                                        "_DeflateLevel",
+                                                        "_ChunkSizes",
+                                                        "_Storage",
+                                                        "_Endianness",
+                                                        "name",
+                                                        "param",
+                                                        "coordinates",
+                                                        "stagger",
+                                                        "axis"};
+    std::vector<std::string> unread;
+    for (const std::string& name : file.attributes(variable))
+        if (!kReadOrText.contains(name))
+            unread.push_back(name);
+    return note_on_unread(unread);
+}
+
+/// Formats within NetCDF whose values would be wrong if they were read as they are stored.
+void expect_no_other_format(const NetcdfFile& file) {
+    for (const NetcdfVariable& variable : file.variables())
+        if (file.text(variable, "varid").starts_with("MINC standard variable"))
+            throw Error(fmt::format("{}: MINC 1, which scales each slice in its own way, expected "
+                                    "plain NetCDF; mnc2nii of the MINC tools makes NIfTI of it",
+                                    file.name()));
+}
+
 class NetcdfVolume final : public DecodedFile {
   public:
     NetcdfVolume(const fs::path& path, const ReadOptions& options)
-        : file_(path), variable_(choose_variable(file_, options)),
+        : file_(path), variable_((expect_no_other_format(file_), choose_variable(file_, options))),
           layout_(*layout_of(file_, variable_)), missing_(file_, variable_) {
         const std::string& name = file_.name();
         const StoredArray array{.name = variable_.name,
@@ -105,6 +169,9 @@ class NetcdfVolume final : public DecodedFile {
         info_.notes = chosen_.notes();
         place_axes(file_, variable_, layout_, options, info_);
         place_steps(file_, variable_, layout_, info_);
+        if (auto note = note_on_attributes(file_, variable_))
+            info_.notes.push_back(std::move(*note));
+        part_ = crop_description(info_, options, name);
     }
 
     const SeriesInfo& info() const override { return info_; }
@@ -132,7 +199,7 @@ class NetcdfVolume final : public DecodedFile {
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
         read_netcdf_slab(file_, variable_, layout_, step, slices, chosen_, missing_, info_.grid,
-                         out);
+                         part_, out);
     }
 
   private:
@@ -146,6 +213,7 @@ class NetcdfVolume final : public DecodedFile {
     MissingValues missing_;
     ChosenScalar chosen_;
     SeriesInfo info_;
+    std::optional<VolumePart> part_;
     std::size_t steps_ = 1;
 };
 

@@ -279,6 +279,9 @@ void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const N
         return place_dates(file, variable.dimensions[*layout.time], info);
     if (!time)
         return;
+    const std::string unit = file.text(*time, "units");
+    if (says_dates(unit))
+        return place_absolute_dates(file.values(*time), unit, file.text(*time, "calendar"), info);
     info.times = file.values(*time);
     info.time_unit = with_calendar(file.text(*time, "units"), file.text(*time, "calendar"));
 }

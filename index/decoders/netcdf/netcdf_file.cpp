@@ -140,6 +140,18 @@ bool NetcdfFile::is_text(const NetcdfVariable& variable) const {
     return type == NC_CHAR;
 }
 
+std::vector<std::string> NetcdfFile::attributes(const NetcdfVariable& variable) const {
+    int count = 0;
+    expect(nc_inq_varnatts(variable.group, variable.id, &count), variable.name);
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i) {
+        std::string name(NC_MAX_NAME + 1, '\0');
+        expect(nc_inq_attname(variable.group, variable.id, i, name.data()), variable.name);
+        names.emplace_back(name.c_str());
+    }
+    return names;
+}
+
 std::string NetcdfFile::text(const NetcdfVariable& variable, const char* attribute) const {
     const auto [type, count] = attribute_shape(variable, attribute);
     std::string found(count, '\0');

@@ -51,6 +51,8 @@ class NetcdfFile {
     /// Whether a variable is characters.
     bool is_text(const NetcdfVariable& variable) const;
 
+    /// Names of a variable's attributes.
+    std::vector<std::string> attributes(const NetcdfVariable& variable) const;
     /// Attributes; empty if there is none of that name and kind.
     std::string text(const NetcdfVariable& variable, const char* attribute) const;
     std::vector<double> numbers(const NetcdfVariable& variable, const char* attribute) const;

@@ -66,7 +66,7 @@ MissingValues::MissingValues(const NetcdfFile& file, const NetcdfVariable& varia
 void read_netcdf_slab(const NetcdfFile& file, const NetcdfVariable& variable,
                       const NetcdfLayout& layout, std::size_t step, Slices slices,
                       const ChosenScalar& chosen, const MissingValues& missing, const Grid& grid,
-                      std::span<std::byte> out) {
+                      const std::optional<VolumePart>& part, std::span<std::byte> out) {
     std::vector<std::size_t> start(variable.dimensions.size()), count;
     for (const NetcdfDimension& dimension : variable.dimensions)
         count.push_back(dimension.length);
@@ -74,7 +74,11 @@ void read_netcdf_slab(const NetcdfFile& file, const NetcdfVariable& variable,
         start[*layout.time] = step;
         count[*layout.time] = 1;
     }
-    start[layout.space[2]] = slices.first;
+    for (std::size_t axis = 0; part && axis < 3; ++axis) {
+        start[layout.space[axis]] = part->first[axis];
+        count[layout.space[axis]] = part->count[axis];
+    }
+    start[layout.space[2]] += slices.first;
     count[layout.space[2]] = slices.count;
     Grid slab = grid;
     slab.vertices[2] = slices.count;

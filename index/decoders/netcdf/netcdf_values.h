@@ -2,9 +2,11 @@
 #pragma once
 
 #include "index/decoders/netcdf/netcdf_axes.h"
+#include "index/formats/cropped_file.h"
 #include "index/reader/reader_messages.h"
 
 #include <limits>
+#include <optional>
 
 namespace isochron::index {
 
@@ -32,11 +34,12 @@ class MissingValues {
 };
 
 /// Reads slices of one step, converted as `chosen` says.
-/// @param grid of the whole step
+/// @param grid of the whole step, or of the part
+/// @param part of the variable that is wanted; none: all
 /// @param out values of `chosen.value_type()`, [slowest]...[fastest]
 void read_netcdf_slab(const NetcdfFile& file, const NetcdfVariable& variable,
                       const NetcdfLayout& layout, std::size_t step, Slices slices,
                       const ChosenScalar& chosen, const MissingValues& missing, const Grid& grid,
-                      std::span<std::byte> out);
+                      const std::optional<VolumePart>& part, std::span<std::byte> out);
 
 } // namespace isochron::index

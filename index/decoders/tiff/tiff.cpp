@@ -4,6 +4,8 @@
 #include "index/decoders/tiff/tiff_metadata.h"
 #include "index/error.h"
 #include "index/formats/stored_file.h"
+#include "index/lower_case.h"
+#include "index/system/input_file.h"
 
 #include <fmt/format.h>
 
@@ -28,13 +30,27 @@ std::vector<std::string> names_of_channels(const TiffStack& stack) {
     return names;
 }
 
+/// The file's own description, or that of the file beside it to which it refers.
+std::string full_description(const TiffFile& file, const fs::path& path) {
+    const std::string& own = file.description();
+    const std::string name = ome_metadata_file(own);
+    if (name.empty())
+        return own;
+    const fs::path beside = path.parent_path() / fs::path(name).filename();
+    if (lower_case(beside.extension().string()).starts_with(".tif"))
+        return TiffFile(beside).description();
+    constexpr std::uint64_t kLargest = std::uint64_t{256} << 20;
+    return read_text(beside, kLargest);
+}
+
 class TiffVolume final : public DecodedFile {
   public:
     TiffVolume(const fs::path& path, const ReadOptions& options)
         : path_(path), slices_(options.slices), first_(path),
           stack_(slices_.empty()
-                     ? stack_of(first_.description(), first_.pages(), first_.shape().samples,
-                                first_.resolution(0), first_.resolution(1), path.string())
+                     ? stack_of(full_description(first_, path), first_.pages(),
+                                first_.shape().samples, first_.resolution(0), first_.resolution(1),
+                                path.string())
                      : TiffStack{.slices = slices_.size(),
                                  // Files of other channels have been left out by this name.
                                  .channel_names = {options.array.value_or("intensity")}}) {
@@ -67,8 +83,17 @@ class TiffVolume final : public DecodedFile {
         info_.type = chosen_.value_type();
         info_.length_unit = stack_.length_unit;
         info_.grid.spacing = stack_.spacing;
-        for (const auto& notes : {chosen_.notes(), stack_.notes})
+        info_.grid.origin = stack_.origin;
+        calibrate();
+        for (const auto& notes : {chosen_.notes(), stack_.notes, first_.notes()})
             info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
+        if (shape.half)
+            info_.notes.push_back("float16 values converted to f32");
+        note_resolution();
+        if (stack_.times.size() == stack_.frames && !frames_are_slices_) {
+            info_.times = stack_.times;
+            info_.time_unit = stack_.time_unit;
+        }
         if (stack_.time_step > 0 && std::isfinite(stack_.time_step) && !frames_are_slices_) {
             info_.time_unit = stack_.time_unit;
             for (std::size_t i = 0; i < stack_.frames; ++i)
@@ -91,6 +116,36 @@ class TiffVolume final : public DecodedFile {
     }
 
   private:
+    /// ImageJ calibrates 8 and 16 bits only.
+    void calibrate() {
+        if (stack_.scaling == Scaling{})
+            return;
+        const TiffShape& shape = first_.shape();
+        if (shape.type != StoredType::u8 && shape.type != StoredType::u16 &&
+            shape.type != StoredType::i8 && shape.type != StoredType::i16) {
+            info_.notes.push_back(
+                fmt::format("stated and not used: calibration of {} values, as in "
+                            "ImageJ",
+                            name_of(shape.type)));
+            return;
+        }
+        info_.scaling = stack_.scaling;
+        info_.value_unit = stack_.value_unit;
+    }
+
+    /// Of plain files it says how large a print is, or how large a pixel: nobody can tell.
+    void note_resolution() {
+        const double x = first_.resolution(0), y = first_.resolution(1);
+        const unsigned unit = first_.resolution_unit();
+        const std::string& said = first_.description();
+        if (!slices_.empty() || !(x > 0) || !(y > 0) || unit < 2 || unit > 3 ||
+            said.starts_with("ImageJ=") || said.find("<OME") != said.npos)
+            return;
+        info_.notes.push_back(fmt::format("stated and not used: {} x {} pixels for each {} "
+                                          "(--spacing, --length-unit)",
+                                          x, y, unit == 2 ? "inch" : "cm"));
+    }
+
     void read_slice(std::size_t step, std::uint32_t z, std::span<std::byte> out) {
         const std::size_t number =
             channel_ + stack_.channels * (frames_are_slices_ ? z : z + stack_.slices * step);

@@ -3,6 +3,8 @@
 
 #include "index/error.h"
 #include "index/formats/data_stream.h"
+#include "index/formats/half_float.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 #include <tiffio.h>
@@ -56,9 +58,9 @@ std::optional<StoredType> sample_type(TIFF* file) {
                : bits == 64 ? std::optional(StoredType::i64)
                             : std::nullopt;
     case SAMPLEFORMAT_IEEEFP:
-        return bits == 32   ? std::optional(StoredType::f32)
-               : bits == 64 ? std::optional(StoredType::f64)
-                            : std::nullopt;
+        return bits == 16 || bits == 32 ? std::optional(StoredType::f32)
+               : bits == 64             ? std::optional(StoredType::f64)
+                                        : std::nullopt;
     default: return std::nullopt;
     }
 }
@@ -74,6 +76,13 @@ Compression at_best(TIFF* file) {
     }
 }
 
+/// Half floats, which are widened to f32.
+bool is_half(TIFF* file) {
+    return field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE, 1) == 16 &&
+           field<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) ==
+               SAMPLEFORMAT_IEEEFP;
+}
+
 bool is_bilevel(TIFF* file) {
     return field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE, 1) == 1;
 }
@@ -81,7 +90,8 @@ bool is_bilevel(TIFF* file) {
 } // namespace
 
 std::string text(const TiffShape& shape) {
-    return fmt::format("{} x {}, {}{}", shape.width, shape.height, name_of(shape.type),
+    return fmt::format("{} x {}, {}{}", shape.width, shape.height,
+                       shape.half ? "f16" : name_of(shape.type),
                        shape.samples == 1 ? "" : fmt::format(" x {}", shape.samples));
 }
 
@@ -98,6 +108,7 @@ TiffFile::TiffFile(const std::filesystem::path& path) : name_(path.string()) {
         const char* text = nullptr;
         if (TIFFGetField(file_, TIFFTAG_IMAGEDESCRIPTION, &text) && text)
             description_ = text;
+        note_tags();
         resolution_[0] = field<float>(file_, TIFFTAG_XRESOLUTION, 0);
         resolution_[1] = field<float>(file_, TIFFTAG_YRESOLUTION, 0);
         list_pages();
@@ -113,7 +124,8 @@ TiffFile::TiffFile(TiffFile&& other) noexcept
       description_(std::move(other.description_)), resolution_{other.resolution_[0],
                                                                other.resolution_[1]},
       offsets_(std::move(other.offsets_)), appended_at_(other.appended_at_), page_(other.page_),
-      piece_(std::move(other.piece_)) {}
+      piece_(std::move(other.piece_)), halves_(std::move(other.halves_)),
+      resolution_unit_(other.resolution_unit_), notes_(std::move(other.notes_)) {}
 
 TiffFile::~TiffFile() {
     if (file_)
@@ -134,13 +146,50 @@ TiffShape TiffFile::shape_of_page() const {
     constexpr std::uint32_t kMostSamples = 1000;
     if (!type || (is_bilevel(file_) && shape.samples > 1))
         throw Error(fmt::format("{}: {} bits in format {}, expected integers of 1, 8, 16, 32 or 64 "
-                                "bits, f32 or f64",
+                                "bits, f16, f32 or f64",
                                 name_, field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE, 1),
                                 field<std::uint16_t>(file_, TIFFTAG_SAMPLEFORMAT, 1)));
     shape.type = *type;
+    shape.half = is_half(file_);
     if (shape.width == 0 || shape.height == 0 || shape.samples == 0 || shape.samples > kMostSamples)
         throw Error(fmt::format("{}: a page of {}", name_, text(shape)));
     return shape;
+}
+
+void TiffFile::note_tags() {
+    std::vector<std::string> unread;
+    resolution_unit_ = field<std::uint16_t>(file_, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+    if (const auto turned = field<std::uint16_t>(file_, TIFFTAG_ORIENTATION, 1); turned != 1)
+        unread.push_back(
+            fmt::format("Orientation {} (rows and columns are in the order of the file)", turned));
+    switch (field<std::uint16_t>(file_, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK)) {
+    case PHOTOMETRIC_MINISWHITE:
+        unread.emplace_back("PhotometricInterpretation 0 (white is zero)");
+        break;
+    case PHOTOMETRIC_PALETTE: unread.emplace_back("ColorMap (values are its indices)"); break;
+    default: break;
+    }
+    for (const auto& [tag, name] :
+         {std::pair(TIFFTAG_XPOSITION, "XPosition"), std::pair(TIFFTAG_YPOSITION, "YPosition")}) {
+        float position = 0;
+        if (TIFFGetField(file_, static_cast<std::uint32_t>(tag), &position) && position != 0)
+            unread.push_back(fmt::format("{} {}", name, position));
+    }
+    constexpr std::uint32_t kModelPixelScale = 33550, kModelTiepoint = 33922,
+                            kModelTransformation = 34264, kNoData = 42113;
+    for (const auto& [tag, name] : {std::pair(kModelPixelScale, "ModelPixelScale"),
+                                    std::pair(kModelTiepoint, "ModelTiepoint"),
+                                    std::pair(kModelTransformation, "ModelTransformation"),
+                                    std::pair(kNoData, "GDAL_NODATA")})
+        if (TIFFFindField(file_, tag, TIFF_ANY)) {
+            // The library keeps tags that it does not know: their count, and where they are.
+            std::uint32_t count = 0;
+            const void* data = nullptr;
+            if (TIFFGetField(file_, tag, &count, &data) && data)
+                unread.emplace_back(name);
+        }
+    if (auto note = note_on_unread(unread))
+        notes_.push_back(std::move(*note));
 }
 
 void TiffFile::list_pages() {
@@ -158,7 +207,7 @@ void TiffFile::list_pages() {
     go_to(0);
     expect_room(name_, 0, at_best(file_),
                 std::uint64_t{offsets_.size()} * shape_.width * shape_.height * shape_.samples *
-                    size_of(shape_.type) / (is_bilevel(file_) ? 8 : 1));
+                    shape_.stored_bytes() / (is_bilevel(file_) ? 8 : 1));
 }
 
 void TiffFile::take_appended(std::size_t pages) {
@@ -167,7 +216,7 @@ void TiffFile::take_appended(std::size_t pages) {
     const bool is_plain = at_best(file_) == Compression::none && shape_.samples == 1 &&
                           !is_bilevel(file_) && !TIFFIsTiled(file_) &&
                           TIFFGetField(file_, TIFFTAG_STRIPOFFSETS, &offsets) && offsets;
-    const std::uint64_t page = std::uint64_t{shape_.width} * shape_.height * size_of(shape_.type);
+    const std::uint64_t page = std::uint64_t{shape_.width} * shape_.height * shape_.stored_bytes();
     if (!is_plain || pages > kMostPages)
         throw Error(fmt::format("{}: truncated: {} pages, its description has {}", name_,
                                 offsets_.size(), pages));
@@ -195,6 +244,14 @@ void TiffFile::go_to(std::size_t page) {
 }
 
 void TiffFile::read(std::size_t page, std::uint32_t sample, std::span<std::byte> out) {
+    if (!shape_.half)
+        return read_stored(page, sample, out);
+    halves_.resize(out.size() / 2);
+    read_stored(page, sample, halves_);
+    widen_halves(halves_, out);
+}
+
+void TiffFile::read_stored(std::size_t page, std::uint32_t sample, std::span<std::byte> out) {
     if (appended_at_ > 0)
         return read_appended(page, out);
     go_to(page);
@@ -210,7 +267,7 @@ void TiffFile::read_appended(std::size_t page, std::span<std::byte> out) {
     file.seekg(static_cast<std::streamoff>(appended_at_ + page * out.size()));
     if (!file.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size())))
         throw Error(fmt::format("{}: page {} cannot be read", name_, page));
-    const std::size_t size = size_of(shape_.type);
+    const std::size_t size = shape_.stored_bytes();
     if (TIFFIsByteSwapped(file_))
         for (std::size_t i = 0; i + size <= out.size(); i += size)
             std::reverse(out.begin() + static_cast<std::ptrdiff_t>(i),
@@ -242,7 +299,7 @@ void TiffFile::read_strips(std::uint32_t sample, std::span<std::byte> out) {
         std::min(field<std::uint32_t>(file_, TIFFTAG_ROWSPERSTRIP, shape_.height), shape_.height);
     const bool apart = field<std::uint16_t>(file_, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
                        PLANARCONFIG_SEPARATE;
-    const std::size_t size = size_of(shape_.type), row = shape_.width * size;
+    const std::size_t size = shape_.stored_bytes(), row = shape_.width * size;
     const auto stored_row = static_cast<std::size_t>(TIFFScanlineSize64(file_));
     const std::uint32_t together = apart ? 1 : shape_.samples;
     const bool bits = is_bilevel(file_), as_they_are = together == 1 && !bits;
@@ -270,7 +327,7 @@ void TiffFile::read_tiles(std::uint32_t sample, std::span<std::byte> out) {
                height = field<std::uint32_t>(file_, TIFFTAG_TILELENGTH, 0);
     const bool apart = field<std::uint16_t>(file_, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
                        PLANARCONFIG_SEPARATE;
-    const std::size_t size = size_of(shape_.type), row = shape_.width * size;
+    const std::size_t size = shape_.stored_bytes(), row = shape_.width * size;
     const std::uint32_t together = apart ? 1 : shape_.samples;
     const bool bits = is_bilevel(file_);
     const std::uint64_t tile_bytes = TIFFTileSize64(file_), tile_row = TIFFTileRowSize64(file_);

@@ -20,6 +20,8 @@ struct TiffShape {
     std::uint32_t width = 0, height = 0;
     std::uint32_t samples = 1; ///< of a pixel
     StoredType type = StoredType::u8;
+    bool half = false; ///< stored as float16, of type f32
+    std::size_t stored_bytes() const { return half ? 2 : size_of(type); }
     bool operator==(const TiffShape&) const = default;
 };
 
@@ -41,6 +43,10 @@ class TiffFile {
     /// Pixels for each unit of length along x (axis 0) or y (axis 1); 0 if the file does not give
     /// it. The description may say what the unit is.
     double resolution(int axis) const { return resolution_[axis]; }
+    /// Of the resolution: 1 none, 2 inch, 3 centimeter.
+    unsigned resolution_unit() const { return resolution_unit_; }
+    /// Tags of the first page that are not used.
+    const std::vector<std::string>& notes() const { return notes_; }
     /// Number of pages, without thumbnails and masks. Of a large stack ImageJ describes only the
     /// first page, and appends the values of the others: see `take_appended`.
     std::size_t pages() const { return offsets_.size(); }
@@ -55,6 +61,8 @@ class TiffFile {
 
   private:
     void list_pages();
+    void note_tags();
+    void read_stored(std::size_t page, std::uint32_t sample, std::span<std::byte> out);
     TiffShape shape_of_page() const;
     void go_to(std::size_t page);
     void read_appended(std::size_t page, std::span<std::byte> out);
@@ -71,6 +79,9 @@ class TiffFile {
     std::uint64_t appended_at_ = 0;      ///< [bytes] where pages lie without directories; 0: none
     std::size_t page_ = 0;
     std::vector<std::byte> piece_;
+    std::vector<std::byte> halves_;
+    unsigned resolution_unit_ = 1;
+    std::vector<std::string> notes_;
 };
 
 } // namespace isochron::index

@@ -2,7 +2,9 @@
 #include "index/decoders/tiff/tiff_metadata.h"
 
 #include "index/error.h"
+#include "index/formats/length_units.h"
 #include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +14,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <sstream>
 
@@ -19,13 +22,6 @@ namespace isochron::index {
 namespace {
 
 constexpr std::size_t kMostPlanes = 1 << 22;
-
-std::string tidy_length(const std::string& unit) {
-    if (unit == "micron" || unit == "microns" || unit == "\\u00B5m" || unit == "\u00b5m" ||
-        unit == "\u03bcm" || unit == "\xb5m")
-        return "um";
-    return unit == "pixel" || unit == "pixels" || unit == "reference frame" ? "" : unit;
-}
 
 std::size_t checked_count(double value, const std::string& what, const std::string& file) {
     if (!(value >= 1) || value > static_cast<double>(kMostPlanes) || value != std::floor(value))
@@ -159,6 +155,56 @@ std::optional<TiffStack> shaped_stack(const std::string& description, std::size_
 
 } // namespace
 
+namespace {
+
+/// Times of planes, and what else is said of them.
+void take_planes_of_ome(const tinyxml2::XMLElement& pixels, const tinyxml2::XMLElement& image,
+                        TiffStack& stack) {
+    std::vector<std::string> unread;
+    std::map<std::size_t, double> times;
+    bool placed = false;
+    std::string unit = "s";
+    for (const auto* plane = child(&pixels, "Plane"); plane; plane = next(plane)) {
+        const double frame = attribute_of_ome(*plane, "TheT", 0);
+        if (plane->FindAttribute("DeltaT") && frame >= 0 && frame < 1e9) {
+            times.try_emplace(static_cast<std::size_t>(frame),
+                              attribute_of_ome(*plane, "DeltaT", 0));
+            unit = text_of_ome(*plane, "DeltaTUnit", "s");
+        }
+        for (const char* name : {"PositionX", "PositionY", "PositionZ"})
+            placed = placed || attribute_of_ome(*plane, name, 0) != 0;
+    }
+    if (placed)
+        unread.emplace_back("positions of the planes on the stage (--origin)");
+    if (child(&image, "StageLabel"))
+        unread.emplace_back("StageLabel (--origin)");
+    if (stack.time_step == 0 && times.size() == stack.frames && stack.frames > 1) {
+        for (const auto& [frame, time] : times)
+            stack.times.push_back(time);
+        const bool increasing =
+            std::ranges::adjacent_find(stack.times, std::greater_equal()) == stack.times.end();
+        stack.time_unit = unit;
+        if (!increasing) {
+            stack.times.clear();
+            unread.emplace_back("DeltaT of the planes, which does not increase");
+        }
+    }
+    if (auto note = note_on_unread(unread))
+        stack.notes.push_back(std::move(*note));
+}
+
+} // namespace
+
+std::string ome_metadata_file(const std::string& description) {
+    tinyxml2::XMLDocument document;
+    if (description.find("BinaryOnly") == description.npos ||
+        document.Parse(description.c_str(), description.size()) != tinyxml2::XML_SUCCESS ||
+        !document.RootElement())
+        return {};
+    const auto* only = child(document.RootElement(), "BinaryOnly");
+    return only ? text_of_ome(*only, "MetadataFile", "") : "";
+}
+
 TiffStack ome_stack(const std::string& description, std::uint32_t samples,
                     const std::string& file) {
     tinyxml2::XMLDocument document;
@@ -179,25 +225,62 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples,
     if (stack.channels * stack.slices > kMostPlanes ||
         stack.channels * stack.slices * stack.frames > kMostPlanes)
         throw Error(fmt::format("{}: more than {} planes", file, kMostPlanes));
-    stack.length_unit = tidy_length(text_of_ome(*pixels, "PhysicalSizeXUnit", "\u00b5m"));
+    const OneLengthUnit unit =
+        one_length_unit({text_of_ome(*pixels, "PhysicalSizeXUnit", "\u00b5m"),
+                         text_of_ome(*pixels, "PhysicalSizeYUnit", "\u00b5m"),
+                         text_of_ome(*pixels, "PhysicalSizeZUnit", "\u00b5m")});
+    stack.length_unit = unit.unit;
     bool sized = false;
     const std::array<const char*, 3> names{"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
     for (int axis = 0; axis < 3; ++axis) {
         const double spacing = attribute_of_ome(*pixels, names[static_cast<std::size_t>(axis)], 0);
         sized = sized || spacing > 0;
-        stack.spacing[axis] = spacing > 0 && std::isfinite(spacing) ? spacing : 1;
+        stack.spacing[axis] =
+            (spacing > 0 && std::isfinite(spacing) ? spacing : 1) * unit.factor[axis];
     }
-    if (!sized)
+    if (sized) {
+        stack.notes = unit.notes;
+    } else {
         stack.length_unit.clear();
+        stack.spacing = glm::dvec3(1.0);
+    }
     stack.time_step = attribute_of_ome(*pixels, "TimeIncrement", 0);
     stack.time_unit = text_of_ome(*pixels, "TimeIncrementUnit", "s");
     for (const auto* channel = child(pixels, "Channel"); channel; channel = next(channel))
         stack.channel_names.push_back(text_of_ome(*channel, "Name", ""));
+    take_planes_of_ome(*pixels, *image, stack);
     if (next(image))
         stack.notes.push_back("holds several images: the first one is read");
     stack.planes = OmePlanes(*pixels, stack, file).take_all();
     return stack;
 }
+
+namespace {
+
+/// The functions of ImageJ's Calibration.java by which stored values are shown: only the first is linear.
+void take_calibration(const std::map<std::string, std::string>& values, const auto& number,
+                      TiffStack& stack) {
+    constexpr double kStraightLine = 0, kNone = 20;
+    std::vector<std::string> unread;
+    const double function = values.contains("cf") ? number("cf", kNone) : kNone;
+    const double slope = number("c1", 1), intercept = number("c0", 0);
+    if (function == kStraightLine && slope != 0 && std::isfinite(slope) && std::isfinite(intercept))
+        stack.scaling = {slope, intercept};
+    else if (function != kNone)
+        unread.push_back(
+            fmt::format("calibration function {} (values are those stored)", function));
+    if (const auto unit = values.find("vunit"); unit != values.end() && function == kStraightLine &&
+                                                unit->second != "Gray Value" &&
+                                                unit->second != "gray value")
+        stack.value_unit = unit->second;
+    if (const auto inverted = values.find("inverty");
+        inverted != values.end() && inverted->second == "true")
+        unread.emplace_back("inverty (y counts downwards)");
+    if (auto note = note_on_unread(unread))
+        stack.notes.push_back(std::move(*note));
+}
+
+} // namespace
 
 TiffStack imagej_stack(const std::string& description, std::size_t pages, double x_resolution,
                        double y_resolution, const std::string& file) {
@@ -220,8 +303,15 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
         stack.slices = images;
     }
     stack.appended = pages == 1 && images > 1;
-    const auto unit = values.find("unit");
-    stack.length_unit = tidy_length(unit == values.end() ? "" : unit->second);
+    const auto text = [&](const char* key, const std::string& otherwise) {
+        const auto found = values.find(key);
+        return found == values.end() || found->second.empty() ? otherwise : found->second;
+    };
+    const std::string x_unit = text("unit", "");
+    const OneLengthUnit unit =
+        one_length_unit({x_unit, text("yunit", x_unit), text("zunit", x_unit)});
+    stack.length_unit = unit.unit;
+    stack.notes = unit.notes;
     if (x_resolution > 0 && y_resolution > 0 && !stack.length_unit.empty()) {
         stack.spacing.x = 1 / x_resolution;
         stack.spacing.y = 1 / y_resolution;
@@ -229,6 +319,15 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
     const double spacing = std::abs(number("spacing", 1));
     if (spacing > 0 && std::isfinite(spacing))
         stack.spacing.z = spacing;
+    // The origin is the pixel that lies at zero.
+    const std::array<const char*, 3> origins{"xorigin", "yorigin", "zorigin"};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double pixel = number(origins[static_cast<std::size_t>(axis)], 0);
+        stack.spacing[axis] *= unit.factor[axis];
+        if (std::isfinite(pixel) && pixel != 0)
+            stack.origin[axis] = -pixel * stack.spacing[axis];
+    }
+    take_calibration(values, number, stack);
     stack.time_step = number("finterval", 0);
     const auto time_unit = values.find("tunit");
     stack.time_unit =

@@ -1,13 +1,15 @@
 // What the descriptions of TIFF files say of their pages: OME-XML, ImageJ's and tifffile's.
 #pragma once
 
+#include "index/volume/value_type.h"
+
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 namespace isochron::index {
 
@@ -22,7 +24,10 @@ struct TiffPlane {
 struct TiffStack {
     std::size_t channels = 1, slices = 1, frames = 1;
     std::vector<std::string> channel_names = {};
-    glm::dvec3 spacing{1.0};
+    glm::dvec3 spacing{1.0}, origin{0.0};
+    Scaling scaling = {};
+    std::string value_unit = {};
+    std::vector<double> times = {}; ///< of frames, where they are said one by one
     std::string length_unit = {}, time_unit = {};
     double time_step = 0; ///< 0: not said
     /// Channel fastest, then slice, then frame; empty: in this order.
@@ -36,7 +41,11 @@ struct TiffStack {
 /// @throws Error naming the file: damaged, without pixels, impossible sizes
 TiffStack ome_stack(const std::string& description, std::uint32_t samples, const std::string& file);
 
-/// ImageJ's lines of `key=value`. @param pages that have directories
+/// The file beside that has the OME-XML of this one; empty if it has its own.
+std::string ome_metadata_file(const std::string& description);
+
+/// ImageJ's lines of `key=value`: calibration, places and units as ImageJ shows them.
+/// @param pages that have directories
 /// @throws Error naming the file: counts that are no numbers
 TiffStack imagej_stack(const std::string& description, std::size_t pages, double x_resolution,
                        double y_resolution, const std::string& file);

@@ -11,17 +11,14 @@
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace isochron::index {
 namespace {
 
 namespace fs = std::filesystem;
 
-void read_collection(const fs::path& path, std::vector<std::pair<fs::path, double>>& files) {
+void read_collection(const fs::path& path, ListedFiles& files) {
     const std::string name = path.string();
     {
         const MappedFile file(path);
@@ -33,7 +30,6 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
     vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
     if (!collection)
         throw Error(fmt::format("{}: not a ParaView collection", name));
-    std::map<std::pair<double, std::string>, std::string> parts;
     for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
         vtkXMLDataElement* set = collection->GetNestedElement(i);
         if (std::string_view(set->GetName()) != "DataSet")
@@ -48,25 +44,19 @@ void read_collection(const fs::path& path, std::vector<std::pair<fs::path, doubl
         if (!set->GetScalarAttribute("timestep", time) || !std::isfinite(time))
             throw Error(
                 fmt::format("{}: {}: timestep \"{}\", expected a number", name, file, text));
-        const char* part = set->GetAttribute("part");
-        const auto [same, is_new] = parts.try_emplace({time, part ? part : "0"}, file);
-        if (!is_new)
-            throw Error(fmt::format("{}: {}: time {}, {} has the same, and the same part; "
-                                    "--time-step needs the files themselves",
-                                    name, file, time, same->second));
-        files.emplace_back(path.parent_path() / file, time);
+        const char *part = set->GetAttribute("part"), *group = set->GetAttribute("group");
+        files.push_back({.path = path.parent_path() / file,
+                         .time = time,
+                         .part = fmt::format("{} of {}", part ? part : "0", group ? group : "")});
     }
     if (files.empty())
         throw Error(fmt::format("{}: an empty collection", name));
-    // Programs that write in parallel, or were restarted, may list files in any order.
-    std::stable_sort(files.begin(), files.end(),
-                     [](const auto& a, const auto& b) { return a.second < b.second; });
 }
 
 } // namespace
 
-std::vector<std::pair<fs::path, double>> decode_pvd(const fs::path& path) {
-    std::vector<std::pair<fs::path, double>> files;
+ListedFiles decode_pvd(const fs::path& path) {
+    ListedFiles files;
     with_vtk(path, [&] { read_collection(path, files); });
     return files;
 }

@@ -175,7 +175,7 @@ class VtkDataFile final : public DecodedFile {
                 info_.notes.push_back(note_on_resampling(
                     all_->read(), *vtkImageData::SafeDownCast(&data), chosen_, hidden_));
             std::ranges::copy(chosen_.notes(), std::back_inserter(info_.notes));
-            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
+            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells, all_->resampled()),
                               std::back_inserter(info_.notes));
             take_time_of_vtk(all_->read().GetFieldData(), info_);
         });

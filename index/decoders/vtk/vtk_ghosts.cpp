@@ -109,10 +109,15 @@ std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar&
     return points;
 }
 
-std::vector<std::string> notes_on_hidden(std::span<const std::uint8_t> hidden, bool on_cells) {
+std::vector<std::string> notes_on_hidden(std::span<const std::uint8_t> hidden, bool on_cells,
+                                         bool resampled) {
     const auto count = std::ranges::count_if(hidden, [](std::uint8_t each) { return each != 0; });
     if (count == 0)
         return {};
+    if (resampled)
+        return {fmt::format("{} of {} points of the regular grid lie outside the mesh, or in cells "
+                            "that it hides: their values are missing",
+                            count, hidden.size())};
     return {fmt::format("{} of {} {} are ghosts or blanked: their values are missing", count,
                         hidden.size(), on_cells ? "cells" : "vertices")};
 }

@@ -29,6 +29,7 @@ std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar&
                                           const Grid& grid);
 
 /// `1,331 of 8,000 vertices are hidden by ...`; nothing if none is hidden.
-std::vector<std::string> notes_on_hidden(std::span<const std::uint8_t> hidden, bool on_cells);
+std::vector<std::string> notes_on_hidden(std::span<const std::uint8_t> hidden, bool on_cells,
+                                         bool resampled = false);
 
 } // namespace isochron::index

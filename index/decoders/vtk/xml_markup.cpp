@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <utility>
 
@@ -78,9 +79,27 @@ void expect_end(const MappedFile& file, const std::string& name) {
 
 void expect_names(std::string_view markup, const std::string& file) {
     constexpr std::string_view kArray = "<DataArray";
+    const auto has_name = [](std::string_view tag) {
+        for (std::size_t at = tag.find("Name"); at != tag.npos; at = tag.find("Name", at + 1)) {
+            const std::size_t end = tag.find_first_not_of(" \t\r\n", at + 4);
+            if (std::isspace(static_cast<unsigned char>(tag[at - 1])) != 0 && end != tag.npos &&
+                tag[end] == '=')
+                return true;
+        }
+        return false;
+    };
+    // Those of positions are told by their places.
+    const auto among_positions = [&](std::size_t at) {
+        const std::string_view before = markup.substr(0, at);
+        return std::ranges::any_of(std::array{"Coordinates", "Points"}, [&](const char* element) {
+            const std::size_t begin = before.rfind(fmt::format("<{}", element));
+            const std::size_t end = before.rfind(fmt::format("</{}", element));
+            return begin != before.npos && (end == before.npos || end < begin);
+        });
+    };
     for (std::size_t at = markup.find(kArray); at != markup.npos; at = markup.find(kArray, at)) {
         const std::size_t end = behind_tag(markup, at);
-        if (markup.substr(at, end - at).find(" Name") == markup.npos)
+        if (!has_name(markup.substr(at, end - at)) && !among_positions(at))
             throw Error(
                 fmt::format("{}: cannot be read: an array at byte {} has no Name", file, at));
         at = end;

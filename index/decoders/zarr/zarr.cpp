@@ -7,6 +7,8 @@
 #include "index/decoders/zarr/zarr_cf.h"
 #include "index/decoders/zarr/zarr_groups.h"
 #include "index/error.h"
+#include "index/formats/cropped_file.h"
+#include "index/formats/length_units.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
 #include "index/lower_case.h"
@@ -106,6 +108,7 @@ class ZarrVolume final : public DecodedFile {
         describe(attributes, asked);
         if (image.is_null())
             place_by_coordinates(*store_, *array_, layout_.space, layout_.time, asked, info_);
+        part_ = crop_description(info_, options, name_);
     }
 
     const SeriesInfo& info() const override { return info_; }
@@ -250,7 +253,9 @@ class ZarrVolume final : public DecodedFile {
                 offered.push_back({.name = label, .type = array_->type()});
         if (!array_->type())
             throw Error(
-                fmt::format("{}: {} does not hold numbers that can be read", name_, array_name()));
+                fmt::format("{}: {} is of type {}, expected integers of up to 64 bits, bool, "
+                            "float16, float32 or float64",
+                            name_, array_name(), array_->type_name()));
         if (options.component != "magnitude")
             missing_ = missing_in(*array_);
         const bool whole = *array_->type() != StoredType::f32 && *array_->type() != StoredType::f64;
@@ -266,20 +271,27 @@ class ZarrVolume final : public DecodedFile {
                 offered.begin());
         std::array<std::int64_t, 3> sizes{};
         glm::dmat3 spacing(0.0);
+        const OneLengthUnit one_unit =
+            one_length_unit({axes_[layout_.space[0]].unit, axes_[layout_.space[1]].unit,
+                             axes_[layout_.space[2]].unit});
         for (std::size_t a = 0; a < 3; ++a) {
             const ZarrAxis& axis = axes_[layout_.space[a]];
             sizes[a] = static_cast<std::int64_t>(
                 std::min(array_->shape()[layout_.space[a]], std::uint64_t{1} << 62));
-            spacing[static_cast<int>(a)][static_cast<int>(a)] = axis.scale;
-            info_.grid.origin[static_cast<int>(a)] = axis.first;
+            const double factor = one_unit.factor[static_cast<int>(a)];
+            spacing[static_cast<int>(a)][static_cast<int>(a)] = axis.scale * factor;
+            info_.grid.origin[static_cast<int>(a)] = axis.first * factor;
         }
+        info_.notes.insert(info_.notes.end(), one_unit.notes.begin(), one_unit.notes.end());
         info_.grid.vertices = checked_vertices(sizes, name_);
         set_axes(info_.grid, spacing, name_);
-        info_.length_unit = axes_[layout_.space[0]].unit;
+        info_.length_unit = one_unit.unit;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         for (std::string& note : chosen_.notes())
             info_.notes.push_back(std::move(note));
+        if (array_->half())
+            info_.notes.push_back("float16 values converted to f32");
         expect_few_steps(steps(), name_);
         if (!layout_.time)
             return;
@@ -316,9 +328,12 @@ class ZarrVolume final : public DecodedFile {
 
     void load(std::size_t step, Slices slices, std::size_t channel, std::span<std::byte> out) {
         std::vector<std::uint64_t> start(array_->shape().size()), count(array_->shape().size(), 1);
-        for (const std::size_t dimension : layout_.space)
-            count[dimension] = array_->shape()[dimension];
-        start[layout_.space[2]] = slices.first;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t dimension = layout_.space[axis];
+            start[dimension] = part_ ? part_->first[axis] : 0;
+            count[dimension] = part_ ? part_->count[axis] : array_->shape()[dimension];
+        }
+        start[layout_.space[2]] += slices.first;
         count[layout_.space[2]] = slices.count;
         if (layout_.time)
             start[*layout_.time] = step;
@@ -334,8 +349,9 @@ class ZarrVolume final : public DecodedFile {
     ZarrLayout layout_;
     ChosenScalar chosen_;
     SeriesInfo info_;
-    std::vector<double> missing_;   ///< values that stand for missing ones
-    std::size_t first_channel_ = 0; ///< of the chosen array's components
+    std::optional<VolumePart> part_; ///< if not all is wanted
+    std::vector<double> missing_;    ///< values that stand for missing ones
+    std::size_t first_channel_ = 0;  ///< of the chosen array's components
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "index/decoders/zarr/zarr_array.h"
 
 #include "index/error.h"
+#include "index/formats/half_float.h"
 
 #include <fmt/format.h>
 
@@ -40,7 +41,7 @@ std::size_t ZarrArray::values_in_chunk() const {
 
 /// Makes values of stored bytes.
 void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
-    const std::size_t size = size_of(*said_.type), bytes = values_in_chunk() * size;
+    const std::size_t size = said_.element(), bytes = values_in_chunk() * size;
     // A check adds to what comes out of the codecs before it.
     constexpr std::size_t kSlack = 64;
     for (const ZarrCodec& codec : said_.pipeline.codecs)
@@ -53,15 +54,20 @@ void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
         for (std::size_t i = 0; i < bytes; i += size)
             std::reverse(values.begin() + static_cast<std::ptrdiff_t>(i),
                          values.begin() + static_cast<std::ptrdiff_t>(i + size));
-    if (said_.pipeline.order.empty())
+    if (!said_.pipeline.order.empty()) {
+        transpose(values, spare_);
+        values.swap(spare_);
+    }
+    if (!said_.half)
         return;
-    transpose(values, spare_);
+    spare_.resize(2 * bytes);
+    widen_halves(values, spare_);
     values.swap(spare_);
 }
 
 /// Stored dimension i is dimension order[i]: walks through the values as they are stored.
 void ZarrArray::transpose(const ZarrBytes& stored, ZarrBytes& out) const {
-    const std::size_t rank = chunk().size(), size = size_of(*said_.type), bytes = stored.size();
+    const std::size_t rank = chunk().size(), size = said_.element(), bytes = stored.size();
     const std::vector<std::size_t>& order = said_.pipeline.order;
     std::vector<std::size_t> stride(rank, 1), at(rank, 0);
     for (std::size_t i = rank - 1; i-- > 0;)

@@ -33,8 +33,11 @@ class ZarrArray {
     /// Whether files hold the chunks as they are in memory, so that a part can be read alone.
     bool plain() const {
         return said_.inner.empty() && said_.pipeline.codecs.empty() &&
-               said_.pipeline.order.empty() && !said_.pipeline.big_endian;
+               said_.pipeline.order.empty() && !said_.pipeline.big_endian && !said_.half;
     }
+    /// Whether values are stored as float16.
+    bool half() const { return said_.half; }
+    const std::string& type_name() const { return said_.type_name; }
 
     /// Whether a chunk spans these dimensions, and is large, but small enough to be kept: then it
     /// takes less memory to copy pieces out of the kept chunk than to copy all of it.

@@ -46,19 +46,23 @@ std::optional<json> json_at(const ZarrStore& store, const std::string& key) {
     return parsed;
 }
 
-/// `<f4`, `|u1`, `>i2` of version 2; `float32` of version 3.
+/// `<f4`, `|u1`, `>i2` of version 2; `float32` of version 3. Half floats become f32.
 std::optional<StoredType> type_of_zarr(std::string name) {
     if (name.size() == 3 && std::string("<>|").find(name[0]) != std::string::npos)
         name.erase(0, 1);
     for (const auto& [known, type] : std::initializer_list<std::pair<const char*, StoredType>>{
-             {"b1", StoredType::u8},      {"bool", StoredType::u8},     {"i1", StoredType::i8},
-             {"int8", StoredType::i8},    {"u1", StoredType::u8},       {"uint8", StoredType::u8},
-             {"i2", StoredType::i16},     {"int16", StoredType::i16},   {"u2", StoredType::u16},
-             {"uint16", StoredType::u16}, {"i4", StoredType::i32},      {"int32", StoredType::i32},
-             {"u4", StoredType::u32},     {"uint32", StoredType::u32},  {"i8", StoredType::i64},
-             {"int64", StoredType::i64},  {"u8", StoredType::u64},      {"uint64", StoredType::u64},
-             {"f4", StoredType::f32},     {"float32", StoredType::f32}, {"f8", StoredType::f64},
-             {"float64", StoredType::f64}})
+             {"b1", StoredType::u8},  {"bool", StoredType::u8},
+             {"i1", StoredType::i8},  {"int8", StoredType::i8},
+             {"u1", StoredType::u8},  {"uint8", StoredType::u8},
+             {"i2", StoredType::i16}, {"int16", StoredType::i16},
+             {"u2", StoredType::u16}, {"uint16", StoredType::u16},
+             {"i4", StoredType::i32}, {"int32", StoredType::i32},
+             {"u4", StoredType::u32}, {"uint32", StoredType::u32},
+             {"i8", StoredType::i64}, {"int64", StoredType::i64},
+             {"u8", StoredType::u64}, {"uint64", StoredType::u64},
+             {"f2", StoredType::f32}, {"float16", StoredType::f32},
+             {"f4", StoredType::f32}, {"float32", StoredType::f32},
+             {"f8", StoredType::f64}, {"float64", StoredType::f64}})
         if (name == known)
             return type;
     return std::nullopt;
@@ -159,12 +163,14 @@ void ZarrDescriber::describe_v2(const json& j) {
     const json& dtype = j.at("dtype");
     const std::string name = dtype.is_string() ? dtype.get<std::string>() : "";
     said_.type = type_of_zarr(name);
+    said_.type_name = dtype.is_string() ? name : dtype.dump();
+    said_.half = name.ends_with("f2");
     said_.pipeline.big_endian = name.starts_with('>');
     said_.separator = j.value("dimension_separator", ".");
     if (j.value("order", "C") == "F")
         for (std::size_t i = said_.shape.size(); i-- > 0;)
             said_.pipeline.order.push_back(i);
-    const std::size_t element = said_.type ? size_of(*said_.type) : 1;
+    const std::size_t element = said_.element();
     if (const auto compressor = j.find("compressor");
         compressor != j.end() && !compressor->is_null())
         said_.pipeline.codecs.push_back(codec_of(compressor->at("id"), element, where("")));
@@ -183,6 +189,8 @@ void ZarrDescriber::describe_v3(const json& j) {
     said_.shape = lengths_in(j.at("shape"));
     const json& type = j.at("data_type");
     said_.type = type_of_zarr(type.is_string() ? type.get<std::string>() : "");
+    said_.type_name = type.is_string() ? type.get<std::string>() : type.dump();
+    said_.half = said_.type_name == "float16";
     const json& grid = j.at("chunk_grid");
     if (grid.at("name") != "regular")
         throw Error(fmt::format("{}: a chunk grid {}, expected regular", where(""),
@@ -203,7 +211,7 @@ void ZarrDescriber::describe_v3(const json& j) {
 
 ZarrPipeline ZarrDescriber::pipeline_v3(const json& codecs, bool outer) {
     ZarrPipeline pipeline;
-    const std::size_t element = said_.type ? size_of(*said_.type) : 1;
+    const std::size_t element = said_.element();
     for (const json& codec : codecs) {
         const std::string name =
             codec.is_string() ? codec.get<std::string>() : codec.at("name").get<std::string>();

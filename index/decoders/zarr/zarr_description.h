@@ -25,6 +25,8 @@ struct ZarrPipeline {
 struct ZarrDescription {
     std::string path;               ///< in the store; empty for its root
     std::optional<StoredType> type; ///< of the values; empty if no volume can have it
+    bool half = false;              ///< stored as float16, of type f32
+    std::string type_name;          ///< as the array has it
     std::vector<std::uint64_t> shape, chunk, inner; ///< inner: of chunks in a shard, if there are
     std::vector<std::string> names; ///< of the dimensions; empty if the array does not give them
     nlohmann::json attributes;
@@ -34,6 +36,8 @@ struct ZarrDescription {
     ZarrBytes fill;                      ///< one value
     std::optional<double> fill_number;   ///< if there is one
 
+    /// Bytes of a stored value.
+    std::size_t element() const { return half ? 2 : type ? size_of(*type) : 1; }
     /// Number of values along each dimension of a chunk, or, if chunks are shards, of its parts.
     const std::vector<std::uint64_t>& parts() const { return inner.empty() ? chunk : inner; }
 };

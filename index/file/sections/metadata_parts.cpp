@@ -22,8 +22,13 @@ void put_decoding(json& j, const ReadOptions& options) {
         j["allow_surplus"] = true;
     if (options.times_from_names)
         j["times_from_names"] = true;
+    if (options.keep_first)
+        j["keep_first"] = true;
     if (options.extra_axis_is_time)
         j["extra_axis_is_time"] = true;
+    put_optional(j, "crop", options.crop);
+    put_optional(j, "stride", options.stride);
+    put_optional(j, "steps", options.steps);
     put_optional(j, "dims", options.dims);
     put_optional(j, "resample", options.resample);
     if (options.type)
@@ -33,10 +38,20 @@ void put_decoding(json& j, const ReadOptions& options) {
 void get_decoding(const json& j, ReadOptions& options) {
     options.allow_surplus = j.value("allow_surplus", false);
     options.times_from_names = j.value("times_from_names", false);
+    options.keep_first = j.value("keep_first", false);
     options.extra_axis_is_time = j.value("extra_axis_is_time", false);
     j.at("big_endian").get_to(options.big_endian);
     options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
-    for (auto [key, to] : {std::pair("dims", &options.dims), {"resample", &options.resample}})
+    if (j.contains("crop")) {
+        options.crop.emplace();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            get_whole(j.at("crop").at(axis), (*options.crop)[axis]);
+    }
+    if (j.contains("steps"))
+        get_whole(j.at("steps"), options.steps.emplace());
+    for (auto [key, to] : {std::pair("dims", &options.dims),
+                           {"resample", &options.resample},
+                           {"stride", &options.stride}})
         if (j.contains(key))
             get_whole(j.at(key), to->emplace());
     if (j.contains("type"))

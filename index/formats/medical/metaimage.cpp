@@ -8,6 +8,7 @@
 #include "index/formats/own_formats.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
 #include "index/lower_case.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace isochron::index {
@@ -83,6 +86,15 @@ class MetaImageHeader {
     bool truth(std::initializer_list<const char*> keys) const {
         const std::string text = lower_case(find(keys).value_or("false"));
         return text.starts_with('t') || text.starts_with('1') || text.starts_with('y');
+    }
+
+    /// Fields that none of these keys are, with their values.
+    std::vector<std::string> others(const std::set<std::string_view>& keys) const {
+        std::vector<std::string> others;
+        for (const auto& [key, value] : fields_)
+            if (!keys.contains(key))
+                others.push_back(fmt::format("{} {}", key, excerpt(value)));
+        return others;
     }
 
     /// Names that follow `ElementDataFile = LIST`.
@@ -178,6 +190,38 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     StoredLayout layout;
     orient(header, sizes.size(), name, info, layout.time_step, layout.first_time);
     info.length_unit = header.find({"DistanceUnits"}).value_or("");
+    static const std::set<std::string_view> kRead{
+        "ObjectType",
+        "NDims",
+        "BinaryData",
+        "BinaryDataByteOrderMSB",
+        "ElementByteOrderMSB",
+        "CompressedData",
+        "CompressedDataSize",
+        "TransformMatrix",
+        "Rotation",
+        "Orientation",
+        "Offset",
+        "Position",
+        "Origin",
+        "ElementSpacing",
+        "ElementSize",
+        "DimSize",
+        "HeaderSize",
+        "ElementNumberOfChannels",
+        "ElementType",
+        "ElementDataFile",
+        "DistanceUnits",
+    };
+    std::vector<std::string> unread = header.others(kRead);
+    if (header.find({"ElementSpacing"}) && header.find({"ElementSize"}))
+        unread.emplace_back("ElementSize (ElementSpacing counts)");
+    // Of a matrix that turns space, the center only says about which point: Offset has it in already.
+    std::erase_if(unread, [](const std::string& field) {
+        return field == "CenterOfRotation 0 0 0" || field.starts_with("AnatomicalOrientation ???");
+    });
+    if (auto note = note_on_unread(unread))
+        info.notes.push_back(std::move(*note));
     if (sizes.size() == 4) {
         if (sizes[3] < 1)
             throw Error(fmt::format("{}: {} steps, expected at least 1", name, sizes[3]));

@@ -7,6 +7,8 @@
 #include "index/formats/own_formats.h"
 #include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -15,7 +17,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -31,6 +36,7 @@ struct NiftiHeader {
     double quatern[3], qoffset[3];
     double srow[3][4];
     std::size_t bytes; ///< of the header itself
+    std::vector<std::string> unread;
     bool big_endian, pair;
 };
 
@@ -50,6 +56,12 @@ class Fields {
         return value;
     }
 
+    /// Up to its zero byte.
+    std::string text(std::size_t offset, std::size_t most) const {
+        const std::string whole = head_.substr(offset, most);
+        return std::string(trimmed(whole.substr(0, whole.find('\0'))));
+    }
+
   private:
     const std::string& head_;
     bool swapped_;
@@ -67,8 +79,42 @@ void read_geometry(const Fields& f, std::size_t quatern, NiftiHeader& h) {
     }
 }
 
+/// Where fields are that nothing is done with.
+struct UnreadPlaces {
+    std::size_t dim_info, intent_code, intent_name, slice_start, slice_end, slice_code, cal_max,
+        cal_min, slice_duration, descrip, aux_file;
+};
+
+/// @tparam Whole of codes @tparam Index of slices @tparam Real of the others
+template <class Whole, class Index, class Real>
+std::vector<std::string> unread_in(const Fields& f, const UnreadPlaces& at) {
+    std::vector<std::string> unread;
+    const auto number = [&](const char* name, double value) {
+        if (value != 0)
+            unread.push_back(fmt::format("{} {}", name, value));
+    };
+    const auto text = [&](const char* name, const std::string& value) {
+        if (!value.empty())
+            unread.push_back(fmt::format("{} {}", name, excerpt(value)));
+    };
+    number("dim_info", f.at<std::uint8_t>(at.dim_info));
+    number("intent_code", f.at<Whole>(at.intent_code));
+    text("intent_name", f.text(at.intent_name, 16));
+    number("slice_start", static_cast<double>(f.at<Index>(at.slice_start)));
+    number("slice_end", static_cast<double>(f.at<Index>(at.slice_end)));
+    number("slice_code", f.at<std::uint8_t>(at.slice_code));
+    number("slice_duration", f.at<Real>(at.slice_duration));
+    number("cal_max", f.at<Real>(at.cal_max));
+    number("cal_min", f.at<Real>(at.cal_min));
+    text("descrip", f.text(at.descrip, 80));
+    text("aux_file", f.text(at.aux_file, 24));
+    return unread;
+}
+
 NiftiHeader header_1(const Fields& f) {
     NiftiHeader h{};
+    h.unread = unread_in<std::int16_t, std::int16_t, float>(
+        f, {39, 68, 328, 74, 120, 122, 124, 128, 132, 148, 228});
     for (std::size_t i = 0; i < 8; ++i) {
         h.dim[i] = f.at<std::int16_t>(40 + 2 * i);
         h.pixdim[i] = f.at<float>(76 + 4 * i);
@@ -87,6 +133,8 @@ NiftiHeader header_1(const Fields& f) {
 
 NiftiHeader header_2(const Fields& f) {
     NiftiHeader h{};
+    h.unread = unread_in<std::int32_t, std::int64_t, double>(
+        f, {524, 504, 508, 224, 232, 496, 192, 200, 208, 240, 320});
     for (std::size_t i = 0; i < 8; ++i) {
         h.dim[i] = f.at<std::int64_t>(16 + 8 * i);
         h.pixdim[i] = f.at<double>(104 + 8 * i);
@@ -106,6 +154,14 @@ NiftiHeader header_2(const Fields& f) {
 // Analyze 7.5, "ANALYZE Header File Format", Mayo Foundation 1990; the scaling is SPM's.
 NiftiHeader analyze_header(const Fields& f, bool swapped) {
     NiftiHeader h = header_1(f);
+    h.unread.clear();
+    if (const int orient = f.at<std::uint8_t>(252); orient != 0)
+        h.unread.push_back(fmt::format("orient {}", orient));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (f.at<std::int16_t>(253 + 2 * axis) != 0) {
+            h.unread.emplace_back("originator, the origin by SPM (--origin)");
+            break;
+        }
     h.qform_code = h.sform_code = 0;
     h.scl_inter = h.toffset = 0;
     h.vox_offset = std::abs(h.vox_offset); // negative: of each volume
@@ -211,6 +267,22 @@ void orient(const NiftiHeader& h, const std::string& name, SeriesInfo& info) {
         info.notes.push_back("the axes are sheared");
 }
 
+/// Whether the qform places the volume elsewhere than the sform.
+bool differ(const NiftiHeader& h) {
+    constexpr double kSlack = 1e-3; // of a vertex
+    const glm::dmat3 axes = quaternion_axes(h);
+    for (int row = 0; row < 3; ++row) {
+        const double size = std::abs(h.pixdim[row + 1]);
+        if (!(std::abs(h.qoffset[row] - h.srow[row][3]) <= kSlack * size))
+            return true;
+        for (int column = 0; column < 3; ++column)
+            if (!(std::abs(axes[column][row] - h.srow[row][column]) <=
+                  kSlack * std::abs(h.pixdim[column + 1])))
+                return true;
+    }
+    return false;
+}
+
 std::string length_unit(std::int32_t units) {
     switch (units & 7) {
     case 1: return "m";
@@ -277,6 +349,11 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     SeriesInfo info;
     info.grid.vertices = checked_vertices({h.dim[1], h.dim[2], h.dim[3]}, name);
     orient(h, name, info);
+    std::vector<std::string> unread = h.unread;
+    if (h.sform_code > 0 && h.qform_code > 0 && differ(h))
+        unread.emplace_back("qform, which differs from the sform");
+    if (auto note = note_on_unread(unread))
+        info.notes.push_back(std::move(*note));
     info.length_unit = length_unit(h.xyzt_units);
     // scl_slope 0 means that there is no scaling.
     if (h.scl_slope != 0 && std::isfinite(h.scl_slope) && std::isfinite(h.scl_inter))

@@ -3,12 +3,14 @@
 //
 // Fields after "Definition of NRRD File Format", https://teem.sourceforge.net/nrrd/format.html.
 #include "index/error.h"
+#include "index/formats/length_units.h"
 #include "index/formats/medical/nrrd_axes.h"
 #include "index/formats/medical/nrrd_header.h"
 #include "index/formats/own_formats.h"
 #include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
 #include "index/lower_case.h"
 #include "index/system/input_file.h"
 
@@ -18,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace isochron::index {
@@ -57,15 +60,63 @@ constexpr std::array<SpaceName, 5> kSpaces{{
     {"3d-left-handed", "3d-left-handed", Anatomy::none, {1, 1, -1}},
 }};
 
+std::string unquoted(std::string text) {
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
+        text = text.substr(1, text.size() - 2);
+    return text;
+}
+
+/// Units of space, one for all axes or one for each: of the axes of space, or of those of the file.
+void take_units(const NrrdAxes& axes, const std::vector<std::string>& space_units, SeriesInfo& info,
+                const std::string& file) {
+    std::array<std::string, 3> units;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!space_units.empty())
+            units[i] = space_units[std::min(i, space_units.size() - 1)];
+        else if (!axes.units.empty())
+            units[i] = axes.units[axes.space[i]];
+    const OneLengthUnit one = one_length_unit(units);
+    info.length_unit = one.unit;
+    info.notes.insert(info.notes.end(), one.notes.begin(), one.notes.end());
+    if (one.factor == glm::dvec3(1.0))
+        return;
+    // Units are of the axes of physical space, along which directions have their components.
+    glm::dmat3 steps(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+        steps[axis] = info.grid.direction[axis] * info.grid.spacing[axis] * one.factor;
+    set_axes(info.grid, steps, file);
+    info.grid.origin *= one.factor;
+}
+
+/// Labels are of the axes of the file, which are those of space where these are in order.
+void name_axes(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info) {
+    const auto labels = quoted_in(header.find("labels").value_or(""));
+    if (labels.size() != axes.sizes.size())
+        return;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int along = 0; along < 3; ++along)
+            if (std::abs(std::abs(info.grid.direction[axis][along]) - 1) < 1e-6)
+                info.axis_names[static_cast<std::size_t>(along)] =
+                    labels[axes.space[static_cast<std::size_t>(axis)]];
+}
+
 void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
             StoredLayout& layout) {
     const std::string& file = header.file();
     const std::size_t count = axes.sizes.size();
     const auto spacings = per_axis(header, "spacings", count);
     const auto minima = per_axis(header, "axismins", count);
+    const auto maxima = per_axis(header, "axismaxs", count);
+    const auto centers = words_of(
+        lower_case(header.find("centers").value_or(header.find("centerings").value_or(""))));
+    bool centers_guessed = false;
     glm::dvec3 signs(1);
     if (const auto space = header.find("space")) {
-        const std::string name = lower_case(*space);
+        std::string name = lower_case(*space);
+        if (space_dimensions(header) == 4 && name.ends_with("-time"))
+            name.resize(name.size() - std::string_view("-time").size());
+        else if (name.size() == 4 && name.ends_with('t'))
+            name.pop_back();
         const auto known = std::find_if(kSpaces.begin(), kSpaces.end(), [&](const SpaceName& s) {
             return s.name == name || s.letters == name;
         });
@@ -82,25 +133,48 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
             steps[i] = *axes.directions[axis] * signs;
         } else {
             const bool said = !spacings.empty() && std::isfinite(spacings[axis]);
+            const bool begins = !minima.empty() && std::isfinite(minima[axis]);
+            const bool ends = begins && !maxima.empty() && std::isfinite(maxima[axis]);
+            const std::string center = axis < centers.size() ? centers[axis] : "";
+            const bool told = center == "node" || center == "cell";
+            // As Teem has it: samples are centers of cells unless they are said to be nodes.
+            const bool cell = center == "cell" || (ends && !told);
+            const auto size = static_cast<double>(axes.sizes[axis]);
+            double step = said ? spacings[axis] : 1.0;
+            if (!said && ends && maxima[axis] != minima[axis])
+                step = (maxima[axis] - minima[axis]) / (cell ? size : size - 1);
+            centers_guessed = centers_guessed || (ends && !told);
             steps[i] = glm::dvec3(0);
-            steps[i][i] = (said ? spacings[axis] : 1.0) * signs[i];
-            if (!minima.empty() && std::isfinite(minima[axis]))
-                info.grid.origin[i] = minima[axis] * signs[i];
+            steps[i][i] = step * signs[i];
+            if (begins)
+                info.grid.origin[i] = (minima[axis] + (cell ? step / 2 : 0)) * signs[i];
         }
     }
+    if (centers_guessed)
+        info.notes.push_back(
+            "axis mins and maxs are taken for the outer faces of cells: centers are "
+            "not said");
     set_axes(info.grid, steps, file);
+    std::optional<std::vector<double>> first;
     if (const auto origin = header.find("spaceorigin"))
-        info.grid.origin =
-            nrrd_vector(*origin, "space origin", file).value_or(glm::dvec3(0)) * signs;
+        first = nrrd_vector(*origin, "space origin", file, space_dimensions(header));
+    if (first)
+        info.grid.origin = glm::dvec3((*first)[0], (*first)[1], (*first)[2]) * signs;
     const auto space_units = quoted_in(header.find("spaceunits").value_or(""));
-    if (!space_units.empty())
-        info.length_unit = space_units[0];
-    else if (!axes.units.empty())
-        info.length_unit = axes.units[axes.space[0]];
+    take_units(axes, space_units, info, file);
+    name_axes(header, axes, info);
+    info.value_unit = unquoted(header.find("sampleunits").value_or(""));
     if (!axes.time)
         return;
     if (axes.sizes[*axes.time] < 1)
         throw Error(fmt::format("{}: {} steps, expected at least 1", file, axes.sizes[*axes.time]));
+    if (axes.time_step) {
+        layout.time_step = *axes.time_step;
+        if (first && first->size() == 4)
+            layout.first_time = (*first)[3];
+        if (space_units.size() == 4)
+            info.time_unit = space_units[3];
+    }
     layout.steps = static_cast<std::size_t>(axes.sizes[*axes.time]);
     if (!spacings.empty())
         layout.time_step = spacings[*axes.time];
@@ -110,6 +184,24 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
         info.notes.push_back("its slowest axis is taken for time: it gives no kinds");
     if (!axes.units.empty())
         info.time_unit = axes.units[*axes.time];
+    const auto steps_of_time = static_cast<double>(layout.steps);
+    if (layout.time_step == 0 && layout.steps > 1 && !minima.empty() && !maxima.empty() &&
+        std::isfinite(minima[*axes.time]) && std::isfinite(maxima[*axes.time]))
+        layout.time_step =
+            (maxima[*axes.time] - minima[*axes.time]) /
+            (*axes.time < centers.size() && centers[*axes.time] == "cell" ? steps_of_time
+                                                                          : steps_of_time - 1);
+}
+
+/// What is not said elsewhere: fields of the format that nothing is done with.
+void note_unread(const NrrdHeader& header, SeriesInfo& info) {
+    static const std::set<std::string_view> kRead{
+        "dimension", "type",     "blocksize",       "encoding",    "endian",      "space",
+        "sizes",     "spacings", "axismins",        "axismaxs",    "centers",     "centerings",
+        "units",     "kinds",    "spacedimension",  "spaceunits",  "spaceorigin", "lineskip",
+        "byteskip",  "datafile", "spacedirections", "sampleunits", "labels",      "number"};
+    if (auto note = note_on_unread(header.others(kRead)))
+        info.notes.push_back(std::move(*note));
 }
 
 /// The file offset after `lines` lines from `offset` on.
@@ -200,6 +292,7 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
         {axes.sizes[axes.space[0]], axes.sizes[axes.space[1]], axes.sizes[axes.space[2]]}, file);
     StoredLayout layout;
     orient(header, axes, info, layout);
+    note_unread(header, info);
 
     const std::string type = lower_case(header.need("type"));
     const auto known =

@@ -75,19 +75,28 @@ Role role_of(std::size_t axis, const std::string& kind, NrrdAxes& axes, const Re
 
 } // namespace
 
-std::optional<glm::dvec3> nrrd_vector(std::string_view text, const std::string& key,
-                                      const std::string& file) {
+std::optional<std::vector<double>> nrrd_vector(std::string_view text, const std::string& key,
+                                               const std::string& file, std::size_t dimensions) {
     if (text == "none")
         return std::nullopt;
     std::string numbers(text);
     std::replace_if(
         numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; },
         ' ');
-    const auto v = numbers_of(numbers, key, file);
-    if (v.size() != 3)
-        throw Error(fmt::format("{}: {}: {} has {} numbers, expected 3", file, key, excerpt(text),
-                                v.size()));
-    return glm::dvec3(v[0], v[1], v[2]);
+    auto v = numbers_of(numbers, key, file);
+    if (v.size() != dimensions)
+        throw Error(fmt::format("{}: {}: {} has {} numbers, expected {}", file, key, excerpt(text),
+                                v.size(), dimensions));
+    return v;
+}
+
+std::size_t space_dimensions(const NrrdHeader& header) {
+    const std::string space = lower_case(header.find("space").value_or(""));
+    const auto said = header.find("spacedimension");
+    const bool timed = space.ends_with("-time") ||
+                       (space.size() == 4 && space.ends_with('t')) || // rast
+                       (said && trimmed(*said) == "4");
+    return timed ? 4 : 3;
 }
 
 std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, std::size_t count) {
@@ -132,8 +141,20 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
         kinds.assign(count, "");
     std::vector<bool> spatial = spatial_by_kind(kinds);
     if (const auto text = header.find("spacedirections")) {
-        for (const std::string& vector : vectors_in(*text))
-            axes.directions.push_back(nrrd_vector(vector, "space directions", file));
+        const std::size_t dimensions = space_dimensions(header);
+        for (const std::string& vector : vectors_in(*text)) {
+            const auto v = nrrd_vector(vector, "space directions", file, dimensions);
+            const bool along_time = v && dimensions == 4 && (*v)[3] != 0;
+            if (along_time && ((*v)[0] != 0 || (*v)[1] != 0 || (*v)[2] != 0))
+                throw Error(fmt::format("{}: space directions: {} goes through space and time, "
+                                        "expected one of them",
+                                        file, excerpt(vector)));
+            if (along_time && axes.directions.size() < count)
+                axes.time_step = (*v)[3], kinds[axes.directions.size()] = "time";
+            axes.directions.push_back(v && !along_time
+                                          ? std::optional(glm::dvec3((*v)[0], (*v)[1], (*v)[2]))
+                                          : std::nullopt);
+        }
         if (axes.directions.size() != count)
             throw Error(fmt::format("{}: {} space directions, expected {}", file,
                                     axes.directions.size(), count));

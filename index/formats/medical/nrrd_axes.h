@@ -19,7 +19,9 @@ namespace isochron::index {
 struct NrrdAxes {
     std::vector<std::int64_t> sizes;
     std::vector<std::optional<glm::dvec3>> directions; ///< none: not an axis of space
-    std::vector<std::string> units;                    ///< of each axis; may be empty
+    /// Where space has time as its fourth dimension: the time between steps.
+    std::optional<double> time_step;
+    std::vector<std::string> units; ///< of each axis; may be empty
     std::array<std::size_t, 3> space{};
     /// The fastest or the slowest axis, if any.
     std::optional<std::size_t> components, time;
@@ -36,8 +38,11 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options);
 std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, std::size_t count);
 
 /// Reads a vector such as `(1,0,0)`; none for `none`.
-std::optional<glm::dvec3> nrrd_vector(std::string_view text, const std::string& key,
-                                      const std::string& file);
+std::optional<std::vector<double>> nrrd_vector(std::string_view text, const std::string& key,
+                                               const std::string& file, std::size_t dimensions);
+
+/// 4 of a space with time, such as `right-anterior-superior-time`, else 3.
+std::size_t space_dimensions(const NrrdHeader& header);
 
 /// The texts between quotation marks.
 std::vector<std::string> quoted_in(std::string_view text);

@@ -29,10 +29,14 @@ NrrdHeader::NrrdHeader(const std::filesystem::path& path) : file_(path.string())
         const std::size_t colon = line.find(':');
         if (line.starts_with('#') || colon == line.npos)
             continue;
-        if (line.compare(colon, 2, ":=") == 0)
-            continue; // the user's own keys
-        std::string key = lower_case(trimmed(std::string_view(line).substr(0, colon)));
+        const std::string spelled(trimmed(std::string_view(line).substr(0, colon)));
+        if (line.compare(colon, 2, ":=") == 0) {
+            own_.push_back(spelled);
+            continue;
+        }
+        std::string key = lower_case(spelled);
         std::erase(key, ' ');
+        spelled_[key] = spelled;
         fields_[key] = trimmed(std::string_view(line).substr(colon + 1));
     }
     if (lists() && !line.empty()) // the last line of a file may have no end
@@ -46,6 +50,15 @@ bool NrrdHeader::lists() const {
 std::optional<std::string> NrrdHeader::find(const std::string& key) const {
     const auto found = fields_.find(key);
     return found == fields_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::vector<std::string> NrrdHeader::others(const std::set<std::string_view>& keys) const {
+    std::vector<std::string> others;
+    for (const auto& [key, spelled] : spelled_)
+        if (!keys.contains(key))
+            others.push_back(fmt::format("{} {}", spelled, excerpt(fields_.at(key))));
+    others.insert(others.end(), own_.begin(), own_.end());
+    return others;
 }
 
 std::string NrrdHeader::need(const std::string& key) const {

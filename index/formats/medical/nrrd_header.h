@@ -6,7 +6,9 @@
 #include <iosfwd>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::index {
@@ -20,6 +22,8 @@ class NrrdHeader {
     std::optional<std::string> find(const std::string& key) const;
     /// A field that must be there. @throws Error when it is missing
     std::string need(const std::string& key) const;
+    /// Fields that none of these keys are, and the user's own keys, as the file has them.
+    std::vector<std::string> others(const std::set<std::string_view>& keys) const;
     /// Names that follow `data file: LIST`.
     const std::vector<std::string>& listed() const { return listed_; }
     const std::string& file() const { return file_; }
@@ -31,6 +35,8 @@ class NrrdHeader {
 
     std::string file_;
     std::map<std::string, std::string> fields_;
+    std::map<std::string, std::string> spelled_; ///< keys as the file has them
+    std::vector<std::string> own_;               ///< keys of the user
     std::vector<std::string> listed_;
     std::uint64_t bytes_ = 0;
 };

@@ -4,6 +4,8 @@
 #include "index/error.h"
 #include "index/formats/converted_file.h"
 #include "index/formats/series/numbered_name.h"
+#include "index/formats/series/same_volume.h"
+#include "index/formats/series/step_order.h"
 #include "index/formats/stored_file.h"
 #include "index/system/input_file.h"
 #include "index/utf8.h"
@@ -21,75 +23,6 @@
 
 namespace isochron::index {
 namespace {
-
-bool close(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& tolerance) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(a[axis] - b[axis]) <= tolerance[axis]))
-            return false;
-    return true;
-}
-
-/// Compares grids with the same number of vertices. One grid may be even up to rounding, and the
-/// other not.
-bool same_positions(const Grid& a, const Grid& b, std::size_t axis) {
-    constexpr double kSlack = 1e-4; // of the spacing
-    if (a.positions[axis] == b.positions[axis])
-        return true;
-    const int i = static_cast<int>(axis);
-    for (std::uint32_t vertex = 0; vertex < a.vertices[axis]; ++vertex)
-        if (!(std::abs(a.distance(i, vertex) - b.distance(i, vertex)) <= kSlack * b.spacing[i]))
-            return false;
-    return true;
-}
-
-std::string text(const glm::dvec3& v) {
-    return fmt::format("({} {} {})", v.x, v.y, v.z);
-}
-
-std::string text(Anatomy anatomy) {
-    switch (anatomy) {
-    case Anatomy::ras: return "right-anterior-superior";
-    case Anatomy::lps: return "left-posterior-superior";
-    case Anatomy::enu: return "east-north-up";
-    case Anatomy::none: break;
-    }
-    return "not anatomical";
-}
-
-// Compares with a tolerance: geometry as decimal text or f32 differs in its last digits.
-void expect_same(const SeriesInfo& got, const std::string& file, const SeriesInfo& first,
-                 const std::string& first_file) {
-    const auto fail = [&](const std::string& what, const std::string& is, const std::string& was) {
-        throw Error(fmt::format("{}: {} {}, {} has {}", file, what, is, first_file, was));
-    };
-    const Grid &a = got.grid, &b = first.grid;
-    if (a.vertices != b.vertices)
-        fail("dimensions", fmt::format("{}x{}x{}", a.vertices[0], a.vertices[1], a.vertices[2]),
-             fmt::format("{}x{}x{}", b.vertices[0], b.vertices[1], b.vertices[2]));
-    if (got.array != first.array)
-        fail("array", got.array, first.array);
-    if (got.type != first.type)
-        throw Error(fmt::format("{}: type {}, {} has {}; --type f32 reads both as f32", file,
-                                name_of(got.type), first_file, name_of(first.type)));
-    if (!close(a.spacing, b.spacing, b.spacing * 1e-6))
-        fail("spacing", text(a.spacing), text(b.spacing));
-    if (!close(a.origin, b.origin,
-               glm::dvec3(1e-4 * std::min({b.spacing.x, b.spacing.y, b.spacing.z}))))
-        fail("origin", text(a.origin), text(b.origin));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (!same_positions(a, b, axis))
-            throw Error(fmt::format("{}: other positions of vertices along axis {} than {}", file,
-                                    axis, first_file));
-    for (int axis = 0; axis < 3; ++axis)
-        if (!close(a.direction[axis], b.direction[axis], glm::dvec3(1e-5)))
-            fail(fmt::format("direction of axis {}", axis), text(a.direction[axis]),
-                 text(b.direction[axis]));
-    if (got.scaling != first.scaling)
-        fail("scaling", fmt::format("{} x + {}", got.scaling.slope, got.scaling.intercept),
-             fmt::format("{} x + {}", first.scaling.slope, first.scaling.intercept));
-    if (got.anatomy != first.anatomy)
-        fail("space", text(got.anatomy), text(first.anatomy));
-}
 
 /// The state of a file when the series was opened.
 struct Found {
@@ -136,7 +69,8 @@ class FileSeries final : public VolumeSeries {
             named(files_[i].path, [&] { add(i); });
         note_missing_numbers();
         if (!options_.time_step)
-            check_times();
+            order_by_time();
+        choose_steps();
         override_info();
     }
 
@@ -186,10 +120,6 @@ class FileSeries final : public VolumeSeries {
     }
 
   private:
-    struct Place {
-        std::size_t file, step;
-    };
-
     /// Copies what the other one knows, but has no file open.
     FileSeries(const FileSeries& other)
         : files_(other.files_), options_(other.options_), info_(other.info_), first_(other.first_),
@@ -198,7 +128,7 @@ class FileSeries final : public VolumeSeries {
     /// Opens the file of a step and calls `work` with the number of the step in it.
     template <class Work>
     void with_file_of(std::size_t step, const Work& work) {
-        const Place place = places_.at(step);
+        const StepPlace place = places_.at(step);
         named(files_[place.file].path, [&] {
             expect_unchanged(found_[place.file]);
             if (!open_ || place.file != open_index_)
@@ -258,9 +188,9 @@ class FileSeries final : public VolumeSeries {
                                     name(index), times.empty() ? "no" : "a", name(0),
                                     times.empty() ? "one" : "none"));
         for (std::size_t step = 0; step < open_->steps(); ++step) {
-            info_.times.push_back(times.empty() ? static_cast<double>(places_.size())
-                                                : times[step]);
-            places_.push_back({index, step});
+            const double time = times.empty() ? static_cast<double>(places_.size()) : times[step];
+            info_.times.push_back(time);
+            places_.push_back({index, step, time});
         }
     }
 
@@ -308,25 +238,73 @@ class FileSeries final : public VolumeSeries {
                                     name(index), open_->steps(), found_[index].steps));
     }
 
-    void check_times() const {
-        for (std::size_t i = 0; i < info_.times.size(); ++i) {
+    /// What files state orders the steps; names do only where they state nothing.
+    void order_by_time() {
+        for (std::size_t i = 0; i < info_.times.size(); ++i)
             if (!std::isfinite(info_.times[i]))
                 throw Error(fmt::format("{}: time {} is not finite", name(places_[i].file),
                                         info_.times[i]));
-            if (i == 0 || info_.times[i] > info_.times[i - 1])
+        const bool given = std::ranges::any_of(
+            files_, [](const SeriesFile& file) { return file.time.has_value(); });
+        const bool all_same = places_.size() > 1 && std::ranges::all_of(info_.times, [&](double t) {
+                                  return t == info_.times.front();
+                              });
+        if (given || all_same)
+            return expect_increasing_times();
+        OrderedSteps ordered =
+            ordered_by_time(std::move(places_), info_.sources, options_.keep_first);
+        places_ = std::move(ordered.steps);
+        for (std::string& note : ordered.notes)
+            info_.notes.push_back(std::move(note));
+        info_.times.clear();
+        for (const StepPlace& place : places_)
+            info_.times.push_back(place.time);
+        std::vector<std::string> sources;
+        for (const std::size_t file : ordered.files)
+            sources.push_back(info_.sources[file]);
+        info_.sources = std::move(sources);
+    }
+
+    /// Leaves the steps that `--steps` names.
+    void choose_steps() {
+        if (!options_.steps)
+            return;
+        const auto [first, last, stride] = *options_.steps;
+        if (first > last || last >= places_.size() || stride == 0)
+            throw Error(fmt::format("{}: --steps {}:{}:{}, expected steps of 0:{}", name(0), first,
+                                    last, stride, places_.size() - 1));
+        const std::size_t all = places_.size();
+        std::vector<StepPlace> places;
+        std::vector<double> times;
+        for (std::uint64_t i = 0; i <= (last - first) / stride; ++i) {
+            places.push_back(places_[first + i * stride]);
+            times.push_back(info_.times[first + i * stride]);
+        }
+        places_ = std::move(places);
+        info_.times = std::move(times);
+        std::vector<std::string> sources;
+        for (const StepPlace& place : places_)
+            if (const std::string source = files_[place.file].path.filename().string();
+                sources.empty() || sources.back() != source)
+                sources.push_back(source);
+        info_.sources = std::move(sources);
+        info_.notes.push_back(fmt::format("steps {}:{}:{} of {}", first, last, stride, all));
+    }
+
+    void expect_increasing_times() const {
+        for (std::size_t i = 1; i < info_.times.size(); ++i) {
+            if (info_.times[i] > info_.times[i - 1])
                 continue;
             const std::string file = name(places_[i].file), before = name(places_[i - 1].file);
-            const std::string time = said_time(i), time_before = said_time(i - 1);
-            constexpr const char* kWayOut = "--time-step spaces the steps evenly instead";
             if (places_[i].file == places_[i - 1].file)
-                throw Error(fmt::format("{}: time {} of its step {}, expected more than {} of the "
-                                        "step before it; {}",
-                                        file, time, places_[i].step, time_before, kWayOut));
-            if (info_.times[i] == info_.times[i - 1])
-                throw Error(
-                    fmt::format("{}: time {}, {} has the same; {}", file, time, before, kWayOut));
-            throw Error(fmt::format("{}: time {}, expected more than {} of {} before it; {}", file,
-                                    time, time_before, before, kWayOut));
+                throw Error(fmt::format("{}: time {} of its step {} is that of the step before it; "
+                                        "--time-step spaces the steps evenly instead",
+                                        file, said_time(i), places_[i].step));
+            throw Error(fmt::format(
+                "{}: time {}, {} has the same; {}", file, said_time(i), before,
+                options_.times_from_names
+                    ? "without --times-from-names their names order them"
+                    : "--time-step spaces the steps evenly, in the order of their names"));
         }
     }
 
@@ -342,8 +320,9 @@ class FileSeries final : public VolumeSeries {
         if (options_.spacing) {
             for (int axis = 0; axis < 3; ++axis)
                 if (!((*options_.spacing)[axis] > 0) || !std::isfinite((*options_.spacing)[axis]))
-                    throw Error(fmt::format("--spacing: {}, expected positive numbers",
-                                            text(*options_.spacing)));
+                    throw Error(fmt::format("--spacing: ({} {} {}), expected positive numbers",
+                                            options_.spacing->x, options_.spacing->y,
+                                            options_.spacing->z));
             info_.grid.spacing = *options_.spacing;
             info_.grid.positions = {}; // even
         }
@@ -373,8 +352,8 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo info_;
     SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
-    std::vector<Place> places_; ///< of every step
-    std::vector<Found> found_;  ///< of every file
+    std::vector<StepPlace> places_; ///< of every step
+    std::vector<Found> found_;      ///< of every file
     std::unique_ptr<VolumeFile> open_;
     std::size_t open_index_ = 0;
 };
@@ -390,10 +369,10 @@ std::uint64_t number_of(std::span<const FileState> states) {
 
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options,
-                                               const std::optional<std::string>& note) {
+                                               const std::vector<std::string>& notes) {
     auto series = std::make_unique<FileSeries>(std::move(files), options);
-    if (note)
-        series->add_note(*note);
+    for (const std::string& note : notes)
+        series->add_note(note);
     return series;
 }
 

@@ -24,10 +24,10 @@ std::uint64_t number_of(std::span<const FileState> states);
 /// Opens every file once and checks that all agree with the first in vertices, spacing, origin,
 /// direction, array, type and scaling. Times come from `files`, or else from the files' contents,
 /// in the unit of the first, or else are step numbers; `options` override them.
-/// @param note on how the files were found
+/// @param notes on how the files were found
 /// @throws Error naming both files when two disagree, or when times do not increase
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options,
-                                               const std::optional<std::string>& note = {});
+                                               const std::vector<std::string>& notes = {});
 
 } // namespace isochron::index

@@ -2,7 +2,7 @@
 #include "index/formats/series/folder_files.h"
 
 #include "index/error.h"
-#include "index/formats/series/natural_order.h"
+#include "index/formats/series/numbered_name.h"
 #include "index/lower_case.h"
 
 #include <fmt/format.h>
@@ -19,9 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 void sort_naturally(std::vector<KnownFile>& files) {
-    std::ranges::sort(files, [](const KnownFile& a, const KnownFile& b) {
-        return natural_less(a.given.string(), b.given.string());
-    });
+    std::vector<std::string> names;
+    for (const KnownFile& file : files)
+        names.push_back(file.given.string());
+    std::vector<KnownFile> sorted;
+    for (const std::size_t file : read_names(names).order)
+        sorted.push_back(std::move(files[file]));
+    files = std::move(sorted);
 }
 
 /// Disks have a file that lists the others.
@@ -113,17 +117,6 @@ void drop_named(std::vector<KnownFile>& files) {
                   [&](const KnownFile& file) { return file.end && named.contains(file.end->end); });
 }
 
-/// What the names of a series have in common, as a pattern.
-std::string pattern_of(const fs::path& path) {
-    std::string pattern;
-    for (const char c : path.string())
-        if (c < '0' || c > '9')
-            pattern += c;
-        else if (pattern.empty() || pattern.back() != '*')
-            pattern += '*';
-    return pattern;
-}
-
 std::string some_of(const std::vector<std::string>& names) {
     constexpr std::size_t kShown = 6;
     const auto shown = static_cast<std::ptrdiff_t>(std::min(names.size(), kShown));
@@ -131,6 +124,105 @@ std::string some_of(const std::vector<std::string>& names) {
     if (names.size() > kShown)
         text += fmt::format(" and {} more", names.size() - kShown);
     return text;
+}
+
+using SeriesByPattern = std::map<std::string, std::vector<KnownFile>>;
+
+/// Files whose names have the same pattern are a series.
+SeriesByPattern series_among(const std::vector<KnownFile>& files, const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const KnownFile& file : files)
+        names.push_back(file.given.lexically_relative(folder).string());
+    const ReadNames read = read_names(names);
+    SeriesByPattern series;
+    for (std::size_t i = 0; i < files.size(); ++i)
+        series[read.names[i].pattern()].push_back(files[i]);
+    return series;
+}
+
+bool is_series(const SeriesByPattern::value_type& each) {
+    return each.second.size() > 1;
+}
+
+/// Lists of files in a folder, and what else is there.
+struct Lists {
+    std::vector<KnownFile> usable;  ///< all that they name is there
+    std::vector<std::string> stale; ///< why others are not
+    std::vector<KnownFile> unnamed; ///< files that no usable one names
+    std::set<std::string> patterns; ///< of the files that they name
+};
+
+Lists lists_among(const std::vector<KnownFile>& files, const fs::path& folder) {
+    Lists lists;
+    std::set<fs::path> named;
+    for (const KnownFile& file : files) {
+        if (!is_list(file))
+            continue;
+        const std::string name = file.given.lexically_relative(folder).string();
+        try {
+            const ListedFiles listed = file.format->list(file.path);
+            const auto missing = std::ranges::find_if(
+                listed, [](const ListedFile& each) { return !fs::exists(each.path); });
+            if (missing != listed.end()) {
+                lists.stale.push_back(fmt::format("{}, since {} is not there", name,
+                                                  missing->path.filename().string()));
+                continue;
+            }
+            for (const ListedFile& each : listed)
+                named.insert(fs::weakly_canonical(each.path));
+            lists.usable.push_back(file);
+        } catch (const Error&) { // it says why when it is given itself
+            lists.stale.push_back(name + ", since it cannot be read");
+        }
+    }
+    const SeriesByPattern all = series_among(files, folder);
+    for (const auto& [pattern, of_it] : all)
+        for (const KnownFile& file : of_it) {
+            if (is_list(file))
+                continue;
+            if (named.contains(fs::weakly_canonical(file.given)))
+                lists.patterns.insert(pattern);
+            else
+                lists.unnamed.push_back(file);
+        }
+    return lists;
+}
+
+[[noreturn]] void fail_with_several(const fs::path& folder, const SeriesByPattern& series) {
+    std::vector<std::string> listed;
+    for (const auto& [pattern, of_it] : series)
+        listed.push_back(
+            of_it.size() == 1
+                ? fmt::format("'{}'", of_it.front().given.string())
+                : fmt::format("'{}' ({} files)", (folder / pattern).string(), of_it.size()));
+    throw Error(fmt::format("{}: a folder with several series or files, expected one: {}",
+                            folder.string(), some_of(listed)));
+}
+
+/// The list that a folder has, unless it holds another series beside what that names.
+/// @return none where there is no list that can be used
+std::optional<FoundFiles> list_in(const fs::path& folder, const Lists& lists) {
+    if (lists.usable.empty())
+        return std::nullopt;
+    SeriesByPattern others = series_among(lists.unnamed, folder);
+    const auto is_other = [&](const SeriesByPattern::value_type& each) {
+        return is_series(each) && !lists.patterns.contains(each.first);
+    };
+    if (lists.usable.size() > 1 || std::ranges::any_of(others, is_other)) {
+        std::erase_if(others, [&](const auto& each) { return !is_other(each); });
+        for (const KnownFile& list : lists.usable)
+            others[list.given.lexically_relative(folder).string()] = {list};
+        fail_with_several(folder, others);
+    }
+    std::vector<std::string> left = lists.stale;
+    for (const KnownFile& file : lists.unnamed)
+        left.push_back(file.given.lexically_relative(folder).string());
+    return FoundFiles{lists.usable,
+                      left.empty()
+                          ? std::nullopt
+                          : std::optional(fmt::format(
+                                "left out of {}, as {} does not name them: {}", folder.string(),
+                                lists.usable.front().given.filename().string(), some_of(left)))};
 }
 
 /// @throws Error naming the folder
@@ -141,33 +233,55 @@ FoundFiles series_in(const fs::path& folder, const ReadOptions& options) {
                                 options.dims ? "a file as large as --dims and --type say"
                                              : "a file of values of a known format; raw values "
                                                "need --dims and --type"));
-    const bool list = std::ranges::any_of(files, is_list);
-    if (list)
-        std::erase_if(files, [](const KnownFile& file) { return !is_list(file); });
     drop_named(files);
     sort_naturally(files);
-    std::map<std::string, std::vector<KnownFile>> series;
-    for (const KnownFile& file : files)
-        series[pattern_of(file.given.lexically_relative(folder))].push_back(file);
-    const auto is_series = [](const auto& each) { return each.second.size() > 1; };
-    if (list ? files.size() == 1 : series.size() == 1)
-        return {files, std::nullopt};
-    if (list || std::ranges::count_if(series, is_series) != 1) {
-        std::vector<std::string> listed;
-        for (const auto& [pattern, of_it] : series)
-            listed.push_back(
-                of_it.size() == 1
-                    ? fmt::format("'{}'", of_it.front().given.string())
-                    : fmt::format("'{}' ({} files)", (folder / pattern).string(), of_it.size()));
-        throw Error(fmt::format("{}: a folder with several series or files, expected one: {}",
-                                folder.string(), some_of(listed)));
-    }
     std::vector<std::string> left;
-    for (const auto& [pattern, of_it] : series)
-        if (of_it.size() == 1)
-            left.push_back(of_it.front().given.lexically_relative(folder).string());
-    return {std::ranges::find_if(series, is_series)->second,
-            fmt::format("left out of {}: {}", folder.string(), some_of(left))};
+    if (std::ranges::any_of(files, is_list)) {
+        const Lists lists = lists_among(files, folder);
+        if (auto found = list_in(folder, lists))
+            return std::move(*found);
+        if (std::ranges::all_of(files, is_list))
+            return {files, std::nullopt};
+        left = lists.stale;
+        std::erase_if(files, is_list);
+    }
+    const SeriesByPattern series = series_among(files, folder);
+    if (series.size() > 1 && std::ranges::count_if(series, is_series) != 1)
+        fail_with_several(folder, series);
+    if (series.size() > 1)
+        for (const auto& each : series)
+            if (!is_series(each))
+                left.push_back(each.second.front().given.lexically_relative(folder).string());
+    const auto found =
+        series.size() == 1 ? series.begin() : std::ranges::find_if(series, is_series);
+    return {found->second,
+            left.empty()
+                ? std::nullopt
+                : std::optional(fmt::format("left out of {}: {}", folder.string(), some_of(left)))};
+}
+
+/// Of files that are given one by one, too, those count that name the others.
+void drop_what_others_name(std::vector<KnownFile>& files, const ReadOptions& options) {
+    if (files.size() < 2 || options.dims)
+        return;
+    drop_named(files);
+    const bool described = std::ranges::any_of(files, [](const KnownFile& file) {
+        return file.format && !file.format->headerless && !is_list(file);
+    });
+    if (described)
+        std::erase_if(files,
+                      [](const KnownFile& file) { return file.format && file.format->headerless; });
+    const auto lists = std::ranges::count_if(files, is_list);
+    if (lists != 1)
+        return;
+    const KnownFile list = *std::ranges::find_if(files, is_list);
+    std::set<fs::path> named;
+    for (const ListedFile& each : list.format->list(list.path))
+        named.insert(fs::weakly_canonical(each.path));
+    if (std::ranges::all_of(files, [&](const KnownFile& file) {
+            return is_list(file) || named.contains(fs::weakly_canonical(file.given));
+        }))
+        files = {list};
 }
 
 FoundFiles files_in(const KnownFile& folder, const ReadOptions& options) {
@@ -194,6 +308,7 @@ FoundFiles found_files(const std::vector<fs::path>& given, const ReadOptions& op
         if (found.note)
             all.note = all.note ? *all.note + "; " + *found.note : found.note;
     }
+    drop_what_others_name(all.files, options);
     return all;
 }
 

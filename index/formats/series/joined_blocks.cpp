@@ -2,6 +2,7 @@
 #include "index/formats/series/joined_blocks.h"
 
 #include "index/error.h"
+#include "index/formats/cropped_file.h"
 #include "index/formats/series/block_places.h"
 
 #include <fmt/format.h>
@@ -100,7 +101,11 @@ class JoinedBlocks final : public VolumeFile {
 } // namespace
 
 std::unique_ptr<VolumeFile> join_blocks(std::vector<SeriesFile> parts, const ReadOptions& options) {
-    return std::make_unique<JoinedBlocks>(std::move(parts), options);
+    const std::filesystem::path path = parts.front().path;
+    ReadOptions whole = options;
+    whole.crop.reset();
+    whole.stride.reset();
+    return cropped(std::make_unique<JoinedBlocks>(std::move(parts), whole), options, path);
 }
 
 } // namespace isochron::index

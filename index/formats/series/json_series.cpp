@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 namespace isochron::index {
 
 ListedFiles read_json_series(const std::filesystem::path& path) {
@@ -25,12 +23,11 @@ ListedFiles read_json_series(const std::filesystem::path& path) {
             !file.contains("time") || !file["time"].is_number())
             throw Error(fmt::format("{}: file {} has no name, or no time that is a number", name,
                                     files.size()));
-        files.emplace_back(path.parent_path() / file["name"].get<std::string>(),
-                           file["time"].get<double>());
+        files.push_back({.path = path.parent_path() / file["name"].get<std::string>(),
+                         .time = file["time"].get<double>()});
     }
     if (files.empty())
         throw Error(fmt::format("{}: an empty list of files", name));
-    std::ranges::stable_sort(files, {}, [](const auto& file) { return file.second; });
     return files;
 }
 

@@ -4,8 +4,8 @@
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/foreign_file.h"
-#include "index/formats/series/natural_order.h"
 #include "index/formats/series/numbered_name.h"
+#include "index/formats/series/tiff_head.h"
 #include "index/formats/text_header.h"
 #include "index/lower_case.h"
 
@@ -13,7 +13,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,15 +25,23 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What the numbers in names count.
-enum class Counted : std::uint8_t { slice, step, channel };
+enum class Counted : std::uint8_t { slice, step, channel, place };
 
-/// By the letters before a number.
-std::optional<Counted> counted_behind(const std::string& text) {
-    std::size_t begin = text.size();
+/// The letters before a number, perhaps with `_`, `-`, `=` or a blank between.
+std::string last_word(const std::string& text) {
+    std::size_t end = text.size();
+    if (end > 0 && std::string_view("_-= ").find(text[end - 1]) != std::string_view::npos)
+        --end;
+    std::size_t begin = end;
     const auto is_letter = [](unsigned char c) { return (c | 32) >= 'a' && (c | 32) <= 'z'; };
     while (begin > 0 && is_letter(static_cast<unsigned char>(text[begin - 1])))
         --begin;
-    const std::string word = lower_case(text.substr(begin));
+    return text.substr(begin, end - begin);
+}
+
+/// By the letters before a number.
+std::optional<Counted> counted_behind(const std::string& text) {
+    const std::string word = lower_case(last_word(text));
     for (const char* each : {"z", "slice", "plane", "section", "img"})
         if (word == each)
             return Counted::slice;
@@ -43,6 +51,9 @@ std::optional<Counted> counted_behind(const std::string& text) {
     for (const char* each : {"c", "ch", "chn", "channel", "w"})
         if (word == each)
             return Counted::channel;
+    for (const char* each : {"x", "y", "row", "col", "column", "tile", "fov", "well", "mosaic"})
+        if (word == each)
+            return Counted::place;
     return std::nullopt;
 }
 
@@ -73,6 +84,17 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
     const std::vector<std::size_t> varying = counting_numbers(names);
     std::map<std::size_t, Counted> found;
     std::set<Counted> taken;
+    const auto is_place = [&](std::size_t i) {
+        return counted_behind(names.front().texts[i]) == Counted::place;
+    };
+    for (const std::size_t i : varying)
+        if (is_place(i) &&
+            (last_word(names.front().texts[i]).size() > 1 || // x1.tif alone may be any
+             std::ranges::count_if(varying, is_place) > 1))
+            throw Error(fmt::format(
+                "{}, {}: tiles side by side, by the numbers behind '{}', expected "
+                "slices or steps: give the files of one place",
+                files.front().string(), files.back().string(), last_word(names.front().texts[i])));
     for (const std::size_t i : varying)
         if (const auto counted = counted_behind(names.front().texts[i]);
             counted && taken.insert(*counted).second)
@@ -97,17 +119,19 @@ std::map<std::size_t, Counted> meanings(const std::vector<NumberedName>& names,
     return found;
 }
 
-/// Gaps would be shown as if they were none.
-void expect_even(const std::map<std::uint64_t, fs::path>& slices) {
+/// Gaps would be shown as if they were none. Decimals in names are rounded.
+void expect_even(const std::map<NameNumber, fs::path>& slices) {
     if (slices.size() < 3)
         return;
-    const std::uint64_t gap = std::next(slices.begin())->first - slices.begin()->first;
+    const double gap = std::next(slices.begin())->first.value - slices.begin()->first.value;
     for (auto slice = std::next(slices.begin()); slice != slices.end(); ++slice) {
         const auto before = std::prev(slice);
-        if (slice->first - before->first != gap)
+        const double rounding =
+            1.5 * std::max(slice->first.rounding(), before->first.rounding()) + 1e-9 * gap;
+        if (std::abs(slice->first.value - before->first.value - gap) > rounding)
             throw Error(fmt::format("{}: slice {} follows {} of {}, expected {}",
-                                    slice->second.string(), slice->first, before->first,
-                                    before->second.string(), before->first + gap));
+                                    slice->second.string(), slice->first.value, before->first.value,
+                                    before->second.string(), before->first.value + gap));
     }
 }
 
@@ -136,70 +160,6 @@ SeriesFile of_slices(const Format& format, std::vector<fs::path> slices) {
     return file;
 }
 
-/// Tells by the header and the description of a TIFF file, of either byte order and size, whether it
-/// has one page alone.
-class TiffHead {
-  public:
-    explicit TiffHead(const fs::path& path) : size_(file_bytes(path)), file_(path) {}
-
-    /// @return none: it cannot be told
-    std::optional<bool> flat() {
-        const std::uint64_t order = number(0, 2);
-        big_ = order == 0x4d4d;
-        const std::uint64_t kind = number(2, 2);
-        if ((order != 0x4949 && !big_) || (kind != 42 && kind != 43))
-            return std::nullopt;
-        const bool wide = kind == 43; // BigTIFF
-        const std::uint64_t at = wide ? number(8, 8) : number(4, 4);
-        const std::uint64_t entries = number(at, wide ? 8 : 2), size = wide ? 20 : 12;
-        const std::uint64_t first = at + (wide ? 8 : 2);
-        if (at == 0 || at > size_ || entries > 4096)
-            return std::nullopt;
-        if (number(first + entries * size, wide ? 8 : 4) != 0)
-            return false;
-        for (std::uint64_t i = 0; i < entries; ++i) {
-            constexpr std::uint64_t kImageDescription = 270;
-            const std::uint64_t entry = first + i * size;
-            if (number(entry, 2) != kImageDescription)
-                continue;
-            const std::uint64_t count = number(entry + 4, wide ? 8 : 4);
-            const std::uint64_t inside = wide ? 8 : 4;
-            const std::uint64_t text =
-                count <= inside ? entry + (wide ? 12 : 8) : number(entry + (wide ? 12 : 8), inside);
-            return !describes_more(text_at(text, std::min<std::uint64_t>(count, 1 << 16)));
-        }
-        return true;
-    }
-
-  private:
-    static bool describes_more(const std::string& text) {
-        const std::size_t images = text.find("images=");
-        return (text.starts_with("ImageJ=") && images != std::string::npos &&
-                text.compare(images, 9, "images=1\n") != 0) ||
-               text.find("<TiffData") != std::string::npos;
-    }
-
-    std::string text_at(std::uint64_t at, std::uint64_t size) {
-        std::string text(at > size_ ? 0 : std::min(size, size_ - at), '\0');
-        file_.clear();
-        file_.seekg(static_cast<std::streamoff>(at));
-        file_.read(text.data(), static_cast<std::streamsize>(text.size()));
-        return text;
-    }
-    std::uint64_t number(std::uint64_t at, std::uint64_t size) {
-        const std::string bytes = text_at(at, size);
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < bytes.size(); ++i)
-            value |= std::uint64_t{static_cast<unsigned char>(bytes[i])}
-                     << 8 * (big_ ? bytes.size() - 1 - i : i);
-        return value;
-    }
-
-    std::uint64_t size_;
-    std::ifstream file_;
-    bool big_ = false;
-};
-
 } // namespace
 
 std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::path>& files,
@@ -207,39 +167,45 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
     const auto of_stack = [&](const fs::path& path) {
         return SeriesFile{.path = path, .open = opener_of(format), .time = {}};
     };
+    if (const std::vector<fs::path> wholes = not_named_by_others(files);
+        wholes.size() < files.size())
+        return tiff_series(format, wholes, options);
     if (files.size() == 1)
         return {of_stack(files.front())};
-    std::vector<fs::path> sorted = files;
-    std::ranges::stable_sort(sorted, [](const fs::path& a, const fs::path& b) {
-        return natural_less(a.string(), b.string());
-    });
-    const bool flat = TiffHead(sorted.front()).flat().value_or(false);
+    std::vector<std::string> within;
+    const std::string::size_type folder = common_folder(files).string().size();
+    for (const fs::path& file : files)
+        within.push_back(file.string().substr(folder));
+    const ReadNames read = read_names(within);
+    std::vector<fs::path> sorted;
     std::vector<NumberedName> names;
-    const std::string::size_type folder = common_folder(sorted).string().size();
-    for (const fs::path& file : sorted) {
-        names.push_back(taken_apart(file.string().substr(folder)));
+    for (const std::size_t file : read.order) {
+        sorted.push_back(files[file]);
+        names.push_back(read.names[file]);
         if (names.back().texts != names.front().texts)
             throw Error(fmt::format("{}, {}: names that differ in more than numbers, expected "
                                     "t01_c0_z001.tif and the like",
-                                    sorted.front().string(), file.string()));
+                                    sorted.front().string(), sorted.back().string()));
     }
+    const bool flat = is_flat_tiff(sorted.front()).value_or(false);
     const auto counts = meanings(names, sorted, flat);
-    std::map<std::uint64_t, std::map<std::uint64_t, std::map<std::uint64_t, fs::path>>> found;
+    std::map<NameNumber, std::map<NameNumber, std::map<NameNumber, fs::path>>> found;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
-        std::map<Counted, std::uint64_t> at;
+        std::map<Counted, NameNumber> at;
         for (const auto& [number, counted] : counts)
             at[counted] = names[i].numbers[number];
         fs::path& place = found[at[Counted::channel]][at[Counted::step]][at[Counted::slice]];
         if (!place.empty())
             throw Error(fmt::format("{}, {}: both are slice {} of step {}", place.string(),
-                                    sorted[i].string(), at[Counted::slice], at[Counted::step]));
+                                    sorted[i].string(), at[Counted::slice].value,
+                                    at[Counted::step].value));
         place = sorted[i];
     }
     auto channel = found.begin();
     if (found.size() > 1) {
         std::vector<std::string> offered;
         for (const auto& [number, steps] : found)
-            offered.push_back(fmt::format("channel {}", number));
+            offered.push_back(fmt::format("channel {}", number.value));
         const auto chosen = std::ranges::find(offered, options.array.value_or(""));
         if (chosen == offered.end())
             throw Error(fmt::format("{}: files of several channels, choose one with --array: {}",
@@ -251,7 +217,7 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
     for (const auto& [step, of_step] : channel->second) {
         if (of_step.size() != slices)
             throw Error(fmt::format("{}: {} slices in step {}, the first has {}",
-                                    of_step.begin()->second.string(), of_step.size(), step,
+                                    of_step.begin()->second.string(), of_step.size(), step.value,
                                     slices));
         expect_even(of_step);
         std::vector<fs::path> paths;
@@ -260,9 +226,9 @@ std::vector<SeriesFile> tiff_series(const Format& format, const std::vector<fs::
         series.push_back(flat ? of_slices(format, std::move(paths)) : of_stack(paths.front()));
         if (!flat && found.size() > 1)
             series.back().open = [&format](const fs::path& path, const ReadOptions& given) {
-                ReadOptions within = given;
-                within.array.reset(); // it chose the file
-                return open_in_format(format, path, within);
+                ReadOptions alone = given;
+                alone.array.reset(); // it chose the file
+                return open_in_format(format, path, alone);
             };
     }
     return series;

@@ -306,7 +306,7 @@ TEST(Pvd, PutsThePartsOfAStepTogether) {
                 HasSubstr("dimensions"));
 }
 
-TEST(Pvd, RefusesSameTimesAndMissingFiles) {
+TEST(Pvd, CountsTheLaterEntriesOfATimeAndRefusesMissingFiles) {
     TestFolder folder;
     for (const char* name : {"a.vti", "b.vti"})
         folder.write(name, read_file(kFolder / "ascii.vti"));
@@ -314,8 +314,18 @@ TEST(Pvd, RefusesSameTimesAndMissingFiles) {
         return error_of([&] { open_series({folder.write("s.pvd", collection(sets))}); });
     };
     const std::string a = R"(<DataSet timestep="1" part="0" file="a.vti"/>)";
-    EXPECT_THAT(message(a + R"(<DataSet timestep="1" part="0" file="b.vti"/>)"),
-                AllOf(HasSubstr("b.vti: time 1"), HasSubstr("a.vti has the same")));
+    const fs::path twice =
+        folder.write("s.pvd", collection(a + R"(<DataSet timestep="1" part="0" file="b.vti"/>)"));
+    EXPECT_THAT(open_series({twice})->info().sources, testing::ElementsAre("b.vti"));
+    EXPECT_THAT(open_series({twice})->info().notes,
+                testing::Contains(AllOf(HasSubstr("1 of the times"), HasSubstr("a.vti and b.vti"),
+                                        HasSubstr("later one counts"))));
+    ReadOptions first;
+    first.keep_first = true;
+    EXPECT_THAT(open_series({twice}, first)->info().sources, testing::ElementsAre("a.vti"));
+    EXPECT_THAT(open_series({folder.write("s.pvd", collection(a + a))})->info().sources,
+                testing::ElementsAre("a.vti"))
+        << "named twice";
     EXPECT_THAT(message(R"(<DataSet timestep="1" file="c.vti"/>)"),
                 HasSubstr("c.vti: there is no such file"));
     EXPECT_THAT(message(""), HasSubstr("empty collection"));

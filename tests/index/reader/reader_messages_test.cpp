@@ -29,6 +29,7 @@ std::vector<ReaderRequest> every_request() {
     options.big_endian = true;
     options.allow_surplus = true;
     options.times_from_names = true;
+    options.keep_first = true;
     options.header_bytes = 12;
     options.spacing = glm::dvec3(1, 2, 3);
     options.time_step = 0.25;
@@ -57,7 +58,7 @@ std::vector<ReaderReply> every_reply() {
     return {Ready{kReaderVersion},
             Described{info, 3, 2},
             SlabRead{},
-            Collected{{{"t0.vti", 0.0}, {"t1.vti", 1e300}}},
+            Collected{{{"t0.vti", 0.0, "1"}, {"t1.vti", 1e300}}},
             Closed{},
             Refused{"a.vti: no"}};
 }

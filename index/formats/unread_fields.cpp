@@ -1,0 +1,23 @@
+// Lists fields.
+#include "index/formats/unread_fields.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace isochron::index {
+
+std::optional<std::string> note_on_unread(const std::vector<std::string>& fields) {
+    constexpr std::ptrdiff_t kShown = 12;
+    if (fields.empty())
+        return std::nullopt;
+    const auto shown = std::min(std::ssize(fields), kShown);
+    std::string note = fmt::format("stated and not used: {}",
+                                   fmt::join(fields.begin(), fields.begin() + shown, ", "));
+    if (shown < std::ssize(fields))
+        note += fmt::format(" and {} more", std::ssize(fields) - shown);
+    return note;
+}
+
+} // namespace isochron::index

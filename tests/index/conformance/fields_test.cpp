@@ -1,0 +1,124 @@
+// Nothing that a file states is ignored: the guide says of every field of the standards whether it is read
+// or noted, and a file with the field set to something unusual shows it.
+#include "tests/support/paths.h"
+#include "tests/support/reader_fixtures.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// By format and field, `read` or `noted`.
+using FieldTable = std::map<std::pair<std::string, std::string>, std::string>;
+
+FieldTable fields_of_the_guide() {
+    std::istringstream page(
+        read_file(fs::path(test_support::source_root()) / "docs/guide/formats.md"));
+    FieldTable fields;
+    std::string format;
+    bool inside = false;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("## "))
+            inside = line == "## Fields of the standards";
+        if (inside && line.starts_with("### "))
+            format = line.substr(4);
+        if (!inside || !line.starts_with("| `"))
+            continue;
+        const std::size_t end = line.find("` | ");
+        const std::string field = line.substr(3, end - 3), rest = line.substr(end + 4);
+        EXPECT_TRUE(fields.emplace(std::pair(format, field), rest.substr(0, rest.find(' '))).second)
+            << format << ": " << field << " twice";
+    }
+    return fields;
+}
+
+/// All that a user gets of a file.
+struct Got {
+    std::string refusal; ///< why it cannot be read
+    std::vector<std::byte> values;
+    SeriesInfo info;
+};
+
+Got got_of(const fs::path& file, const json& options) {
+    Got got;
+    ReadOptions read;
+    if (options.contains("component"))
+        read.component = options["component"];
+    try {
+        const auto series = open_series({file}, read);
+        got.info = series->info();
+        std::vector<std::byte> step(got.info.step_bytes());
+        for (std::size_t i = 0; i < got.info.steps(); ++i) {
+            series->read(i, step);
+            got.values.insert(got.values.end(), step.begin(), step.end());
+        }
+    } catch (const Error& error) {
+        got.refusal = error.what();
+    }
+    return got;
+}
+
+/// But for notes.
+bool same(const Got& a, const Got& b) {
+    const SeriesInfo &x = a.info, &y = b.info;
+    return a.refusal == b.refusal && a.values == b.values && x.grid == y.grid &&
+           x.times == y.times && x.time_unit == y.time_unit && x.length_unit == y.length_unit &&
+           x.value_unit == y.value_unit && x.scaling == y.scaling && x.type == y.type &&
+           x.anatomy == y.anatomy && x.axis_names == y.axis_names && x.array == y.array;
+}
+
+class StandardFields : public testing::Test {
+  protected:
+    json made() const {
+        const fs::path script =
+            fs::path(test_support::source_root()) / "tests/index/conformance/fields.py";
+        const std::string command =
+            fmt::format("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -W ignore {} {}",
+                        script.string(), folder_.path().string());
+        EXPECT_EQ(std::system(command.c_str()), 0);
+        return json::parse(folder_.read("fields.json"));
+    }
+
+    TestFolder folder_;
+};
+
+TEST_F(StandardFields, AreReadOrNotedAsTheGuideSays) {
+    const FieldTable guide = fields_of_the_guide();
+    const json files = made();
+    std::size_t seen = 0;
+    for (const auto& [format, fields] : files.items())
+        for (const auto& [field, pair] : fields.items()) {
+            SCOPED_TRACE(fmt::format("{}: {}", format, field));
+            const auto said = guide.find({format, field});
+            ASSERT_NE(said, guide.end()) << "the guide does not have it";
+            ++seen;
+            const Got plain = got_of(folder_.path() / std::string(pair["plain"]), pair["options"]);
+            const Got changed =
+                got_of(folder_.path() / std::string(pair["changed"]), pair["options"]);
+            EXPECT_EQ(changed.refusal.find('\n'), std::string::npos) << changed.refusal;
+            if (said->second == "read") {
+                EXPECT_EQ(same(plain, changed), pair["same"].get<bool>()) << changed.refusal;
+                continue;
+            }
+            ASSERT_EQ(said->second, "noted");
+            EXPECT_EQ(changed.refusal, "");
+            std::vector<std::string> more = changed.info.notes;
+            std::erase_if(more, [&](const std::string& note) {
+                return std::ranges::find(plain.info.notes, note) != plain.info.notes.end();
+            });
+            EXPECT_THAT(more, testing::Contains(testing::HasSubstr("stated and not used")));
+        }
+    EXPECT_EQ(seen, guide.size()) << "fields of the guide without a file";
+}
+
+} // namespace
+} // namespace isochron::index

@@ -196,9 +196,9 @@ ListedFiles read_pvd(const fs::path& path) {
                    lease.reader().ask(ReadCollection{path});
                    files = lease.expect<Collected>().files;
                });
-    for (const auto& [file, time] : files)
-        if (!readers.may_read(file))
-            throw Error(leads_out(path, file));
+    for (const ListedFile& listed : files)
+        if (!readers.may_read(listed.path))
+            throw Error(leads_out(path, listed.path));
     return files;
 }
 

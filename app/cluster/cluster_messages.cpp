@@ -160,7 +160,8 @@ MessageBytes encoded(const FramePlan& plan) {
                {"detail", detail_json(plan.detail)},
                {"shows_parts", plan.shows_parts},
                {"holds_finer", plan.holds_finer},
-               {"all_at_rest", plan.all_at_rest}};
+               {"all_at_rest", plan.all_at_rest},
+               {"mesh_level", plan.mesh_level}};
     if (plan.in_parts)
         value["in_parts"] = *plan.in_parts;
     if (plan.unseen)
@@ -187,8 +188,9 @@ FramePlan decode_plan(std::span<const std::byte> bytes) {
         plan.in_parts = footprint_from(*in_parts);
     if (const json* unseen = members.find("unseen"))
         plan.unseen = footprint_from(*unseen);
+    plan.mesh_level = natural(members.at("mesh_level"), "mesh_level", index::kMeshLevels - 1);
     members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
-                  "shows_parts", "holds_finer", "all_at_rest", "unseen"});
+                  "shows_parts", "holds_finer", "all_at_rest", "unseen", "mesh_level"});
     return plan;
 }
 

@@ -5,6 +5,7 @@
 #include "index/volume/query.h"
 #include "render/cells/footprints.h"
 
+#include <cstddef>
 #include <optional>
 
 namespace isochron::app {
@@ -25,6 +26,7 @@ struct FramePlan {
     bool all_at_rest = false; ///< all cells are wanted for this picture at rest
     /// Footprint to measure where nobody sees it, in the time that frames leave; empty: none.
     std::optional<render::Footprint> unseen{};
+    std::size_t mesh_level = 0; ///< of the footprint `mesh` (index/extraction/simplified_meshes.h)
     bool operator==(const FramePlan&) const = default;
 };
 

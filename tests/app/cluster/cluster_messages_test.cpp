@@ -76,7 +76,8 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
                              i % 3 == 1,
                              i % 5 == 1,
                              i % 7 == 1,
-                             i % 4 == 0 ? std::nullopt : std::optional(render::Footprint::mesh)};
+                             i % 4 == 0 ? std::nullopt : std::optional(render::Footprint::mesh),
+                             static_cast<std::size_t>(i % 3)};
         EXPECT_EQ(decode_plan(view(encoded(plan))), plan);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

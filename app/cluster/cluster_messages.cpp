@@ -169,7 +169,8 @@ MessageBytes encoded(const FramePlan& plan) {
                {"holds_finer", plan.holds_finer},
                {"all_at_rest", plan.all_at_rest},
                {"moves_finest", plan.moves_finest},
-               {"resolution", plan.resolution}};
+               {"resolution", plan.resolution},
+               {"mesh_level", plan.mesh_level}};
     if (plan.in_parts)
         value["in_parts"] = *plan.in_parts;
     if (plan.unseen)
@@ -198,9 +199,10 @@ FramePlan decode_plan(std::span<const std::byte> bytes) {
         plan.in_parts = footprint_from(*in_parts);
     if (const json* unseen = members.find("unseen"))
         plan.unseen = footprint_from(*unseen);
+    plan.mesh_level = natural(members.at("mesh_level"), "mesh_level", index::kMeshLevels - 1);
     members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
                   "shows_parts", "holds_finer", "all_at_rest", "moves_finest", "resolution",
-                  "unseen"});
+                  "unseen", "mesh_level"});
     return plan;
 }
 

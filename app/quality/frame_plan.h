@@ -29,6 +29,7 @@ struct FramePlan {
     std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
     /// Footprint to measure off screen, in the time that frames leave; empty: none.
     std::optional<render::Footprint> unseen{};
+    std::size_t mesh_level = 0; ///< of the footprint `mesh` (index/extraction/simplified_meshes.h)
     bool operator==(const FramePlan&) const = default;
 };
 

@@ -85,6 +85,13 @@ render::FootprintSet CellSets::footprints() const {
     return footprints;
 }
 
+std::array<std::size_t, index::kMeshLevels> CellSets::triangles() const {
+    std::array<std::size_t, index::kMeshLevels> triangles{};
+    for (std::size_t level = 0; level < triangles.size(); ++level)
+        triangles[level] = drawn().has_mesh(level) ? drawn().mesh(level).triangles() : 0;
+    return triangles;
+}
+
 render::FootprintSet CellSets::possible_footprints() const {
     render::FootprintSet possible = footprints();
     const index::ExtractionPtr& set = shown();

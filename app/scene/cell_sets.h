@@ -11,6 +11,7 @@
 #include "render/cells/cell_buffers.h"
 #include "render/cells/footprints.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -71,6 +72,8 @@ class CellSets {
     render::FootprintSet footprints() const;
     /// The same, and `mesh` if the cells could be drawn so after asking for them with a mesh.
     render::FootprintSet possible_footprints() const;
+    /// Triangles of the drawn set's meshes, by mesh level; 0 where it has none on the GPU.
+    std::array<std::size_t, index::kMeshLevels> triangles() const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
     bool may_have_meshes() const { return mesh_room_ > 0; }
     bool has_fences() const { return cells_.has_fences(); } ///< as render::CellBuffers

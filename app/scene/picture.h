@@ -13,6 +13,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ struct Picture {
     bool bounding_box = true;
     bool orientation = false; ///< the data's axes and a scale bar in a corner
     std::string caption;      ///< in a corner; empty: none
+    /// Of the footprint `mesh` (index/extraction/simplified_meshes.h).
+    std::size_t mesh_level = 0;
     PictureLayout layout;
     bool operator==(const Picture&) const = default;
 };

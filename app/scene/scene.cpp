@@ -170,6 +170,9 @@ render::CellAppearance Scene::appearance_of(const Picture& picture) {
     }
     set_look(appearance, configured_, picture.look);
     appearance.cut = cut_of(picture);
+    // Rank 0 may have chosen a mesh that is not here yet.
+    if (cells_.drawn().has_mesh(picture.mesh_level))
+        appearance.mesh_level = picture.mesh_level;
     return appearance;
 }
 

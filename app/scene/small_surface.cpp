@@ -40,7 +40,9 @@ index::ExtractionPtr small_surface(const index::Grid& grid) {
     shade_cells(values, surface);
     auto mesh = std::make_shared<index::CellMesh>();
     index::MeshMaker().make(values, surface.query, surface.ids, *mesh);
+    mesh->colors.resize(mesh->vertices.size());
     surface.mesh = std::move(mesh);
+    result->corner_colors.resize(8);
     const index::BlockValues held(values.type, values.scaling, 0, 3);
     const index::BlockLevels levels = held.levels(result->query.isovalues);
     result->levels = levels.units;
@@ -83,7 +85,7 @@ void draw_small_surface(const render::Gl& gl, render::CellPass& pass,
                 appearance.surfaces[0].opacity = opacity;
                 appearance.values.reset();
                 pass.draw(views, placement, cells, footprint, appearance);
-                if (footprint != render::Footprint::mesh) // has other shaders for colors by value
+                if (!render::has_layers(footprint)) // which have other shaders for colors by value
                     continue;
                 appearance.values = {.map = map.name()};
                 pass.draw(views, placement, cells, footprint, appearance);

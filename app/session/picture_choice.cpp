@@ -28,6 +28,7 @@ bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) cons
     same.cells = frame.drawn->cells;
     same.footprint = frame.drawn->footprint;
     same.resolution = frame.drawn->resolution;
+    same.mesh_level = frame.drawn->mesh_level;
     same.scale = frame.drawn->scale; // whose range may be percentiles of the cells
     return same == frame.drawn;
 }
@@ -103,6 +104,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     }
     now.footprint = report.footprint;
     now.resolution = report.resolution;
+    now.mesh_level = frame.plan.mesh_level;
     rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
     // While a headset wants no picture, there is nothing to draw or to measure.

@@ -77,8 +77,9 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
                              i % 5 == 1,
                              i % 7 == 1,
                              i % 6 == 1,
-                             i % 4u,
-                             i % 4 == 0 ? std::nullopt : std::optional(render::Footprint::mesh)};
+                             static_cast<std::size_t>(i % 4),
+                             i % 4 == 0 ? std::nullopt : std::optional(render::Footprint::mesh),
+                             static_cast<std::size_t>(i % 3)};
         EXPECT_EQ(decode_plan(view(encoded(plan))), plan);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

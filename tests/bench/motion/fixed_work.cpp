@@ -3,6 +3,7 @@
 
 #include "app/frame/pacer.h"
 #include "index/system/parallel.h"
+#include "tests/bench/measures/stopwatch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,8 +22,9 @@ std::uint64_t arithmetic(std::uint64_t rounds) {
     return state;
 }
 
+std::atomic<std::uint64_t> kept = 0;
+
 double ms_of_rounds(std::uint64_t rounds) {
-    static std::atomic<std::uint64_t> kept = 0;
     const unsigned threads = index::thread_count(0);
     const auto began = WorkClock::now();
     index::parallel_for(
@@ -30,14 +32,13 @@ double ms_of_rounds(std::uint64_t rounds) {
     return std::chrono::duration<double, std::milli>(WorkClock::now() - began).count();
 }
 
-/// Rounds of a millisecond when nothing disturbs.
+/// Rounds of a millisecond of a processor's time, which other work does not lengthen.
 double rounds_per_ms() {
     static const double rate = [] {
-        constexpr std::uint64_t kRounds = 2'000'000;
-        double best = ms_of_rounds(kRounds);
-        for (int i = 0; i < 9; ++i)
-            best = std::min(best, ms_of_rounds(kRounds));
-        return static_cast<double>(kRounds) / best;
+        constexpr std::uint64_t kRounds = 20'000'000;
+        const Stopwatch watch;
+        kept = arithmetic(kRounds);
+        return static_cast<double>(kRounds) / (1e3 * watch.seconds());
     }();
     return rate;
 }

@@ -14,7 +14,7 @@ class FixedWork {
         double over_two = 0, over_three = 0;
     };
     /// Works in pieces on all processors, one each promised time.
-    /// @param ms that a piece takes on a quiet machine @param seconds for how long
+    /// @param ms of each processor that a piece takes @param seconds for how long
     Late run(double ms, double promised_ms, double seconds,
              const std::function<void()>& check) const;
 };

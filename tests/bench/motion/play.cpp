@@ -2,6 +2,7 @@
 #include "tests/bench/motion/play.h"
 
 #include "app/frame/pacer.h"
+#include "index/system/parallel.h"
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/motion/asked_shown.h"
 #include "tests/bench/motion/fixed_work.h"
@@ -37,7 +38,8 @@ double load_of_machine() {
 /// Frames of a motion while they are counted.
 struct CountedMotion {
     std::size_t frames = 0, over_two = 0, over_three = 0;
-    std::vector<double> times; ///< [ms] of frames that were drawn anew
+    std::vector<double> worked; ///< [ms] of processor time, of the same
+    std::vector<double> times;  ///< [ms] of frames that were drawn anew
     std::vector<double> cells;
     std::map<std::string, std::size_t> drawn;
     double processor = 0, total = 0;
@@ -50,6 +52,7 @@ struct CountedMotion {
         over_two += ms > 2 * promised;
         over_three += ms > 3 * promised;
         times.push_back(ms);
+        worked.push_back(report.processor.count());
         cells.push_back(static_cast<double>(report.cells));
         processor += report.processor.count();
         total += ms;
@@ -210,8 +213,9 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
     row.shown_late_ms = asked.percentile(95);
     row.exact_ms = exact;
     const double promised = promised_ms(session_.log().frames().back());
-    const FixedWork::Late late =
-        control.run(std::min(row.frame_ms, promised), promised, options_.seconds / 6, check_);
+    const double of_each =
+        counted.worked.empty() ? 0 : median(counted.worked) / index::thread_count(0);
+    const FixedWork::Late late = control.run(of_each, promised, options_.seconds / 6, check_);
     row.control_two = late.over_two;
     row.control_three = late.over_three;
     row.budget_ms = promised;

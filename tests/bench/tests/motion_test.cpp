@@ -5,6 +5,7 @@
 #include "tests/bench/motion/likeness.h"
 #include "tests/bench/motion/rows.h"
 #include "tests/bench/motion/script.h"
+#include "tests/bench/pages/motion_page.h"
 
 #include <gmock/gmock.h>
 
@@ -16,6 +17,8 @@ namespace {
 using render::Image;
 using testing::DoubleNear;
 using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::uint8_t kDark = 10;
 
@@ -246,6 +249,26 @@ TEST(MotionRows, AreReadAsTheyWereWritten) {
     EXPECT_EQ(read.rows[0].shown_ms, 12.5);
     EXPECT_EQ(read.rows[0].exact_ms, std::nullopt);
     EXPECT_EQ(to_json_text(read), to_json_text(results));
+}
+
+TEST(MotionPage, HasARowForEachMotionAndAVerdictForEachGoal) {
+    MotionResults results{{"commit", "processor", "compiler", "2020-01-01", 2}, {}};
+    MotionRow row{.data = "192", .motion = "sway", .place = "windowless", .cells = 264958};
+    row.width = row.height = 1024;
+    row.budget_ms = 33;
+    row.lit = 1.02;
+    row.overlap = 0.95;
+    row.luminance_off = 0.2;
+    results.rows = {row, row};
+    results.rows[1].motion = "walk-in";
+    results.rows[1].overlap = 0.91;
+    const std::string page = motion_section(results, "a.json", "pictures/a.jpg");
+    EXPECT_THAT(page, HasSubstr("| the same: IoU | 0.94 | 0.9 | 0.91 to 0.95 | above the floor |"));
+    EXPECT_THAT(page, HasSubstr("luminance off | 8 % | 15 % | 20 % | **below the floor** |"));
+    EXPECT_THAT(page, HasSubstr("| 192 | 1024x1024 | 33 | walk-in |"));
+    EXPECT_THAT(page, HasSubstr("264,958"));
+    EXPECT_THAT(page, HasSubstr("(pictures/a.jpg)"));
+    EXPECT_THAT(motion_section(results, "a.json", ""), Not(HasSubstr("![")));
 }
 
 } // namespace

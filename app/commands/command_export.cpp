@@ -10,8 +10,8 @@
 #include "index/error.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"
+#include "index/formats/length_units.h"
 #include "index/system/new_file.h"
-#include "index/volume/length_unit.h"
 #include "render/passes/color_map.h"
 
 #include <fmt/format.h>

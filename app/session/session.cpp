@@ -2,7 +2,6 @@
 #include "app/session/session.h"
 
 #include "app/frame/stop_watch.h"
-#include "app/scene/color_scale.h"
 #include "app/session/start_state.h"
 #include "index/file/index_watch.h"
 #include "interaction/tools/tool_table.h"

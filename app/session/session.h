@@ -18,7 +18,6 @@
 #include "app/output/outputs.h"
 #include "app/quality/capture_wait.h"
 #include "app/quality/frame_plan.h"
-#include "app/quality/frame_quality.h"
 #include "app/scene/scene.h"
 #include "app/session/cell_supply.h"
 #include "app/session/partial_pictures.h"

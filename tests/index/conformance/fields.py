@@ -1,5 +1,5 @@
 """For each format the fields of its standard: a plain file, and one with the field set to something unusual. fields.json
-has both by format and field; docs/guide/formats.md says of each whether it is read or noted."""
+has both by format and field; docs/FIELDS.md says of each whether it is read or noted."""
 import json
 import os
 import struct

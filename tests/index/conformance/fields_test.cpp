@@ -21,17 +21,13 @@ using nlohmann::json;
 using FieldTable = std::map<std::pair<std::string, std::string>, std::string>;
 
 FieldTable fields_of_the_guide() {
-    std::istringstream page(
-        read_file(fs::path(test_support::source_root()) / "docs/guide/formats.md"));
+    std::istringstream page(read_file(fs::path(test_support::source_root()) / "docs/FIELDS.md"));
     FieldTable fields;
     std::string format;
-    bool inside = false;
     for (std::string line; std::getline(page, line);) {
         if (line.starts_with("## "))
-            inside = line == "## Fields of the standards";
-        if (inside && line.starts_with("### "))
-            format = line.substr(4);
-        if (!inside || !line.starts_with("| `"))
+            format = line.substr(3);
+        if (!line.starts_with("| `"))
             continue;
         const std::size_t end = line.find("` | ");
         const std::string field = line.substr(3, end - 3), rest = line.substr(end + 4);

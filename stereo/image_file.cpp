@@ -90,6 +90,7 @@ ReadFile read_in_reader(const std::filesystem::path& path, bool pixels) {
     ReadFile file;
     try {
         index::ReaderPool& readers = index::readers_of_this_process();
+        readers.let_read(index::file_of_program("libisochron_images.so"));
         readers.let_read(path);
         auto reader = readers.take("isochron-reader-image");
         reader->ask(index::ReadPicture{path, pixels});

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <limits>
 #include <numeric>
 #include <string_view>
 
@@ -152,10 +151,10 @@ std::vector<std::string> ExplorerState::refusals(const interaction::Commands& co
         if (std::string_view(field.key) == "clip" && commands.clip)
             line += fmt::format(", whose normal has a length of {:.6g}, expected 1",
                                 glm::length(commands.clip->normal));
+        else if (field.high < interaction::kAnyNumber && field.low > -interaction::kAnyNumber)
+            line += fmt::format(", expected {:g} to {:g}", field.low, field.high);
         else if (field.high < interaction::kAnyNumber)
-            line +=
-                fmt::format(", expected {:g} to {:g}",
-                            std::max(field.low, std::numeric_limits<double>::lowest()), field.high);
+            line += fmt::format(", expected at most {:g}", field.high);
         lines.push_back(std::move(line));
     });
     return lines;

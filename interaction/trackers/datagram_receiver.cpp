@@ -20,6 +20,11 @@ void DatagramReceiver::run(const std::stop_token& stop) {
     const std::stop_callback wake(stop, [this] { socket_.wake(); });
     while (!stop.stop_requested()) {
         socket_.wait();
+        // What comes at a tracker's rate waits in the kernel for the next frame; a flood does not
+        // fill the queue in so short a time.
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        if (!socket_.is_filling())
+            continue;
         const std::lock_guard lock(mutex_);
         receive();
     }
@@ -32,11 +37,12 @@ void DatagramReceiver::receive() {
     for (Datagram& datagram : socket_.take(UdpSocket::kMostTaken)) {
         const Worth worth = options_.worth(datagram.bytes);
         const Seconds arrival = now - datagram.age;
-        auto& waiting = waiting_[static_cast<std::size_t>(worth)];
+        const bool of_others = preferred_ && datagram.sender != *preferred_;
+        auto& waiting = of_others ? waiting_.back() : waiting_[static_cast<std::size_t>(worth)];
         waiting.push_back({std::move(datagram), arrival, received_++, worth});
-        if (waiting.size() > kMostWaiting) {
+        if (waiting.size() > (of_others ? kMostOfOthers : kMostWaiting)) {
             waiting.pop_front();
-            ++thrown_away_;
+            ++(of_others ? others_ : thrown_away_);
         }
     }
 }
@@ -87,6 +93,16 @@ void DatagramReceiver::drain() {
 void DatagramReceiver::hear_only(const std::optional<Endpoint>& sender) {
     const std::lock_guard lock(mutex_);
     socket_.hear_only(sender);
+}
+
+void DatagramReceiver::prefer(const std::optional<Endpoint>& sender) {
+    const std::lock_guard lock(mutex_);
+    preferred_ = sender;
+}
+
+std::uint64_t DatagramReceiver::others() const {
+    const std::lock_guard lock(mutex_);
+    return others_;
 }
 
 std::uint64_t DatagramReceiver::thrown_away() const {

@@ -28,8 +28,8 @@ struct ReceiverOptions {
     std::function<Worth(std::string_view)> worth; ///< called on any thread, one call at a time
 };
 
-/// Where ages are measured, a thread takes datagrams from the kernel as they come, so that its
-/// queue is never full when a good one comes. Datagrams of little worth never take the place of
+/// Where ages are measured, a thread takes datagrams from the kernel whenever its queue fills, so
+/// that it is never full when a good one comes. Datagrams of little worth never take the place of
 /// others. With a clock of the caller there is no thread, and `take` does it all.
 class DatagramReceiver {
   public:
@@ -47,6 +47,11 @@ class DatagramReceiver {
     void drain();
     /// As UdpSocket::hear_only.
     void hear_only(const std::optional<Endpoint>& sender);
+    /// Of all other senders few datagrams wait from now on, so that a flood of them costs the next
+    /// `take` little; none: of no sender.
+    void prefer(const std::optional<Endpoint>& sender);
+    /// Number of datagrams of others that did not wait.
+    std::uint64_t others() const;
 
     /// Number of admitted datagrams that were not kept, and of those that were too long.
     std::uint64_t thrown_away() const;
@@ -60,6 +65,7 @@ class DatagramReceiver {
         Worth worth = Worth::nonsense;
     };
     static constexpr std::size_t kMostWaiting = UdpSocket::kMostTaken; ///< of each worth
+    static constexpr std::size_t kMostOfOthers = 64;
 
     void receive();
     void run(const std::stop_token& stop);
@@ -67,8 +73,9 @@ class DatagramReceiver {
     const ReceiverOptions options_;
     mutable std::mutex mutex_; ///< protects all but the endpoint
     UdpSocket socket_;
-    std::array<std::deque<Received>, 3> waiting_; ///< by worth
-    std::uint64_t received_ = 0, thrown_away_ = 0;
+    std::optional<Endpoint> preferred_;
+    std::array<std::deque<Received>, 4> waiting_; ///< by worth; the last one of others
+    std::uint64_t received_ = 0, thrown_away_ = 0, others_ = 0;
     std::jthread thread_; ///< last member, as it uses the others
 };
 

@@ -62,7 +62,7 @@ struct DTrackInput::State {
     std::vector<Device> devices;
     SenderChoice senders;
     bool narrows; ///< the kernel drops others while the configured sender is heard
-    std::optional<Endpoint> narrow; ///< to whom it is narrowed now
+    std::optional<Endpoint> chosen; ///< the sender that is heard
     FrameSequence sequence;
     DeviceClock clock;
     std::uint64_t malformed = 0;
@@ -133,12 +133,13 @@ struct DTrackInput::State {
         };
         for (const Datagram& datagram : receiver.take(kMostDatagrams, admits))
             take(datagram, now);
-        if (!narrows)
-            return;
         const auto heard = senders.proven(now);
-        if (heard != narrow)
+        if (heard == chosen)
+            return;
+        receiver.prefer(heard);
+        if (narrows)
             receiver.hear_only(heard);
-        narrow = heard;
+        chosen = heard;
     }
 };
 
@@ -167,10 +168,11 @@ InputState DTrackInput::latch(Seconds now) {
 
 std::vector<std::string> DTrackInput::status() const {
     const State& s = *state_;
-    std::vector<std::string> lines{fmt::format(
-        "dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away{}",
-        to_string(s.receiver.endpoint()), s.sequence.accepted(), s.sequence.missing(),
-        s.sequence.late(), s.malformed, s.receiver.thrown_away(), s.senders.strangers())};
+    std::vector<std::string> lines{
+        fmt::format("dtrack {}: {} frames, {} missing, {} late, {} malformed, {} thrown away{}",
+                    to_string(s.receiver.endpoint()), s.sequence.accepted(), s.sequence.missing(),
+                    s.sequence.late(), s.malformed, s.receiver.thrown_away(),
+                    s.senders.strangers(s.receiver.others()))};
     for (const State::Device& device : s.devices)
         lines.push_back(device.tracked.status());
     return lines;

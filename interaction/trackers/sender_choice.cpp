@@ -51,10 +51,10 @@ std::optional<Endpoint> SenderChoice::proven(Seconds now) const {
     return current_->sender;
 }
 
-std::string SenderChoice::strangers() const {
-    if (strangers_ == 0)
+std::string SenderChoice::strangers(std::uint64_t more) const {
+    if (strangers_ + more == 0)
         return {};
-    return fmt::format(", {} from others ({})", strangers_, to_string(last_stranger_));
+    return fmt::format(", {} from others ({})", strangers_ + more, to_string(last_stranger_));
 }
 
 } // namespace isochron::interaction

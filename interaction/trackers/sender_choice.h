@@ -30,8 +30,9 @@ class SenderChoice {
     /// The sender that is used, while its datagrams make sense and it is not silent for a second.
     std::optional<Endpoint> proven(Seconds now) const;
 
+    /// @param more of others, which were not even asked about
     /// `, 12 from others (127.0.0.1:4000)`; empty if there were none.
-    std::string strangers() const;
+    std::string strangers(std::uint64_t more) const;
 
   private:
     struct Current {

@@ -14,6 +14,7 @@
 
 #include <arpa/inet.h>
 #include <linux/filter.h>
+#include <linux/sock_diag.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -197,6 +198,13 @@ UdpSocket::~UdpSocket() {
 void UdpSocket::wait() const {
     std::array<pollfd, 2> ready{{{socket_, POLLIN, 0}, {wake_, POLLIN, 0}}};
     poll(ready.data(), ready.size(), -1);
+}
+
+bool UdpSocket::is_filling() const {
+    std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+    socklen_t size = sizeof memory;
+    return getsockopt(socket_, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) != 0 ||
+           memory[SK_MEMINFO_RMEM_ALLOC] > memory[SK_MEMINFO_RCVBUF] / 8;
 }
 
 void UdpSocket::wake() const {

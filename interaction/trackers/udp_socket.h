@@ -53,6 +53,8 @@ class UdpSocket {
     /// Waits until a datagram is waiting, or `wake` is called. May be called beside any other
     /// function of another thread.
     void wait() const;
+    /// Whether the kernel's queue is filling: an eighth of it is taken.
+    bool is_filling() const;
     /// Ends a wait, also the next one if there is none.
     void wake() const;
     /// From now on the kernel drops datagrams of all other senders; none: of no sender. What waits

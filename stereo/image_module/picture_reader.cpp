@@ -12,37 +12,35 @@
 namespace isochron::stereo::image_module {
 namespace {
 
-/// Loaded before the fence, which hides the module's own folder.
+/// Loaded behind the fence: some of the libraries start threads as they are loaded, which the fence
+/// must hold, too.
 struct Functions {
     ReadNote* note = nullptr;
     Read* pixels = nullptr;
     std::string missing; ///< why there are none
 };
 
-Functions& functions() {
-    static Functions loaded;
-    return loaded;
-}
-
-void load() {
+Functions loaded() {
+    Functions functions;
     try {
-        functions().note =
+        functions.note =
             reinterpret_cast<ReadNote*>(index::module_symbol("isochron_images", kReadNote));
-        functions().pixels =
-            reinterpret_cast<Read*>(index::module_symbol("isochron_images", kRead));
+        functions.pixels = reinterpret_cast<Read*>(index::module_symbol("isochron_images", kRead));
     } catch (const index::Error& error) {
-        functions().missing = error.what();
+        functions.missing = error.what();
     }
+    return functions;
 }
 
 index::DecodedPicture read_picture(const std::filesystem::path& path, bool pixels) {
-    std::string error = functions().missing;
+    static const Functions functions = loaded();
+    std::string error = functions.missing;
     index::DecodedPicture picture;
     render::Image image;
     if (error.empty() && pixels)
-        functions().pixels(path.string(), image, error);
+        functions.pixels(path.string(), image, error);
     else if (error.empty())
-        functions().note(path.string(), picture.note, error);
+        functions.note(path.string(), picture.note, error);
     if (!error.empty())
         throw index::Error(fmt::format("{}: {}", path.string(), error));
     picture.width = static_cast<std::uint32_t>(image.width);
@@ -55,7 +53,5 @@ index::DecodedPicture read_picture(const std::filesystem::path& path, bool pixel
 } // namespace isochron::stereo::image_module
 
 int main() {
-    using namespace isochron::stereo::image_module;
-    load();
-    return isochron::index::run_reader({}, nullptr, read_picture);
+    return isochron::index::run_reader({}, nullptr, isochron::stereo::image_module::read_picture);
 }

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/formats/axis_positions.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -200,8 +201,7 @@ std::vector<DicomVolume> dicom_volumes(const std::vector<DicomFile>& files) {
         for (const std::size_t i : differing)
             name += fmt::format("{}{}{}", name.empty() ? "" : ", ",
                                 i == 0 ? "" : kind[i].first + " ", kind[i].second);
-        if (name.empty())
-            name = "unnamed";
+        name = trimmed(name).empty() ? "unnamed" : std::string(trimmed(name));
         std::string unique = name;
         for (int number = 2; !names.insert(unique).second; ++number)
             unique = fmt::format("{} ({})", name, number);

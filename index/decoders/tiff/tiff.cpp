@@ -118,7 +118,7 @@ class TiffVolume final : public DecodedFile {
   private:
     /// ImageJ calibrates 8 and 16 bits only.
     void calibrate() {
-        if (stack_.scaling == Scaling{})
+        if (stack_.scaling == Scaling{} && stack_.value_unit.empty())
             return;
         const TiffShape& shape = first_.shape();
         if (shape.type != StoredType::u8 && shape.type != StoredType::u16 &&

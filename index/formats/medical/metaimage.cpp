@@ -185,6 +185,10 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     if (sizes.size() != 3 && sizes.size() != 4)
         throw Error(
             fmt::format("{}: {} dimensions, expected 3, or 4 with time", name, sizes.size()));
+    if (const auto said = header.numbers({"NDims"}, 1);
+        !said.empty() && said.front() != static_cast<double>(sizes.size()))
+        throw Error(fmt::format("{}: NDims {}, expected {}, as many as DimSize has numbers", name,
+                                said.front(), sizes.size()));
     SeriesInfo info;
     info.grid.vertices = checked_vertices({sizes[0], sizes[1], sizes[2]}, name);
     StoredLayout layout;

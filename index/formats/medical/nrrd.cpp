@@ -196,10 +196,11 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
 /// What is not said elsewhere: fields of the format that nothing is done with.
 void note_unread(const NrrdHeader& header, SeriesInfo& info) {
     static const std::set<std::string_view> kRead{
-        "dimension", "type",     "blocksize",       "encoding",    "endian",      "space",
-        "sizes",     "spacings", "axismins",        "axismaxs",    "centers",     "centerings",
-        "units",     "kinds",    "spacedimension",  "spaceunits",  "spaceorigin", "lineskip",
-        "byteskip",  "datafile", "spacedirections", "sampleunits", "labels",      "number"};
+        "dimension",   "type",     "encoding", "endian",         "space",
+        "sizes",       "spacings", "axismins", "axismaxs",       "centers",
+        "centerings",  "units",    "kinds",    "spacedimension", "spaceunits",
+        "spaceorigin", "lineskip", "byteskip", "datafile",       "spacedirections",
+        "sampleunits", "labels",   "number"};
     if (auto note = note_on_unread(header.others(kRead)))
         info.notes.push_back(std::move(*note));
 }

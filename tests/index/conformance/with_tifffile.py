@@ -97,8 +97,11 @@ refuse(["slice_8.tif", "t00.tif"], "names that differ in more than numbers")
 # tifffile's own: four axes are told by a shape.
 tifffile.imwrite(path("shaped.tif"), series, photometric="minisblack")
 expect("shaped.tif", series)
-tifffile.imwrite(path("half.tif"), field(3, 4, 5).astype("f2"), photometric="minisblack", metadata=None)
-refuse("half.tif", "16 bits in format 3")
+for name, how in [("half.tif", {}), ("half_be.tif", dict(byteorder=">")), ("half_tiled.tif", dict(tile=(16, 16)))]:
+    half = field(3, 4, 5).astype("f2")
+    half[0, 0, :4] = [6e-8, -np.inf, np.nan, 65504]
+    tifffile.imwrite(path(name), half, photometric="minisblack", metadata=None, **how)
+    expect(name, half.astype("f4"))
 tifffile.imwrite(path("flat.tif"), stack[0], metadata=None)
 refuse("flat.tif", "6x5x1 vertices, needs at least 2 vertices per axis")
 done()

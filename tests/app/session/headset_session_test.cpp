@@ -276,7 +276,7 @@ TEST_F(HeadsetSession, MissedFramesAndBudgetFollowTheRuntimesPeriod) {
     unsigned missed = 0;
     for (int i = 0; i < 20; ++i) {
         missed += live(0.05).missed;
-        EXPECT_NEAR(session_->log().frames().back().budget.count(), 50.0, 0.1);
+        EXPECT_NEAR(session_->log().frames().back().promised.count(), 50.0, 0.1);
     }
     EXPECT_EQ(missed, 0u);
     EXPECT_EQ(live(0.15).missed, 2u);

@@ -30,11 +30,13 @@ TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
                             .artifacts = "docs/results/artifacts.json",
                             .scale = "docs/results/scale.txt",
                             .gpu = "docs/results/gpu.txt",
-                            .agreement = "docs/results/agreement.json"};
+                            .agreement = "docs/results/agreement.json",
+                            .motion = "docs/results/motion.json"};
     EXPECT_EQ(whole_page(paths, read), read("docs/RESULTS.md"))
         << "make it again: ./run bench results " << paths.index << " --render " << paths.render
         << " --artifacts " << paths.artifacts << " --scale " << paths.scale << " --gpu "
-        << paths.gpu << " --agreement " << paths.agreement << " -o docs/RESULTS.md";
+        << paths.gpu << " --agreement " << paths.agreement << " --motion " << paths.motion
+        << " -o docs/RESULTS.md";
     for (const Header& header : {results_from_json(read(paths.index), "").header,
                                  render_results_from_json(read(paths.render), "").header,
                                  artifacts_from_json(read(paths.artifacts), "").header}) {

@@ -34,7 +34,8 @@ const ResultPaths& committed_results() {
                                    .artifacts = "docs/results/artifacts.json",
                                    .scale = "docs/results/scale.txt",
                                    .gpu = "docs/results/gpu.txt",
-                                   .agreement = "docs/results/agreement.json"};
+                                   .agreement = "docs/results/agreement.json",
+                                   .motion = "docs/results/motion.json"};
     return paths;
 }
 
@@ -44,7 +45,7 @@ TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
     const std::string how = "make it again: ./run bench results " + paths.index + " --render " +
                             paths.render + " --artifacts " + paths.artifacts + " --scale " +
                             paths.scale + " --gpu " + paths.gpu + " --agreement " +
-                            paths.agreement + " -o docs/RESULTS.md";
+                            paths.agreement + " --motion " + paths.motion + " -o docs/RESULTS.md";
     EXPECT_EQ(page.text, read("docs/RESULTS.md")) << how;
     for (const auto& [name, chart] : page.charts)
         EXPECT_EQ(chart, read("docs/" + name)) << how;

@@ -92,8 +92,14 @@ std::optional<MotionCosts> FrameQuality::motion_costs() const {
 /// Promises a time for moving pictures; what presenting leaves of it is their budget.
 void FrameQuality::keep_promise(FrameReport& report, Choosing how) {
     constexpr double kLeastDrawing = 0.25; // share of the promise
-    if (report.volume_cells)
+    if (report.volume_cells) {
         all_cells_ = report.volume_cells;
+        counted_ = true;
+    } else if (!counted_ && report.cells > 0 && longest_ > promise_.wanted()) {
+        // Before a first rest nobody has counted: each level has about a quarter of the cells of the
+        // next finer one. Where no longer time may be promised, a guess would break the budget.
+        all_cells_ = report.cells << (report.finest + report.coarsest);
+    }
     if (how == Choosing::with_parts) {
         const auto costs = motion_costs();
         promise_.update(costs, all_cells_, report.time);

@@ -133,8 +133,9 @@ class FrameQuality {
     MotionPromise promise_;
     CellResolution resolution_;
     bool begun_ = false;                     ///< a picture without cells was measured
-    std::optional<std::uint64_t> all_cells_; ///< of level 0, as last counted
-    Milliseconds beside_{0};                 ///< that presenting takes
+    std::optional<std::uint64_t> all_cells_; ///< of level 0, as last counted, or guessed
+    bool counted_ = false;
+    Milliseconds beside_{0}; ///< that presenting takes
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
     interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last

@@ -1,7 +1,4 @@
 // Names with numbers that give files, folders, groups and slices an order: one reading for all.
-//
-//     const ReadNames read = read_names({"t_1.5", "t_1", "t_-0.5"});
-//     read.order; // {2, 1, 0}
 #pragma once
 
 #include <cstddef>

@@ -118,6 +118,26 @@ TEST_F(TimedFiles, AllOfOneTimeAreSpacedAsTheErrorAdvises) {
     EXPECT_THAT(values(files, options), ElementsAre(1, 2));
 }
 
+TEST_F(TimedFiles, NamedTwiceByACollectionForATimeCountOnce) {
+    write("a.vti", 1, 0), write("b.vti", 2, 0);
+    const auto collection = [&](const std::string& first, const std::string& second) {
+        return folder_.write("s.pvd",
+                             "<VTKFile type='Collection'><Collection><DataSet timestep='1' "
+                             "part='0' file='" +
+                                 first + "'/><DataSet timestep='1' part='0' file='" + second +
+                                 "'/></Collection></VTKFile>");
+    };
+    const fs::path twice = collection("a.vti", "b.vti");
+    EXPECT_THAT(values({twice}), ElementsAre(2));
+    EXPECT_THAT(open_series({twice})->info().notes,
+                Contains(AllOf(HasSubstr("1 of the times"), HasSubstr("a.vti and b.vti"),
+                               HasSubstr("later one counts"))));
+    ReadOptions first;
+    first.keep_first = true;
+    EXPECT_THAT(values({twice}, first), ElementsAre(1));
+    EXPECT_THAT(values({collection("a.vti", "a.vti")}), ElementsAre(1));
+}
+
 TEST_F(TimedFiles, MayBeReadInPart) {
     std::vector<fs::path> files;
     for (int i = 0; i < 8; ++i)

@@ -306,26 +306,13 @@ TEST(Pvd, PutsThePartsOfAStepTogether) {
                 HasSubstr("dimensions"));
 }
 
-TEST(Pvd, CountsTheLaterEntriesOfATimeAndRefusesMissingFiles) {
+TEST(Pvd, RefusesMissingFiles) {
     TestFolder folder;
     for (const char* name : {"a.vti", "b.vti"})
         folder.write(name, read_file(kFolder / "ascii.vti"));
     const auto message = [&](const std::string& sets) {
         return error_of([&] { open_series({folder.write("s.pvd", collection(sets))}); });
     };
-    const std::string a = R"(<DataSet timestep="1" part="0" file="a.vti"/>)";
-    const fs::path twice =
-        folder.write("s.pvd", collection(a + R"(<DataSet timestep="1" part="0" file="b.vti"/>)"));
-    EXPECT_THAT(open_series({twice})->info().sources, testing::ElementsAre("b.vti"));
-    EXPECT_THAT(open_series({twice})->info().notes,
-                testing::Contains(AllOf(HasSubstr("1 of the times"), HasSubstr("a.vti and b.vti"),
-                                        HasSubstr("later one counts"))));
-    ReadOptions first;
-    first.keep_first = true;
-    EXPECT_THAT(open_series({twice}, first)->info().sources, testing::ElementsAre("a.vti"));
-    EXPECT_THAT(open_series({folder.write("s.pvd", collection(a + a))})->info().sources,
-                testing::ElementsAre("a.vti"))
-        << "named twice";
     EXPECT_THAT(message(R"(<DataSet timestep="1" file="c.vti"/>)"),
                 HasSubstr("c.vti: there is no such file"));
     EXPECT_THAT(message(""), HasSubstr("empty collection"));

@@ -17,7 +17,10 @@ constexpr GLuint kColors = 1;       ///< attribute of mesh.vert
 constexpr std::size_t kMostSorted = 1 << 19;
 
 MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
-    : gl_(&gl), vertex_array_(gl), near_first_(gl), order_(gl) {
+    : gl_(&gl), vertex_array_(gl), no_color_(gl), near_first_(gl), order_(gl) {
+    constexpr std::uint32_t kNone = 0;
+    gl.NamedBufferData(no_color_.name(), sizeof(kNone), &kNone, GL_STATIC_DRAW);
+    gl.EnableVertexArrayAttrib(vertex_array_.name(), kColors);
     for (const Kind kind : {Kind::plain, Kind::colored, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
             programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
@@ -74,12 +77,11 @@ void MeshPass::draw_triangles(const MeshBuffers& mesh, GLuint indices, std::size
                               std::size_t count, std::size_t base) const {
     const GLuint array = vertex_array_.name();
     gl_->VertexArrayVertexBuffer(array, 0, mesh.vertices(), 0, sizeof(index::MeshVertex));
-    if (mesh.colors() != 0) {
-        gl_->EnableVertexArrayAttrib(array, kColors);
-        gl_->VertexArrayVertexBuffer(array, kColors, mesh.colors(), 0, sizeof(std::uint16_t));
-    } else { // all have coordinate 0
-        gl_->DisableVertexArrayAttrib(array, kColors);
-    }
+    // Without colors all vertices have the one that is there: for another format of vertices llvmpipe
+    // would compile the shaders anew.
+    gl_->VertexArrayVertexBuffer(array, kColors,
+                                 mesh.colors() != 0 ? mesh.colors() : no_color_.name(), 0,
+                                 mesh.colors() != 0 ? sizeof(std::uint16_t) : 0);
     gl_->VertexArrayElementBuffer(array, indices);
     gl_->BindVertexArray(array);
     gl_->DrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,

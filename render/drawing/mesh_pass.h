@@ -59,6 +59,7 @@ class MeshPass {
     const Gl* gl_;
     std::array<std::array<std::optional<Program>, 3>, 3> programs_; ///< [kind][way]
     VertexArray vertex_array_;
+    Buffer no_color_;           ///< one color coordinate, 0
     Buffer near_first_, order_; ///< vertex indices, also to be blended
     std::vector<std::uint32_t>
         first_of_cell_;            ///< first triangle of each cell, by slot, and the end

@@ -25,9 +25,9 @@ FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
                            std::optional<double> refresh_rate)
     : settled_(config.quality.settled), wanted_budget_(config.quality.frame_budget_ms),
       still_budget_(config.quality.still_budget_ms), longest_(config.quality.longest_ms),
-      resolution_(config.quality.least_resolution),
       configured_period_(period_of(config, refresh_rate)), period_(configured_period_),
       promise_(promise_for(wanted_budget_.count() > 0 ? wanted_budget_ : period_, false)),
+      resolution_(config.quality.least_resolution),
       steady_(promise_.wanted()), still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
 
 /// A headset's runtime moves pictures itself, but at the headset's rate.

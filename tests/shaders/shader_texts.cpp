@@ -9,6 +9,7 @@
 #include "render/drawing/cell_pass.h"
 #include "render/gl/shader.h"
 #include "render/passes/background_pass.h"
+#include "render/passes/enlarge_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
 #include "render/passes/picture_pass.h"
@@ -131,6 +132,7 @@ void make_all_passes(const Gl& gl) {
     if (!cells.draws_two_views_at_once())
         throw render::Error("shader_texts: cells should be drawn for two eyes at once, too");
     const render::BackgroundPass background(gl);
+    const render::EnlargePass enlarge(gl);
     const render::LinePass lines(gl);
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);

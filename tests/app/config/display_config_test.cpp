@@ -126,7 +126,8 @@ stereo::Installation any_installation(std::mt19937& random) {
             viewport.position = {number(0, 0.5f), number(0, 0.5f)};
             viewport.size = {number(0.01f, 0.5f), number(0.01f, 0.5f)};
             viewport.viewer = whole(0, static_cast<int>(lab.viewers.size()) - 1);
-            viewport.screen = {point(), point(), point(), whole(0, 1) == 1, whole(0, 1) == 1};
+            viewport.screen = {point(),          point(),         point(),
+                               whole(0, 1) == 1, number(0, 0.5f), whole(0, 1) == 1};
             window.viewports.push_back(viewport);
         }
         lab.windows.push_back(window);

@@ -326,7 +326,7 @@ TEST(NetcdfTimes, OfSeveralFilesFollowEachOther) {
     EXPECT_THAT(error_of([&] {
                     open_series({at_times(folder, "a.nc", {1, 1})});
                 }),
-                HasSubstr("a.nc: time 1 (2000-01-01 00:00:01) of its step 1, "));
+                HasSubstr("a.nc: time 1 (2000-01-01 00:00:01) of its step 1 is that of the step before it"));
     EXPECT_THAT(error_of([&] { open_series({at_times(folder, "a.nc", {})}); }),
                 HasSubstr("a.nc: v(time 0, z 2, y 2, x 2) has 0 steps, expected at least 1"));
 }

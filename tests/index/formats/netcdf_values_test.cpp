@@ -301,7 +301,8 @@ TEST(RealNetcdf, OfTheMetOfficeHasItsTemperatures) {
     EXPECT_EQ(info.time_unit, "hours since 1970-01-01 00:00:00");
     EXPECT_THAT(info.notes, ElementsAre(HasSubstr("x (grid_longitude) is not uniform"),
                                         HasSubstr("y (grid_latitude) is not uniform"),
-                                        HasSubstr("z (model_level_number) / 100; --spacing")));
+                                        HasSubstr("z (model_level_number) / 100; --spacing"),
+                                        HasSubstr("stated and not used: ukmo__um_stash_source")));
     const auto sum = [&](std::size_t step) {
         const auto values = values_of<float>(*series, step);
         return std::accumulate(values.begin(), values.end(), 0.0);

@@ -6,14 +6,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
 namespace isochron::app {
 
-void remove_left_files(int argc, const char* const* argv) {
-    namespace fs = std::filesystem;
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_files_beside(int argc, const char* const* argv) {
     for (int i = 1; i < argc; ++i) {
         std::string_view word = argv[i];
         if (word.starts_with('-')) // --out=FILE
@@ -25,6 +29,15 @@ void remove_left_files(int argc, const char* const* argv) {
         for (const fs::path& folder : {file, file.parent_path()})
             if (fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0)
                 index::remove_remains_in(folder);
+    }
+}
+
+} // namespace
+
+void remove_left_files(int argc, const char* const* argv) noexcept {
+    try {
+        remove_files_beside(argc, argv);
+    } catch (const std::exception&) { // they stay for the next command
     }
 }
 

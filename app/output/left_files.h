@@ -5,6 +5,6 @@ namespace isochron::app {
 
 /// Removes temporary files of killed commands from the folders of the files that the arguments
 /// name, see index::remove_remains_in.
-void remove_left_files(int argc, const char* const* argv);
+void remove_left_files(int argc, const char* const* argv) noexcept;
 
 } // namespace isochron::app

@@ -285,14 +285,12 @@ TEST_F(ClusterJobTest, TheLiveTestPatternEndsOnAllWallsAtOnce) {
 
 TEST_F(ClusterJobTest, AProcessThatFollowsAndIsTerminatedEndsTheJobWithItsName) {
     const test_support::VirtualDisplay screen;
-    folder_.write("lab.toml", "[[windows]]\nname = \"left\"\nstereo = \"mono\"\nsize = [64, 48]\n"
-                              "[[windows]]\nname = \"floor\"\nstereo = \"mono\"\nnode = 1\n"
-                              "size = [64, 48]\n");
+    folder_.write("lab.toml", mono_cave());
     const std::string explore =
         "echo $$ > pid$OMPI_COMM_WORLD_RANK; exec $isochron explore sphere.isochron --config "
         "lab.toml --no-panel";
     auto ended = std::async(std::launch::async, [&] { return job(2, explore); });
-    screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron: sphere.*floor"});
+    screen.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron.*floor"});
     ::kill(std::stoi(folder_.read("pid1")), SIGTERM);
     expect_one_line(ended.get(), "process 1 on ", "ended by SIGTERM");
 }

@@ -11,6 +11,7 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
+int living = 0;                      // of CancelOnSignal, one within the other
 std::atomic<const WakeOnSignal*> woken_by_signals = nullptr;
 static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
 
@@ -23,7 +24,8 @@ void note_signal(int signal) {
 }
 
 CancelOnSignal::CancelOnSignal() {
-    came = 0;
+    if (living++ == 0)
+        came = 0;
     struct sigaction action {};
     action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
@@ -35,6 +37,7 @@ CancelOnSignal::CancelOnSignal() {
 }
 
 CancelOnSignal::~CancelOnSignal() {
+    --living;
     for (std::size_t i = 0; i < kSignals.size(); ++i)
         sigaction(kSignals[i], &previous_[i], nullptr);
 }

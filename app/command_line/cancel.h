@@ -15,8 +15,8 @@ class Canceled : public std::runtime_error {
     int status; ///< 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed. Only one may live at a
-/// time.
+/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed. One may live within
+/// another, on the same thread.
 class CancelOnSignal {
   public:
     CancelOnSignal();

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -27,10 +28,16 @@ namespace {
 
 using nlohmann::json;
 
-/// A process that only follows has no end of its own: a signal ends the job.
-void obey_signals() {
-    if (const int signal = CancelOnSignal::received(); signal != 0)
-        throw Canceled(signal);
+/// A process that only follows has no end of its own: a signal ends the job, at once, as taking a
+/// session apart may take longer than the others wait for a sign of life.
+void obey_signals(stereo::Cluster& cluster) {
+    const int signal = CancelOnSignal::received();
+    if (signal == 0)
+        return;
+    const char* const name = ::sigabbrev_np(signal);
+    fmt::print(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
+               name ? name : "NAL");
+    cluster.abandon(Canceled(signal).status);
 }
 
 /// Where two facts first differ, and what each says there.
@@ -79,10 +86,10 @@ FactDifference first_difference(const std::string& a, const std::string& b) {
 
 /// Shows each frame that rank 0 orders, until there are no more.
 template <typename Shown>
-void each_order(Shown& shown, const FrameDone& done,
+void each_order(stereo::Cluster& cluster, Shown& shown, const FrameDone& done,
                 const std::function<void(const FrameOrder&, const Latch&)>& show) {
     for (std::size_t number = 0; auto order = shown.frames().next(); ++number) {
-        obey_signals();
+        obey_signals(cluster);
         shown.outputs().windows().poll_events();
         show(
             *order, order->latched.devices.empty() ? Latch{} : [&order] { return order->latched; });
@@ -153,13 +160,13 @@ void ClusterJob::share_frames(PatternShow& show) {
 }
 
 void ClusterJob::follow(Session& session, const FrameDone& done) {
-    each_order(session, done, [&](const FrameOrder& order, const Latch& latch) {
+    each_order(cluster_, session, done, [&](const FrameOrder& order, const Latch& latch) {
         session.frame(order.input, order.commands, order.waiting, latch);
     });
 }
 
 void ClusterJob::follow(PatternShow& show, const FrameDone& done) {
-    each_order(show, done, [&](const FrameOrder& order, const Latch& latch) {
+    each_order(cluster_, show, done, [&](const FrameOrder& order, const Latch& latch) {
         show.frame(order.input, order.commands, latch);
     });
 }
@@ -231,17 +238,18 @@ void run_in_cluster(const std::function<void(ClusterJob&)>& command) {
     const auto team = index::join_team();
     stereo::Cluster cluster(*team);
     ClusterJob job(cluster);
-    if (!job.leads())
-        cluster.while_waiting(obey_signals);
+    // Signals are heard from here on: a window may be there before the command hears them.
+    std::optional<CancelOnSignal> signals;
+    if (!job.leads()) {
+        signals.emplace();
+        cluster.while_waiting([&cluster] { obey_signals(cluster); });
+    }
     try {
         command(job);
-    } catch (const Canceled& canceled) {
-        if (cluster.size() == 1 || job.is_over() || job.leads())
-            throw;
-        const char* const name = ::sigabbrev_np(canceled.status - 128);
-        fmt::print(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
-                   name ? name : "NAL");
-        cluster.abandon(canceled.status);
+    } catch (const Canceled&) {
+        if (cluster.size() > 1 && !job.is_over() && !job.leads())
+            obey_signals(cluster);
+        throw;
     } catch (const std::exception& error) {
         if (cluster.size() == 1 || job.is_over())
             throw;

@@ -6,6 +6,7 @@
 #include "render/drawing/mesh_look.h"
 #include "render/gl/driver.h"
 #include "render/gl/driver_trials.h"
+#include "render/gl/gl_memory.h"
 #include "render/gl/limits.h"
 #include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
@@ -83,6 +84,9 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),
       mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), corners_(gl),
       in_sight_(gl), quads_(gl), sequences_(gl), frame_(gl), no_colors_(gl, GL_TEXTURE_1D) {
+    // Drivers crash where shaders read a block without memory.
+    gl.NamedBufferData(frame_.name(), sizeof(FrameBlock), nullptr, GL_STREAM_DRAW);
+    expect_memory(gl, "constants of cells");
     gl.TextureStorage1D(no_colors_.name(), 1, GL_RGB16F, 1);
     gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);

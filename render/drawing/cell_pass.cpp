@@ -84,9 +84,8 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),
       mesh_(gl, grid_prelude), surface_(gl, two_views_at_once_, grid_prelude), corners_(gl),
       in_sight_(gl), quads_(gl), sequences_(gl), frame_(gl), no_colors_(gl, GL_TEXTURE_1D) {
-    // Drivers crash where shaders read a block without memory.
     gl.NamedBufferData(frame_.name(), sizeof(FrameBlock), nullptr, GL_STREAM_DRAW);
-    expect_memory(gl, "constants of cells");
+    expect_memory(gl, "constants of cells"); // drivers crash where a block has no memory
     gl.TextureStorage1D(no_colors_.name(), 1, GL_RGB16F, 1);
     gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -290,8 +289,7 @@ void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence,
     frame.order_begin = sequences[0].begin;
     frame.order_step = sequences[0].step;
     frame.corners_by_slot = corners_by_slot;
-    // A mesh has another color in each pixel, and the target converts colors to display values
-    // faster than the shader.
+    // A mesh has another color in each pixel, which the target converts faster than the shader.
     if (footprint == Footprint::mesh && !blended)
         frame.linear_light = 1;
     gl_->NamedBufferData(frame_.name(), sizeof(frame), &frame, GL_STREAM_DRAW);
@@ -299,8 +297,7 @@ void CellPass::draw_cells(const Drawing& drawing, const std::array<CellSequence,
     gl_->BindTextureUnit(0, cells.texture());
     gl_->BindTextureUnit(kSurroundingsUnit, cells.surroundings().texture());
     cells.axes().bind();
-    // Without a color map, binds a texture of the same kind: for another kind llvmpipe would
-    // compile its shaders anew.
+    // For no map there is a texture of the same kind: llvmpipe would compile for another kind.
     gl_->BindTextureUnit(kColorMapUnit,
                          appearance.values ? appearance.values->map : no_colors_.name());
     // Without linear light the shader writes display values, which the target must not convert.

@@ -1,9 +1,9 @@
 // Describes an installation and finds its problems.
 #include "app/config/check_config.h"
 
-#include "app/config/check_devices.h"
 #include "app/config/check/check_gaps.h"
 #include "app/config/check/check_measures.h"
+#include "app/config/check_devices.h"
 #include "app/config/tracker_setup.h"
 #include "app/text.h"
 #include "stereo/nodes.h"

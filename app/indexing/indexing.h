@@ -1,8 +1,8 @@
 // Makes an index in the background, while its first steps are shown.
 #pragma once
 
-#include "app/indexing/build_arguments.h"
 #include "app/command_line/progress_bar.h"
+#include "app/indexing/build_arguments.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -20,7 +20,7 @@ enum class OutputKind : std::uint8_t {
     configuration,
     recording,
     surface, ///< a mesh or a table for other programs
-    movie ///< in one file, or as frames in a folder
+    movie    ///< in one file, or as frames in a folder
 };
 
 struct Output {

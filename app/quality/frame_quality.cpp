@@ -27,8 +27,8 @@ FrameQuality::FrameQuality(const render::Gl& gl, const Config& config,
       still_budget_(config.quality.still_budget_ms), longest_(config.quality.longest_ms),
       configured_period_(period_of(config, refresh_rate)), period_(configured_period_),
       promise_(promise_for(wanted_budget_.count() > 0 ? wanted_budget_ : period_, false)),
-      resolution_(config.quality.least_resolution),
-      steady_(promise_.wanted()), still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
+      resolution_(config.quality.least_resolution), steady_(promise_.wanted()),
+      still_(std::max(steady_.budget(), still_budget_)), meter_(gl) {}
 
 /// A headset's runtime moves pictures itself, but at the headset's rate.
 MotionPromise FrameQuality::promise_for(Milliseconds wanted, bool in_headset) const {

@@ -53,8 +53,8 @@ double churn(const StepValues& values, const LevelMap& levels) {
     StretchRanks ranks(values, levels);
     std::uint64_t changed = 0, active = 0;
     for (std::uint32_t i = 0; i < sampled; ++i) {
-        const std::uint32_t stretch = static_cast<std::uint32_t>(
-            (std::uint64_t{2} * i + 1) * stretches.count() / (2 * sampled));
+        const std::uint32_t stretch = static_cast<std::uint32_t>((std::uint64_t{2} * i + 1) *
+                                                                 stretches.count() / (2 * sampled));
         ranks.compute(stretch, first, steps);
         for (std::uint32_t t = 0; t + 1 < steps; ++t) {
             const StretchRanks::Extremes now = ranks.at(t), next = ranks.at(t + 1);

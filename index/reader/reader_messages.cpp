@@ -43,8 +43,8 @@ void each_field(auto& bytes, Of<ReadOptions> auto& options) {
           options.allow_surplus, options.extra_axis_is_time, options.times_from_names,
           options.header_bytes, options.spacing, options.origin, options.time_step,
           options.length_unit, options.time_unit, options.value_unit, options.slices,
-          options.any_array, options.resample, options.keep_first, options.crop,
-          options.stride, options.steps);
+          options.any_array, options.resample, options.keep_first, options.crop, options.stride,
+          options.steps);
 }
 
 void each_field(auto& bytes, Of<OpenFile> auto& open) {

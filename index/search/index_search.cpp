@@ -101,8 +101,8 @@ class IndexSearch {
     bool search_tree(const StepView& step, CellSet& set, const std::stop_token& stop) {
         if (!tree_)
             tree_ = tree_of(*file_);
-        set.reused = tree_->search_incremental(cursor_, set.query.step,
-                                                       keys_.threshold(set.query.isovalue));
+        set.reused =
+            tree_->search_incremental(cursor_, set.query.step, keys_.threshold(set.query.isovalue));
         candidates_ = cursor_.cells;
         set.candidates = candidates_.size();
         return test_candidates(step, set, stop);

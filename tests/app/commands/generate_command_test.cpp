@@ -44,7 +44,7 @@ TEST_F(Generate, TellsAsTheProgramDoesWhatIsWrong) {
 
 TEST_F(Generate, IsCanceledAsTheProgramIs) {
     const std::vector<std::string> endless{"generate", "fourier", "-o",      "d",
-                                           "--size",   "64",     "--steps", "100000"};
+                                           "--size",   "64",      "--steps", "100000"};
     const ChildResult result = isochron(endless, {.interrupt_after = " ...\n"});
     EXPECT_EQ(result.status, 130);
     EXPECT_THAT(result.err, EndsWith("isochron: canceled\n"));

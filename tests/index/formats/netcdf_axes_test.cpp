@@ -323,10 +323,12 @@ TEST(NetcdfTimes, OfSeveralFilesFollowEachOther) {
     EXPECT_EQ(series->info().times, (std::vector<double>{1, 2, 4, 5}));
     for (std::size_t step = 0; step < 4; ++step)
         EXPECT_EQ(values_of<float>(*series, step)[0], series->info().times[step]);
-    EXPECT_THAT(error_of([&] {
-                    open_series({at_times(folder, "a.nc", {1, 1})});
-                }),
-                HasSubstr("a.nc: time 1 (2000-01-01 00:00:01) of its step 1 is that of the step before it"));
+    EXPECT_THAT(
+        error_of([&] {
+            open_series({at_times(folder, "a.nc", {1, 1})});
+        }),
+        HasSubstr(
+            "a.nc: time 1 (2000-01-01 00:00:01) of its step 1 is that of the step before it"));
     EXPECT_THAT(error_of([&] { open_series({at_times(folder, "a.nc", {})}); }),
                 HasSubstr("a.nc: v(time 0, z 2, y 2, x 2) has 0 steps, expected at least 1"));
 }

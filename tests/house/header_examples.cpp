@@ -25,7 +25,6 @@
 #include "index/file/step_view.h"
 #include "index/formats/foreign_file.h"
 #include "index/formats/format.h"
-#include "index/formats/series/numbered_name.h"
 #include "index/formats/series/series_writer.h"
 #include "index/indexing/level_choice.h"
 #include "index/reader/reader_messages.h"
@@ -136,10 +135,6 @@ void bricks_example(const StepValues& values, const LevelMap& levels, std::uint3
 void step_view_example(const std::shared_ptr<const IndexFile>& file, const Query& query,
                        CellSet& set) {
 #include "index/file/step_view.example"
-}
-
-void numbered_name_example() {
-#include "index/formats/series/numbered_name.example"
 }
 
 void surface_writer_example(const ExportPlan& plan,

@@ -8,30 +8,26 @@
 #include <charconv>
 
 namespace isochron::app {
-namespace {
 
-/// The whole numbers of a text with colons between them; empty if there is anything else.
-std::vector<std::uint64_t> numbers_of(const std::string& text) {
+std::optional<std::vector<std::uint64_t>> whole_numbers(std::string_view text,
+                                                        std::string_view between) {
     std::vector<std::uint64_t> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        std::uint64_t number = 0;
-        const auto [next, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (next != end && *next != ':'))
-            return {};
-        numbers.push_back(number);
-        if (next == end)
+    for (const char *at = text.data(), *const end = at + text.size();; ++at) {
+        const auto [behind, error] = std::from_chars(at, end, numbers.emplace_back());
+        if (error != std::errc{})
+            return std::nullopt;
+        if (behind == end)
             return numbers;
-        at = next + 1;
+        if (between.find(*behind) == between.npos)
+            return std::nullopt;
+        at = behind;
     }
 }
 
-} // namespace
-
 std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& option,
                                     std::size_t steps) {
-    const std::vector<std::uint64_t> numbers = numbers_of(text);
+    const std::vector<std::uint64_t> numbers =
+        whole_numbers(text, ":").value_or(std::vector<std::uint64_t>());
     if (numbers.empty() || numbers.size() > 3)
         throw UsageError(fmt::format("{}: expected a step, or FIRST:LAST or FIRST:LAST:STRIDE with "
                                      "both ends included, got {}",

@@ -3,10 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::app {
+
+/// Whole numbers with one of the characters of `between` between each two, as in `0:63`.
+/// @return empty if there is anything else
+std::optional<std::vector<std::uint64_t>> whole_numbers(std::string_view text,
+                                                        std::string_view between);
 
 /// The steps that `text` names: `7`, `0:63`, which is 0 to 63 with both, or `0:63:4`, every fourth
 /// of them.

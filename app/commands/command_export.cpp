@@ -12,6 +12,7 @@
 #include "index/file/color_source.h"
 #include "index/formats/length_units.h"
 #include "index/system/new_file.h"
+#include "render/gl/srgb.h"
 #include "render/passes/color_map.h"
 
 #include <fmt/format.h>
@@ -77,11 +78,6 @@ std::array<std::uint8_t, 3> bytes_of(const glm::vec3& srgb) {
             static_cast<std::uint8_t>(scaled.z)};
 }
 
-/// Linear light to sRGB (IEC 61966-2-1).
-float encoded(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 /// What the values of an array are to look like.
 index::ValuesWish values_of(const ExportArguments& arguments, const index::IndexFile& file) {
     const std::vector<std::string> names = index::color_source_names(file);
@@ -112,7 +108,7 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
                 const glm::vec3 color =
                     glm::mix(colors[low], colors[std::min(low + 1, colors.size() - 1)],
                              static_cast<float>(place - static_cast<double>(low)));
-                return bytes_of({encoded(color.x), encoded(color.y), encoded(color.z)});
+                return bytes_of(render::srgb_from_linear(color));
             }};
 }
 

@@ -1,6 +1,7 @@
 // The command line of `isochron build`, turned into the options of the index library.
 #include "app/indexing/build_arguments.h"
 
+#include "app/command_line/step_range.h"
 #include "app/indexing/file_patterns.h"
 #include "index/file/index_file.h"
 #include "index/formats/series/resampled_series.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -34,24 +34,12 @@ glm::dvec3 vector_of(const std::vector<double>& numbers) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Whole numbers with one of these characters between each two.
-std::vector<std::uint64_t> whole_numbers(std::string_view text, const std::string& option,
-                                         const std::string& expected) {
-    std::vector<std::uint64_t> numbers;
-    const auto fail = [&] {
-        throw UsageError(fmt::format("{} {}, expected {}", option, text, expected));
-    };
-    for (const char *at = text.data(), *end = at + text.size();; ++at) {
-        std::uint64_t& number = numbers.emplace_back();
-        const auto [behind, error] = std::from_chars(at, end, number);
-        if (error != std::errc{})
-            fail();
-        if (behind == end)
-            return numbers;
-        if (*behind != ':' && *behind != ',')
-            fail();
-        at = behind;
-    }
+/// Whole numbers with a colon or a comma between each two. @throws UsageError: anything else
+std::vector<std::uint64_t> numbers_of(std::string_view text, const std::string& option,
+                                      const std::string& expected) {
+    if (auto numbers = whole_numbers(text, ":,"))
+        return *std::move(numbers);
+    throw UsageError(fmt::format("{} {}, expected {}", option, text, expected));
 }
 
 /// `X0:X1,Y0:Y1,Z0:Z1`, both ends named.
@@ -60,7 +48,7 @@ std::array<std::array<std::uint32_t, 2>, 3> crop_of(const std::string& text) {
     std::string form;
     std::ranges::copy_if(text, std::back_inserter(form),
                          [](char c) { return c == ':' || c == ','; });
-    const auto numbers = whole_numbers(text, "--crop", expected);
+    const auto numbers = numbers_of(text, "--crop", expected);
     std::array<std::array<std::uint32_t, 2>, 3> crop{};
     if (form != ":,:,:" || std::ranges::any_of(numbers, [](auto n) { return n > 65536; }))
         throw UsageError(fmt::format("--crop {}, expected {}", text, expected));
@@ -71,7 +59,7 @@ std::array<std::array<std::uint32_t, 2>, 3> crop_of(const std::string& text) {
 
 std::array<std::uint32_t, 3> stride_of(const std::string& text) {
     const std::string expected = "every how many vertices, for all axes or for each: 2 or 2,2,1";
-    auto numbers = whole_numbers(text, "--stride", expected);
+    auto numbers = numbers_of(text, "--stride", expected);
     if (numbers.size() == 1)
         numbers.resize(3, numbers.front());
     if (numbers.size() != 3 || text.find(':') != text.npos ||
@@ -83,7 +71,7 @@ std::array<std::uint32_t, 3> stride_of(const std::string& text) {
 
 std::array<std::uint64_t, 3> steps_of_text(const std::string& text) {
     const std::string expected = "the first and the last step, from 0: 0:20, or each fifth: 0:20:5";
-    const auto numbers = whole_numbers(text, "--steps", expected);
+    const auto numbers = numbers_of(text, "--steps", expected);
     if ((numbers.size() != 2 && numbers.size() != 3) || text.find(',') != text.npos ||
         (numbers.size() == 3 && numbers[2] == 0))
         throw UsageError(fmt::format("--steps {}, expected {}", text, expected));

@@ -1,6 +1,8 @@
 // Collects what is written, and writes it in large pieces.
 #include "index/export/buffered_sink.h"
 
+#include <algorithm>
+
 namespace isochron::index {
 
 void BufferedSink::bytes(std::span<const std::byte> added) {
@@ -13,6 +15,16 @@ void BufferedSink::bytes(std::span<const std::byte> added) {
     bytes_.insert(bytes_.end(), added.begin(), added.end());
     if (bytes_.size() >= kAtOnce)
         flush();
+}
+
+void BufferedSink::copy(const ScratchFile& file, std::uint64_t count) {
+    std::vector<std::byte> part(kAtOnce);
+    for (std::uint64_t at = 0; at < count; at += part.size()) {
+        const auto some = std::span(part).first(
+            static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), count - at)));
+        file.read(at, some);
+        bytes(some);
+    }
 }
 
 void BufferedSink::align(std::size_t alignment) {

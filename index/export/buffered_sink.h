@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/system/byte_sink.h"
+#include "index/system/scratch_file.h"
 
 #include <bit>
 #include <cstddef>
@@ -31,6 +32,8 @@ class BufferedSink {
             flush();
     }
     void bytes(std::span<const std::byte> added);
+    /// The first bytes of a file.
+    void copy(const ScratchFile& file, std::uint64_t count);
     /// Zeros up to the next multiple of `alignment`.
     void align(std::size_t alignment);
     /// What was written so far gets to the sink.

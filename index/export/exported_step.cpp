@@ -1,6 +1,7 @@
 // The places of vertices in files.
 #include "index/export/exported_step.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
@@ -27,6 +28,18 @@ ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
     const double voxel = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}) * factor_;
     if (farthest * std::numeric_limits<float>::epsilon() > kMost * voxel)
         origin_ = glm::dvec3(glm::vec3(grid.origin * factor_));
+}
+
+std::string words_of(const ExportPlan& plan, const ExportedPlaces& places) {
+    const glm::dvec3& origin = places.origin();
+    return fmt::format("coordinates in {}, less origin {} {} {}",
+                       plan.length_unit.empty() ? "a unit that is not known" : plan.length_unit,
+                       origin.x, origin.y, origin.z);
+}
+
+std::string words_of(const ExportPlan& plan, const ExportedStep& step) {
+    return fmt::format("step {}, time {}{}", step.step, step.time,
+                       plan.time_unit.empty() ? "" : " " + plan.time_unit);
 }
 
 } // namespace isochron::index

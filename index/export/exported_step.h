@@ -76,4 +76,9 @@ class ExportedPlaces {
     bool turned_;
 };
 
+/// `coordinates in m, less origin 0 0 0`, in one line, for files that have a place for it.
+std::string words_of(const ExportPlan& plan, const ExportedPlaces& places);
+/// `step 3, time 0.5 s`.
+std::string words_of(const ExportPlan& plan, const ExportedStep& step);
+
 } // namespace isochron::index

@@ -143,13 +143,7 @@ class GlbFile {
         if (bytes > 0) {
             put(bytes);
             put(kBinary);
-            std::vector<std::byte> part(std::size_t{1} << 20);
-            for (std::uint64_t at = 0; at < bytes; at += part.size()) {
-                const auto some = std::span(part).first(
-                    static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), bytes - at)));
-                scratch_.read(at, some);
-                out.bytes(some);
-            }
+            out.copy(scratch_, bytes);
         }
         out.flush();
         file.commit_unflushed();

@@ -20,12 +20,8 @@ class ObjWriter : public SurfaceWriter {
         NewFile file(file_of_step(name_, plan_, step.step));
         BufferedSink out(file);
         const ExportedPlaces places(*step.grid, plan_);
-        const glm::dvec3& origin = places.origin();
-        out.text(fmt::format(
-            "# {}\n# step {}, time {}{}\n# coordinates in {}, less origin {} {} {}\n", plan_.note,
-            step.step, step.time, plan_.time_unit.empty() ? "" : " " + plan_.time_unit,
-            plan_.length_unit.empty() ? "a unit that is not known" : plan_.length_unit, origin.x,
-            origin.y, origin.z));
+        out.text(fmt::format("# {}\n# {}\n# {}\n", plan_.note, words_of(plan_, step),
+                             words_of(plan_, places)));
         std::uint64_t first = 1;
         for (std::size_t i = 0; i < step.surfaces.size(); ++i) {
             out.text(fmt::format("o surface_{}\n# {}\n", i + 1, step.surfaces[i].name));

@@ -43,18 +43,16 @@ class PlyWriter : public SurfaceWriter {
             triangles += step.surfaces[i].mesh->triangles.size() / 3;
             named += fmt::format("comment surface {}: {}\n", i, step.surfaces[i].name);
         }
-        const glm::dvec3& origin = places.origin();
         const char* const place = plan_.double_precision ? "double" : "float";
         return fmt::format(
             "ply\nformat binary_little_endian 1.0\ncomment {}\n"
-            "comment step {}, time {}{}\ncomment coordinates in {}, less origin {} {} {}\n{}"
+            "comment {}\ncomment {}\n{}"
             "element vertex {}\nproperty {} x\nproperty {} y\nproperty {} z\n{}"
             "property uchar red\nproperty uchar green\nproperty uchar blue\n{}"
             "property uchar surface\n"
             "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-            plan_.note, step.step, step.time, plan_.time_unit.empty() ? "" : " " + plan_.time_unit,
-            plan_.length_unit.empty() ? "a unit that is not known" : plan_.length_unit, origin.x,
-            origin.y, origin.z, named, vertices, place, place, place,
+            plan_.note, words_of(plan_, step), words_of(plan_, places), named, vertices, place,
+            place, place,
             plan_.normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "",
             plan_.values_name.empty() ? "" : "property float value\n", triangles);
     }

@@ -51,13 +51,7 @@ class Samples {
     }
     void copy_to(BufferedSink& out) {
         out_.flush();
-        std::vector<std::byte> part(std::size_t{1} << 20);
-        for (std::uint64_t at = 0; at < out_.size(); at += part.size()) {
-            const auto some = std::span(part).first(
-                static_cast<std::size_t>(std::min<std::uint64_t>(part.size(), out_.size() - at)));
-            file_.read(at, some);
-            out.bytes(some);
-        }
+        out.copy(file_, out_.size());
     }
 
   private:

@@ -81,22 +81,18 @@ class VtpWriter : public SurfaceWriter {
             triangles += surface.mesh->triangles.size() / 3;
         }
         const ExportedPlaces places(*step.grid, plan_);
-        const glm::dvec3& origin = places.origin();
         const bool wide = plan_.double_precision, valued = !plan_.values_name.empty();
         const std::uint64_t place_bytes = vertices * 3 * (wide ? 8 : 4);
         Arrays arrays;
         std::string text = fmt::format(
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-            "header_type=\"UInt64\">\n<!-- {}; coordinates in {}, less origin {} {} {} -->\n"
+            "header_type=\"UInt64\">\n<!-- {}; {} -->\n"
             "<PolyData>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
             "NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n</FieldData>\n"
             "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
             "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n<PointData{}{}>\n",
-            escaped(plan_.note),
-            plan_.length_unit.empty() ? "a unit that is not known" : escaped(plan_.length_unit),
-            escaped(fmt::format("{}", origin.x)), escaped(fmt::format("{}", origin.y)),
-            escaped(fmt::format("{}", origin.z)), step.time, vertices, triangles,
+            escaped(plan_.note), escaped(words_of(plan_, places)), step.time, vertices, triangles,
             valued ? fmt::format(" Scalars=\"{}\"", escaped(plan_.values_name)) : "",
             plan_.normals ? " Normals=\"Normals\"" : "");
         if (plan_.normals)

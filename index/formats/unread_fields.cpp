@@ -1,6 +1,8 @@
 // Lists fields.
 #include "index/formats/unread_fields.h"
 
+#include "index/formats/text_header.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,6 +20,15 @@ std::optional<std::string> note_on_unread(const std::vector<std::string>& fields
     if (shown < std::ssize(fields))
         note += fmt::format(" and {} more", std::ssize(fields) - shown);
     return note;
+}
+
+std::vector<std::string> fields_besides(const std::set<std::string_view>& keys,
+                                        const std::map<std::string, std::string>& fields) {
+    std::vector<std::string> others;
+    for (const auto& [key, value] : fields)
+        if (!keys.contains(key))
+            others.push_back(fmt::format("{} {}", key, excerpt(value)));
+    return others;
 }
 
 } // namespace isochron::index

@@ -90,11 +90,7 @@ class MetaImageHeader {
 
     /// Fields that none of these keys are, with their values.
     std::vector<std::string> others(const std::set<std::string_view>& keys) const {
-        std::vector<std::string> others;
-        for (const auto& [key, value] : fields_)
-            if (!keys.contains(key))
-                others.push_back(fmt::format("{} {}", key, excerpt(value)));
-        return others;
+        return fields_besides(keys, fields_);
     }
 
     /// Names that follow `ElementDataFile = LIST`.

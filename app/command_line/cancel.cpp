@@ -3,7 +3,13 @@
 
 #include <array>
 #include <atomic>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <utility>
+
+#include <unistd.h>
 
 namespace isochron::app {
 namespace {
@@ -11,24 +17,48 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
+volatile pid_t sender = 0;           // of the signal that came
+pid_t launcher = 0;                  // of this process's group
 int living = 0;                      // of CancelOnSignal, one within the other
 std::atomic<const WakeOnSignal*> woken_by_signals = nullptr;
 static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
 
+/// The parent of a process, or 0 where that cannot be read.
+pid_t parent_of(pid_t process) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+    const std::string fields{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t name_ends = fields.rfind(')'); // the name itself may hold anything
+    pid_t parent = 0;
+    if (name_ends != fields.npos)
+        std::sscanf(fields.c_str() + name_ends + 1, " %*c %d", &parent);
+    return parent;
+}
+
+/// The nearest ancestor outside this process's group; a shell may stand between the two.
+pid_t find_launcher() {
+    pid_t ancestor = getppid();
+    while (ancestor != 0 && getpgid(ancestor) == getpgrp())
+        ancestor = parent_of(ancestor);
+    return ancestor;
+}
+
 } // namespace
 
-void note_signal(int signal) {
+void note_signal(int signal, siginfo_t* about, void*) {
     came = signal;
+    sender = about->si_pid;
     if (const WakeOnSignal* const woken = woken_by_signals)
         woken->wake_(woken->who_.get());
 }
 
 CancelOnSignal::CancelOnSignal() {
-    if (living++ == 0)
+    if (living++ == 0) {
         came = 0;
+        launcher = find_launcher(); // before the end of a shell between the two leaves no trace
+    }
     struct sigaction action {};
-    action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART;
+    action.sa_sigaction = note_signal;
+    action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
         sigaction(kSignals[i], nullptr, &previous_[i]);
         if (previous_[i].sa_handler != SIG_IGN) // as nohup asks
@@ -49,6 +79,10 @@ void CancelOnSignal::check() const {
 
 int CancelOnSignal::received() {
     return came;
+}
+
+bool CancelOnSignal::sent_by_the_launcher() {
+    return came != 0 && sender != 0 && sender == launcher;
 }
 
 WakeOnSignal::WakeOnSignal(std::shared_ptr<const void> who, void (*wake)(const void* who))

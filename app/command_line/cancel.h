@@ -28,12 +28,15 @@ class CancelOnSignal {
     void check() const;
     /// The signal that has come, or 0.
     static int received();
+    /// Whether the signal that has come was sent by what started this process's group, as mpirun
+    /// does when it ends a job: it says why itself.
+    static bool sent_by_the_launcher();
 
   private:
     struct sigaction previous_[3];
 };
 
-void note_signal(int signal); ///< the handler
+void note_signal(int signal, siginfo_t* about, void*); ///< the handler
 
 /// While it lives, a signal that is noted also wakes whoever waits. Only one may live at a time.
 class WakeOnSignal {
@@ -46,7 +49,7 @@ class WakeOnSignal {
     WakeOnSignal& operator=(const WakeOnSignal&) = delete;
 
   private:
-    friend void note_signal(int signal);
+    friend void note_signal(int signal, siginfo_t* about, void*);
     std::shared_ptr<const void> who_;
     void (*wake_)(const void* who);
 };

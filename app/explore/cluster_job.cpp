@@ -34,9 +34,10 @@ void obey_signals(stereo::Cluster& cluster) {
     const int signal = CancelOnSignal::received();
     if (signal == 0)
         return;
-    const char* const name = ::sigabbrev_np(signal);
-    fmt::print(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
-               name ? name : "NAL");
+    // Where one process was lost, mpirun ends the others: the loss has been told by its name.
+    if (const char* const name = ::sigabbrev_np(signal); !CancelOnSignal::sent_by_the_launcher())
+        fmt::print(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
+                   name ? name : "NAL");
     cluster.abandon(Canceled(signal).status);
 }
 

@@ -41,14 +41,17 @@ std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& optio
 }
 
 /// What the user chooses in a window of its own, where the command line names no data.
+/// @param display gets the window's connection to the display
 /// @return nothing: they leave
-std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob& job) {
+std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob& job,
+                                       std::shared_ptr<const void>& display) {
     const CancelOnSignal signals;
     Config config = configure(options);
     if (config.rendering.context != stereo::ContextKind::glfw)
         throw UsageError("file is required: an index made by `isochron build`");
     config.openxr.enabled = false; // nobody chooses a file in a headset
     const stereo::Windows windows = open_windows(options, config, job, nullptr);
+    display = stereo::open_display();
     const auto wake = std::make_shared<stereo::Wake>();
     const WakeOnSignal ends(wake, stereo::Wake::call);
     const auto chosen =
@@ -69,14 +72,21 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     ExploreOptions now = with_index(options);
     if (now.test_pattern)
         return explore_test_pattern(now, job);
+    std::shared_ptr<const void> display; // the same for all windows, one after the other
     if (now.sources.files.empty() && job.size() == 1) {
-        const auto chosen = chosen_data(now, job);
+        const auto chosen = chosen_data(now, job, display);
         if (!chosen)
             return;
         now = with_data(std::move(now), *chosen);
     }
-    while (const auto next = Exploration(now, job).run())
+    for (;;) {
+        Exploration exploration(now, job);
+        display = stereo::open_display();
+        const auto next = exploration.run();
+        if (!next)
+            return;
         now = with_data(std::move(now), *next);
+    }
 }
 
 Exploration::Exploration(ExploreOptions options, ClusterJob& job)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 namespace isochron::stereo {
 
@@ -15,6 +16,11 @@ class DisplayLoss {
     DisplayLoss(const DisplayLoss&) = delete;
     DisplayLoss& operator=(const DisplayLoss&) = delete;
 };
+
+/// The connection to the display while a window is open, else null. While the result lives, the
+/// next window uses the same connection: a connection for each window fails once in some hundred
+/// times, and an X server may reset itself when its last one ends.
+std::shared_ptr<const void> open_display();
 
 /// Lets a loss be noticed: once, after the window system's library was loaded.
 void watch_display();

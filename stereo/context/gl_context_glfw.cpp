@@ -36,10 +36,14 @@ std::string& glfw_complaint() {
 class GlfwLibrary {
   public:
     static std::shared_ptr<GlfwLibrary> shared() {
-        static std::weak_ptr<GlfwLibrary> opened;
-        std::shared_ptr<GlfwLibrary> library = opened.lock();
+        std::shared_ptr<GlfwLibrary> library = opened().lock();
         if (!library)
-            opened = library = std::make_shared<GlfwLibrary>();
+            opened() = library = std::make_shared<GlfwLibrary>();
+        return library;
+    }
+    /// Null while no window is open and nobody holds it.
+    static std::weak_ptr<GlfwLibrary>& opened() {
+        static std::weak_ptr<GlfwLibrary> library;
         return library;
     }
     GlfwLibrary() {
@@ -362,6 +366,10 @@ class GlfwContext final : public GlContext {
 };
 
 } // namespace
+
+std::shared_ptr<const void> open_display() {
+    return GlfwLibrary::opened().lock();
+}
 
 std::unique_ptr<GlContext> make_glfw_context(const ContextOptions& options) {
     return std::make_unique<GlfwContext>(options);

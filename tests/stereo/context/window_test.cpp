@@ -1,4 +1,5 @@
 // Windows on the test's own X server: their contents, and what a user does to them.
+#include "stereo/context/display_loss.h"
 #include "stereo/display.h"
 #include "stereo/loading_picture.h"
 #include "tests/stereo/each_eye.h"
@@ -61,6 +62,19 @@ TEST_F(WindowTest, HasAGl45CoreContextOfTheWantedSize) {
     GLint profile = 0;
     gl.GetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
     EXPECT_TRUE(profile & GL_CONTEXT_CORE_PROFILE_BIT);
+}
+
+TEST_F(WindowTest, TheDisplayStaysOpenFromOneWindowToTheNextWhileItIsHeld) {
+    auto context = open("first");
+    auto held = open_display();
+    EXPECT_TRUE(held);
+    context.reset();
+    EXPECT_EQ(open_display(), held);
+    context = open("second");
+    EXPECT_EQ(open_display(), held);
+    context.reset();
+    held.reset();
+    EXPECT_FALSE(open_display());
 }
 
 TEST_F(WindowTest, ShowsTheLeftEyeAtTheLeftAndTheOverlayAtTheTop) {

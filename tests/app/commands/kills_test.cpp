@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <map>
 
 namespace isochron::app {
 namespace {
@@ -23,6 +24,7 @@ class Kills : public CommandLine {
     /// each left.
     template <class Check>
     void kill(const std::vector<std::string>& command, Check check) {
+        std::filesystem::remove(state_.path() / "log");
         ASSERT_EQ(run(command, 0).status, 0);
         const std::string log = state_.read("log");
         const auto calls = static_cast<unsigned>(std::count(log.begin(), log.end(), '\n'));
@@ -39,6 +41,29 @@ class Kills : public CommandLine {
         EXPECT_GT(killed, kills() / 4); // what an earlier one left behind may save some calls
         expect_nothing_left_later();
         EXPECT_EQ(isochron(command).status, 0);
+    }
+
+    /// Kills a command that writes new files: each is whole, byte for byte, or is not there.
+    void kill_writer(const std::vector<std::string>& command,
+                     const std::vector<std::string>& outputs) {
+        std::map<std::string, std::string> whole;
+        ASSERT_EQ(isochron(command).status, 0);
+        for (const std::string& output : outputs) {
+            whole[output] = folder.read(output);
+            EXPECT_FALSE(whole[output].empty()) << output;
+        }
+        const auto clear = [&] {
+            for (const std::string& output : outputs)
+                std::filesystem::remove(folder.path() / output);
+        };
+        clear();
+        kill(command, [&] {
+            for (const std::string& output : outputs)
+                if (std::filesystem::exists(folder.path() / output)) {
+                    EXPECT_EQ(folder.read(output), whole[output]) << output;
+                }
+            clear();
+        });
     }
 
     /// What killed commands have left goes when any command, here one that only reads, runs in the
@@ -113,6 +138,31 @@ TEST_F(Kills, OfAQueryLeaveAllIdsOrNone) {
              }
              std::filesystem::remove(folder.path() / "ids.bin");
          });
+}
+
+TEST_F(Kills, OfAChangeLeaveWholeListsOrNone) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    kill_writer({"change", "a.isochron", "--isovalue", "0.1", "--step", "0", "--to-step", "3",
+                 "--added", "come.bin", "--removed", "gone.bin"},
+                {"come.bin", "gone.bin"});
+}
+
+TEST_F(Kills, OfAnExportLeaveWholeSurfacesOrNone) {
+    ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
+    for (const std::string format : {"ply", "obj", "csv"})
+        kill_writer(
+            {"export", "a.isochron", "--isovalue", "0.1", "--steps", "0:2:2", "-o", "s." + format},
+            {"s_0000." + format, "s_0002." + format});
+    kill_writer(
+        {"export", "a.isochron", "--isovalue", "0.1", "-o", "all.glb", "--format", "glb-animation"},
+        {"all.glb"});
+    kill_writer({"export", "a.isochron", "--isovalue", "0.1", "--steps", "0:1", "-o", "s.vtp"},
+                {"s_0000.vtp", "s_0001.vtp", "s.pvd"});
+}
+
+TEST_F(Kills, OfAGeneratorLeaveWholeFilesOrNone) {
+    kill_writer({"generate", "sphere", "--out", "made", "--steps", "2", "--force"},
+                {"made/sphere.pvd", "made/sphere.json"});
 }
 
 } // namespace

@@ -233,6 +233,23 @@ std::string Hdf5File::text(const std::string& object, const std::string& attribu
     return found.size() == 1 ? found.front() : "";
 }
 
+std::vector<std::string> Hdf5File::attributes(const std::string& object) const {
+    std::vector<std::string> names;
+    if (holds(object))
+        H5Aiterate_by_name(
+            file_.id(), object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
+            [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
+                try {
+                    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+                } catch (...) {
+                    return -1; // no memory: no exception passes through the library
+                }
+                return 0;
+            },
+            &names, H5P_DEFAULT);
+    return names;
+}
+
 std::vector<double> Hdf5File::values(const Hdf5Dataset& dataset) const {
     const std::string what = fmt::format("{} cannot be read", dataset.path);
     const Hdf5Handle open(H5Dopen2(file_.id(), dataset.path.c_str(), H5P_DEFAULT), H5Dclose);

@@ -170,6 +170,7 @@ add("TIFF", "YPosition", plain, tiff(extratags=[(287, "2I", 1, (5, 1), True)]))
 add("TIFF", "ModelPixelScale", plain, tiff(extratags=[(33550, "d", 3, (2., 2., 2.), True)]))
 add("TIFF", "ModelTiepoint", plain, tiff(extratags=[(33922, "d", 6, (0., 0., 0., 1., 2., 3.), True)]))
 add("TIFF", "GDAL_NODATA", plain, tiff(extratags=[(42113, "s", 0, "7", True)]))
+add("TIFF", "CZ_LSMINFO", plain, tiff(extratags=[(34412, "B", 4, b"LI@\0", True)]))
 add("TIFF", "SampleFormat", plain, tiff(data=values.astype("i2")))
 add("TIFF", "BitsPerSample", plain, tiff(data=values.astype("u1")))
 add("TIFF", "SamplesPerPixel", plain, tiff(data=np.stack([values + 1] * 3, -1).astype("u2"), photometric="rgb"), component="0")
@@ -282,6 +283,21 @@ add("NetCDF (CF)", "coordinates: positive", netcdf("z", axis="Z"), netcdf("z", a
 add("NetCDF (CF)", "time: units", timed, netcdf("time", time=True, units="days since 2000-01-01"))
 add("NetCDF (CF)", "time: calendar", netcdf("time", time=True, units="days since 2000-01-01"),
     netcdf("time", time=True, units="days since 2000-01-01", calendar="360_day"))
+
+
+
+
+def curved(named):
+    name = netcdf()
+    data = netCDF4.Dataset(full(name), "a")
+    data.createVariable("lon", "f8", ("y", "x"))[:] = 1
+    if named:
+        data["v"].coordinates = "lon"
+    data.close()
+    return name
+
+
+add("NetCDF (CF)", "coordinates (two-dimensional)", curved(False), curved(True))
 
 
 # ---- openPMD

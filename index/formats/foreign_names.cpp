@@ -53,7 +53,9 @@ constexpr std::array kSignatures{
     Signature{0, "PAR1"sv, "Parquet"},
     Signature{0, "Kaydara FBX"sv, "FBX"},
     Signature{0, "glTF"sv, "glTF"},
-    Signature{0, "ISOCHRON"sv, "an index of this program that is damaged or has another name"},
+    Signature{0, "ISOCHRON"sv,
+              "an index, which is not read together with files: give it alone; `isochron build "
+              "FILES -o INDEX --append` adds files to it"},
 };
 
 template <class T>
@@ -65,7 +67,7 @@ T number_at(std::string_view bytes, std::size_t at) {
 }
 
 std::string other(std::string_view name) {
-    if (name.find("name it") != name.npos)
+    if (name.find("name it") != name.npos || name.find("give it") != name.npos)
         return std::string(name);
     return fmt::format(
         "{}, expected a format that is read: NRRD, NIfTI, VTK, HDF5 or another one of "

@@ -118,8 +118,10 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const Rea
     const auto list = std::ranges::find_if(
         files, [](const KnownFile& file) { return file.format && file.format->list; });
     if (list != files.end() && files.size() != 1)
-        throw Error(fmt::format("{}: names its files itself, {} more given", list->path.string(),
-                                files.size() - 1));
+        throw Error(fmt::format("{}: names its files itself, and {} more {} given: give it alone, "
+                                "or leave it out",
+                                list->path.string(), files.size() - 1,
+                                files.size() == 2 ? "is" : "are"));
     if (list != files.end())
         return listed_in(*list, options, notes);
     if (options.times_from_names)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -129,6 +130,34 @@ TEST_F(StandardFields, AreReadOrNotedAsTheGuideSays) {
             }
     }
     EXPECT_EQ(seen, guide.size()) << "fields of the guide without a file";
+}
+
+TEST(PublicFiles, OfTheTableAreAHundredWithTheirSourcesAndWhatIsInThem) {
+    const fs::path folder = fs::path(test_support::source_root()) / "tests/index/conformance";
+    std::istringstream table(read_file(folder / "PUBLIC.tsv"));
+    std::size_t files = 0;
+    for (std::string line; std::getline(table, line);) {
+        if (line.starts_with('#'))
+            continue;
+        ++files;
+        SCOPED_TRACE(line);
+        std::istringstream row(line);
+        std::vector<std::string> columns;
+        for (std::string column; std::getline(row, column, '\t');)
+            columns.push_back(column);
+        ASSERT_EQ(columns.size(), 10u);
+        EXPECT_EQ(columns[1].size(), 40u) << "a commit";
+        const auto words = [&](std::size_t column) {
+            std::istringstream text(columns[column]);
+            return std::distance(std::istream_iterator<std::string>(text), {});
+        };
+        if (columns[5] == "refused")
+            EXPECT_NE(columns[6], "-");
+        else
+            EXPECT_EQ(words(5) * 100 + words(8) * 10 + words(9), 333)
+                << "vertices, isovalues, cells";
+    }
+    EXPECT_GE(files, 100u);
 }
 
 } // namespace

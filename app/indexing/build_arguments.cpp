@@ -245,7 +245,7 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .option("--array", arguments.arrays,
                 "Array to read, if the files hold several. Given several times, each becomes an "
                 "array of the index; a component may stand behind its name: velocity.magnitude. "
-                "u,v,w is the vector of three arrays")
+                "A pattern stands for all that match: 'u*'. u,v,w is the vector of three arrays")
         .repeatable()
         .type_name("NAME")
         .group("Reading");

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -58,6 +60,45 @@ std::string name_in(const std::string& offered) {
     return offered.substr(0, end) + (vector ? ".magnitude" : "");
 }
 
+std::vector<std::string> offered_by(const Open& open, index::ReadOptions options) {
+    options.array.reset();
+    options.any_array = true;
+    return open(options)->info().arrays;
+}
+
+/// Names of arrays with patterns such as `u*` replaced by the arrays that match. A pattern that is
+/// itself the name of an array, as of groups in HDF5 that are steps, stays, and so does one that no
+/// array matches: the format may know it.
+std::vector<std::string> without_patterns(const Open& open, const BuildArguments& arguments) {
+    std::vector<std::string> names, offered;
+    for (const std::string& given : arguments.arrays) {
+        if (given.find_first_of("*?[") == given.npos) {
+            names.push_back(given);
+            continue;
+        }
+        if (offered.empty())
+            offered = offered_by(open, read_options(arguments));
+        const std::size_t dot = given.rfind('.');
+        const bool of_component = dot != given.npos && is_component(given.substr(dot + 1));
+        const std::string pattern = of_component ? given.substr(0, dot) : given;
+        const std::size_t before = names.size();
+        bool is_name = false;
+        for (const std::string& each : offered) {
+            const std::string name = each.substr(0, each.rfind(" ("));
+            is_name = is_name || name == pattern;
+            // Paths within a file are named by their ends, too.
+            if (::fnmatch(pattern.c_str(), name.c_str(), 0) == 0 ||
+                ::fnmatch(("*/" + pattern).c_str(), name.c_str(), 0) == 0)
+                names.push_back(of_component ? name + given.substr(dot) : name_in(each));
+        }
+        if (is_name || names.size() == before) {
+            names.resize(before);
+            names.push_back(given);
+        }
+    }
+    return names;
+}
+
 /// Opens every array that goes with the first.
 void open_all(const Open& open, const index::ReadOptions& options,
               const std::vector<std::string>& names, BuildSources& sources) {
@@ -105,12 +146,13 @@ void open_arrays(const Open& open, const BuildArguments& arguments, BuildSources
         sources.component = options.component;
         return;
     }
-    ArraySource first = open_called(open, options, *options.array);
+    const std::vector<std::string> names = without_patterns(open, arguments);
+    ArraySource first = open_called(open, options, names.empty() ? *options.array : names.front());
     sources.volume = std::move(first.series);
     sources.array = first.array;
     sources.component = first.component;
-    for (std::size_t i = 1; i < arguments.arrays.size(); ++i)
-        sources.further.push_back(open_called(open, options, arguments.arrays[i]));
+    for (std::size_t i = 1; i < names.size(); ++i)
+        sources.further.push_back(open_called(open, options, names[i]));
 }
 
 bool is_among(const BuildSources& sources, const std::optional<std::string>& name) {

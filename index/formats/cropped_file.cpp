@@ -38,6 +38,8 @@ class CroppedFile final : public VolumeFile {
 
     // Row by row: pieces end anywhere between values.
     void stream(std::size_t step, const TakePiece& take) override {
+        if (whole_->reads_anywhere())
+            return stream_rows(step, take);
         const auto& all = whole_->info().grid.vertices;
         const std::size_t size = size_of(info_.type), row = std::size_t{all[0]} * size;
         const std::uint64_t end =
@@ -72,6 +74,21 @@ class CroppedFile final : public VolumeFile {
     }
 
   private:
+    /// Reads the rows of the part alone, and of them no more than the part's columns.
+    void stream_rows(std::size_t step, const TakePiece& take) {
+        const auto& all = whole_->info().grid.vertices;
+        const std::size_t size = size_of(info_.type), first = part_.first[0];
+        std::vector<std::byte> row(std::size_t{all[0]} * size), slice;
+        const std::size_t columns = part_.last[0] - first + 1;
+        for (std::uint64_t z = part_.first[2]; z <= part_.last[2]; z += part_.stride[2])
+            for (std::uint64_t y = part_.first[1]; y <= part_.last[1]; y += part_.stride[1]) {
+                const std::uint64_t number = z * all[1] + y;
+                whole_->read_at(step, number * all[0] + first,
+                                std::span(row).subspan(first * size, columns * size));
+                add_row(number, row, slice, take);
+            }
+    }
+
     bool holds(std::size_t axis, std::uint64_t vertex) const {
         return vertex >= part_.first[axis] && vertex <= part_.last[axis] &&
                (vertex - part_.first[axis]) % part_.stride[axis] == 0;

@@ -58,6 +58,12 @@ const LengthUnit* known_unit(std::string_view unit) {
     return by_name == kLengthUnits.end() ? nullptr : by_name;
 }
 
+/// Whether it is none at all.
+bool counts_vertices(const std::string& unit) {
+    const std::string lower = lower_case(unit);
+    return lower == "pixel" || lower == "pixels" || lower == "reference frame" || lower == "px";
+}
+
 } // namespace
 
 std::optional<double> meters_in(std::string_view unit) {
@@ -66,8 +72,7 @@ std::optional<double> meters_in(std::string_view unit) {
 }
 
 std::string tidy_length_unit(const std::string& unit) {
-    const std::string lower = lower_case(unit);
-    if (lower == "pixel" || lower == "pixels" || lower == "reference frame" || lower == "px")
+    if (counts_vertices(unit))
         return "";
     const LengthUnit* known = known_unit(unit);
     return known ? std::string(known->sign) : unit;
@@ -84,7 +89,10 @@ OneLengthUnit one_length_unit(const std::array<std::string, 3>& units) {
     const auto meters = meters_in(one.unit);
     bool convertible = true, differ = false;
     for (int axis = 0; axis < 3; ++axis) {
-        const std::string& unit = tidy[static_cast<std::size_t>(axis)];
+        std::string& unit = tidy[static_cast<std::size_t>(axis)];
+        if (const std::string& stated = units[static_cast<std::size_t>(axis)];
+            counts_vertices(stated) && !one.unit.empty())
+            unit = stated;
         if (unit.empty() || unit == one.unit)
             continue;
         differ = true;

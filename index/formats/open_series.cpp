@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/foreign_file.h"
+#include "index/formats/foreign_names.h"
 #include "index/formats/format.h"
 #include "index/formats/series/derived_series.h"
 #include "index/formats/series/file_series.h"
@@ -31,6 +32,9 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
     // Raw data may have any name; giving dimensions says that a file is raw.
     if (options.dims)
         return {file.path, opener_of(format_named("raw")), time};
+    FileStart start(file.path);
+    if (const std::string foreign = foreign_format_of(start); !foreign.empty())
+        throw Error(fmt::format("{}: {}", file.path.string(), foreign));
     throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
                             "--type",
                             file.path.string(), known_extensions()));
@@ -114,8 +118,10 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const Rea
     const auto list = std::ranges::find_if(
         files, [](const KnownFile& file) { return file.format && file.format->list; });
     if (list != files.end() && files.size() != 1)
-        throw Error(fmt::format("{}: names its files itself, {} more given", list->path.string(),
-                                files.size() - 1));
+        throw Error(fmt::format("{}: names its files itself, and {} more {} given: give it alone, "
+                                "or leave it out",
+                                list->path.string(), files.size() - 1,
+                                files.size() == 2 ? "is" : "are"));
     if (list != files.end())
         return listed_in(*list, options, notes);
     if (options.times_from_names)

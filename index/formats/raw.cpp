@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace isochron::index {
 
 std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path,
@@ -23,12 +25,14 @@ std::unique_ptr<VolumeFile> open_raw(const std::filesystem::path& path,
 
     const std::uint64_t size = file_bytes(path);
     const std::uint64_t step = info.grid.vertex_count() * size_of(*options.type);
-    if (size <= options.header_bytes || (size - options.header_bytes) % step != 0)
+    const std::uint64_t values = size - std::min(size, options.header_bytes);
+    if (values == 0 || (values % step != 0 && (!options.allow_surplus || values < step)))
         throw Error(fmt::format(
-            "{}: {} bytes{}, expected a multiple of {} = {} x {} x {} values of {}", name, size,
+            "{}: {} bytes{}, expected a multiple of {} = {} x {} x {} values of {}{}", name, size,
             options.header_bytes ? fmt::format(" with a header of {}", options.header_bytes) : "",
-            step, dims[0], dims[1], dims[2], name_of(*options.type)));
-    layout.steps = (size - options.header_bytes) / step;
+            step, dims[0], dims[1], dims[2], name_of(*options.type),
+            values > step ? " (--allow-surplus leaves the last bytes out)" : ""));
+    layout.steps = values / step;
     return open_stored(path, std::move(info), layout, options);
 }
 

@@ -55,9 +55,27 @@ class StoredFile final : public VolumeFile {
 
     void stream(std::size_t step, const TakePiece& take) override { stream_to(step, {}, take); }
 
+    bool reads_anywhere() const override {
+        return layout_.compression == Compression::none && !layout_.ascii;
+    }
+    void read_at(std::size_t step, std::size_t first, std::span<std::byte> out) override {
+        if (as_they_are())
+            return load(step, first, out);
+        tuples_.resize(out.size() / size_of(chosen_.value_type()) * tuple_bytes());
+        load(step, first, tuples_);
+        convert(chosen_, tuples_, info_.grid, out, layout_.data.string());
+    }
+
     std::size_t step_bytes() const { return info_.grid.vertex_count() * tuple_bytes(); }
 
   private:
+    /// Values that need no conversion are read directly into their final place.
+    bool as_they_are() const {
+        return layout_.array.components == 1 &&
+               stored_type_of(chosen_.value_type()) == *layout_.array.type &&
+               chosen_.component != ChosenScalar::kMagnitude;
+    }
+
     std::size_t tuple_bytes() const {
         return layout_.array.components * size_of(*layout_.array.type);
     }
@@ -75,10 +93,7 @@ class StoredFile final : public VolumeFile {
     void stream_to(std::size_t step, std::span<std::byte> out, const TakePiece& take) {
         const std::size_t value = size_of(chosen_.value_type()), all = info_.grid.vertex_count();
         const std::size_t at_once = std::min(all, kPiece / std::max(tuple_bytes(), value));
-        // Values that need no conversion are read directly into their final place.
-        const bool as_they_are = layout_.array.components == 1 &&
-                                 stored_type_of(chosen_.value_type()) == *layout_.array.type &&
-                                 chosen_.component != ChosenScalar::kMagnitude;
+        const bool as_they_are = this->as_they_are();
         tuples_.resize(as_they_are ? 0 : at_once * tuple_bytes());
         values_.resize(out.empty() ? at_once * value : 0);
         for (std::size_t first = 0; first < all; first += at_once) {

@@ -28,6 +28,12 @@ class VolumeFile {
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
     /// The same as `VolumeSeries::stream`, for a step of this file.
     virtual void stream(std::size_t step, const TakePiece& take) = 0;
+
+    /// Whether `read_at` reads no more than it is asked for.
+    virtual bool reads_anywhere() const { return false; }
+    /// Writes the stored values from number `first` of a step on. Only if `reads_anywhere`.
+    virtual void read_at(std::size_t /*step*/, std::size_t /*first*/,
+                         std::span<std::byte> /*out*/) {}
 };
 
 /// Opens one file, reading no more than it must to describe it. @throws Error naming the file

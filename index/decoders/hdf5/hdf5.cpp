@@ -23,7 +23,7 @@ void expect_no_other_format(const Hdf5File& file) {
     if (file.holds("/minc-2.0"))
         refuse("MINC 2, which scales each slice in its own way",
                "mnc2nii of the MINC tools makes NIfTI of it");
-    if (!file.text("/", "ImarisDataSet").empty() || file.holds("/DataSetInfo/Image"))
+    if (!file.texts("/", "ImarisDataSet").empty() || file.holds("/DataSetInfo/Image"))
         refuse("an Imaris file, whose datasets are padded",
                "Fiji (Bio-Formats) saves its image as OME-TIFF");
     if (file.holds("/bounding box") && file.holds("/refine level"))
@@ -31,6 +31,18 @@ void expect_no_other_format(const Hdf5File& file) {
                "yt's covering_grid makes a regular grid of them");
     if (!file.numbers("/", "NumMeshBlocks").empty() && file.holds("/LogicalLocations"))
         refuse("Athena++'s blocks of a mesh", "yt's covering_grid makes a regular grid of them");
+    if (file.holds("/Grid00000001"))
+        refuse("Enzo's boxes of a refined grid", "yt's covering_grid makes a regular grid of them");
+    if (file.holds("/_silolibinfo"))
+        refuse("Silo, whose datasets are flat", "VisIt exports them as VTK");
+    if (file.text("/", "label") == "Root Node of HDF5 File")
+        refuse("CGNS", "name it .cgns");
+    if (!file.text("/", "nwb_version").empty())
+        refuse("NWB, whose pictures follow each other in time", "--array /PATH reads one of its "
+                                                                "datasets all the same");
+    if (file.holds("/s00/resolutions") && file.holds("/s00/subdivisions"))
+        refuse("BigDataViewer's, whose places are in the .xml beside it",
+               "--array /t00000/s00/0/cells --spacing X Y Z reads one of its views");
     if (file.holds("/Chombo_global"))
         refuse("Chombo's boxes of a refined grid",
                "yt's covering_grid makes a regular grid of them");

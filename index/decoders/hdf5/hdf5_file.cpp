@@ -156,6 +156,8 @@ Hdf5File::Hdf5File(const fs::path& path) : name_(path.string()) {
     file_bytes(path);
     register_hdf5_filters();
     const htri_t is = H5Fis_hdf5(name_.c_str());
+    if (is == 0 && head_of(path, 4) == "\x0e\x03\x13\x01")
+        throw Error(fmt::format("{}: HDF4, not HDF5: h4toh5 makes HDF5 of it", name_));
     if (is == 0)
         throw Error(fmt::format("{}: not HDF5: it does not start as HDF5 does", name_));
     file_ = {H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
@@ -231,6 +233,23 @@ std::vector<std::string> Hdf5File::texts(const std::string& object,
 std::string Hdf5File::text(const std::string& object, const std::string& attribute) const {
     const std::vector<std::string> found = texts(object, attribute);
     return found.size() == 1 ? found.front() : "";
+}
+
+std::vector<std::string> Hdf5File::attributes(const std::string& object) const {
+    std::vector<std::string> names;
+    if (holds(object))
+        H5Aiterate_by_name(
+            file_.id(), object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr,
+            [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
+                try {
+                    static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+                } catch (...) {
+                    return -1; // no memory: no exception passes through the library
+                }
+                return 0;
+            },
+            &names, H5P_DEFAULT);
+    return names;
 }
 
 std::vector<double> Hdf5File::values(const Hdf5Dataset& dataset) const {

@@ -71,6 +71,9 @@ class Hdf5File {
     std::string text(const std::string& object, const std::string& attribute) const;
     std::vector<std::string> texts(const std::string& object, const std::string& attribute) const;
 
+    /// The names of the attributes of the object at a path, in their order; empty if there is none.
+    std::vector<std::string> attributes(const std::string& object) const;
+
     /// All values of a short dataset. @throws Error: more than 2^24 values, or damaged
     std::vector<double> values(const Hdf5Dataset& dataset) const;
     /// The path of the first dimension scale along each dimension; empty if there is none.

@@ -4,10 +4,13 @@
 #include "index/decoders/hdf5/hdf5_volume.h"
 #include "index/error.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -98,6 +101,40 @@ void take_steps(const Hdf5File& file, const std::string& array, Hdf5Volume& volu
     expect_few_steps(volume.places.size(), file.name());
 }
 
+/// Arrays that are shown, and flags of hidden points and cells, which are not followed.
+bool is_flag(const std::string& path) {
+    return path.ends_with("/vtkGhostType");
+}
+
+void note_unread(const Hdf5File& file, const ChosenScalar& chosen, SeriesInfo& info) {
+    std::vector<std::string> unread;
+    if (const auto version = file.numbers(kRoot, "Version"); version.size() == 2 && version[0] > 2)
+        unread.push_back(fmt::format("Version {}.{}, read as 2", version[0], version[1]));
+    constexpr std::array kRead{"Version", "Type",      "WholeExtent", "Origin",
+                               "Spacing", "Direction", "NSteps"};
+    for (const std::string& group : {kRoot, kSteps})
+        for (const std::string& name : file.attributes(group))
+            if (std::ranges::find(kRead, name) == kRead.end())
+                unread.push_back(name);
+    for (const std::string& group : {kPoints, kCells})
+        for (const std::string& name : file.attributes(group))
+            if (const std::string array = file.text(group, name);
+                chosen.offered.size() > 1 && array != chosen.array.name)
+                unread.push_back(fmt::format("{} {}", name, array));
+    for (const Hdf5Dataset& dataset : file.datasets()) {
+        if (dataset.path.starts_with(kRoot + "/FieldData/") || is_flag(dataset.path))
+            unread.push_back(dataset.path.substr(kRoot.size() + 1));
+        constexpr std::array kTaken{"units",      "unit",          "Units",        "UNITS",
+                                    "_FillValue", "missing_value", "scale_factor", "add_offset"};
+        for (const std::string& name : file.attributes(dataset.path))
+            if ((dataset.path.starts_with(kPoints) || dataset.path.starts_with(kCells)) &&
+                std::ranges::find(kTaken, name) == kTaken.end())
+                unread.push_back(fmt::format("{} {}", dataset.path.substr(kRoot.size() + 1), name));
+    }
+    if (auto note = note_on_unread(unread))
+        info.notes.push_back(std::move(*note));
+}
+
 } // namespace
 
 bool is_vtkhdf(const Hdf5File& file) {
@@ -116,7 +153,8 @@ std::unique_ptr<DecodedFile> decode_vtkhdf(std::unique_ptr<Hdf5File> file,
         for (const bool on_cells : {false, true}) {
             const std::string& group = on_cells ? kCells : kPoints;
             const auto layout = vtkhdf_layout(dataset, sizes, on_cells, in_steps);
-            if (!dataset.path.starts_with(group) || !layout || !dataset.type)
+            if (!dataset.path.starts_with(group) || !layout || !dataset.type ||
+                is_flag(dataset.path))
                 continue;
             const auto components = layout->component ? dataset.dimensions[*layout->component] : 1;
             offered.push_back({.name = dataset.path.substr(group.size()),
@@ -133,6 +171,7 @@ std::unique_ptr<DecodedFile> decode_vtkhdf(std::unique_ptr<Hdf5File> file,
     volume.layout = *vtkhdf_layout(volume.datasets.front(), sizes, volume.on_cells, in_steps);
     if (in_steps)
         take_steps(*file, name, volume);
+    note_unread(*file, chosen, volume.info);
     return open_volume(std::move(file), name, std::move(volume), options);
 }
 

@@ -7,6 +7,8 @@
 #include "index/formats/data_stream.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
+#include "index/lower_case.h"
 #include "index/system/input_file.h"
 
 #include <fmt/format.h>
@@ -61,6 +63,7 @@ class XdmfFile final : public DecodedFile {
         info_.notes = first.notes;
         for (std::string& note : chosen_.notes())
             info_.notes.push_back(std::move(note));
+        note_other_type(part);
         if (std::ranges::all_of(steps_, [](const XdmfGrid& step) { return step.time.has_value(); }))
             for (const XdmfGrid& step : steps_)
                 info_.times.push_back(*step.time);
@@ -102,6 +105,23 @@ class XdmfFile final : public DecodedFile {
     std::uint64_t layer_values(const Grid& grid) const {
         const BlockSize places = places_of(grid);
         return std::uint64_t{places[0]} * places[1] * chosen_.array.components;
+    }
+
+    /// The shape of an array decides how many components it has; what is said of it may differ.
+    void note_other_type(const XdmfPart& part) {
+        for (const XdmfAttribute& attribute : part.attributes) {
+            const std::string type = lower_case(attribute.type);
+            const std::uint32_t stated = type == "scalar"    ? 1
+                                         : type == "vector"  ? 3
+                                         : type == "tensor6" ? 6
+                                         : type == "tensor"  ? 9
+                                                             : chosen_.array.components;
+            if (attribute.name == chosen_.array.name && stated != chosen_.array.components)
+                info_.notes.push_back(*note_on_unread(
+                    {fmt::format("AttributeType {} ({} has the shape of {} {})", attribute.type,
+                                 attribute.name, chosen_.array.components,
+                                 chosen_.array.components == 1 ? "component" : "components")}));
+        }
     }
 
     /// Checks that no cell is missing: blocks may hold all vertices, but not the cells between two

@@ -2,11 +2,13 @@
 #include "index/decoders/hdf5/xdmf_document.h"
 
 #include "index/decoders/hdf5/hdf5_file.h"
+#include "index/decoders/hdf5/xdmf_fields.h"
 #include "index/decoders/hdf5/xdmf_paths.h"
 #include "index/error.h"
 #include "index/formats/axis_positions.h"
 #include "index/formats/stored_file.h"
 #include "index/formats/text_header.h"
+#include "index/formats/unread_fields.h"
 #include "index/lower_case.h"
 #include "index/system/input_file.h"
 
@@ -14,7 +16,6 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -25,13 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using tinyxml2::XMLElement;
-
-std::string attribute(const XMLElement& element, std::initializer_list<const char*> names) {
-    for (const char* name : names)
-        if (const char* text = element.Attribute(name))
-            return text;
-    return {};
-}
 
 class XdmfParser {
   public:
@@ -62,6 +56,8 @@ class XdmfParser {
                              grids));
         if (steps_.empty())
             fail("holds no grid with values");
+        if (auto note = note_on_unread(unread_of_xdmf(document_)))
+            steps_.front().notes.push_back(std::move(*note));
         return std::move(steps_);
     }
 
@@ -189,6 +185,9 @@ class XdmfParser {
         const std::string type = lower_case(attribute(time, {"TimeType", "Type"}));
         const XMLElement* data = child_of(time, "DataItem");
         const std::size_t count = steps_.size() - first;
+        if (!type.empty() && type != "single" && type != "list" && type != "hyperslab")
+            fail(fmt::format("a Time of type {}, expected Single, List or HyperSlab",
+                             excerpt(type)));
         std::vector<double> times;
         if (data)
             times = numbers_of_item(item_of(*data));
@@ -227,8 +226,9 @@ class XdmfParser {
             const XMLElement* data = child_of(element, "DataItem");
             if (!data || (!center.empty() && center != "node" && center != "cell"))
                 continue; // of the grid, of faces and edges
-            part.attributes.push_back(
-                {attribute(element, {"Name"}), center == "cell", item_of(*data)});
+            part.attributes.push_back({attribute(element, {"Name"}),
+                                       attribute(element, {"AttributeType", "Type"}),
+                                       center == "cell", item_of(*data)});
         }
         return step;
     }
@@ -307,6 +307,9 @@ class XdmfParser {
             item.dimensions.push_back(static_cast<std::uint64_t>(size));
         }
         item.type = type_of(element);
+        if (const std::string packed = lower_case(attribute(element, {"Compression"}));
+            !packed.empty() && packed != "raw")
+            fail(fmt::format("a DataItem of Compression {}, expected Raw", excerpt(packed)));
         const std::string format = lower_case(attribute(element, {"Format"}));
         item.where = format == "hdf" || format == "hdf5" ? XdmfItem::Where::hdf5
                      : format == "binary"                ? XdmfItem::Where::plain

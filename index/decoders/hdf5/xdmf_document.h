@@ -32,7 +32,7 @@ struct XdmfItem {
 };
 
 struct XdmfAttribute {
-    std::string name;
+    std::string name, type; ///< as stated: `rho`, `Scalar`
     bool on_cells = false;
     XdmfItem item;
 };

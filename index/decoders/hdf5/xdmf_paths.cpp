@@ -55,6 +55,14 @@ const tinyxml2::XMLElement* xdmf_element(const tinyxml2::XMLDocument& document,
     return found;
 }
 
+std::string attribute(const tinyxml2::XMLElement& element,
+                      std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (const char* text = element.Attribute(name))
+            return text;
+    return {};
+}
+
 std::optional<StoredType> xdmf_type(const std::string& kind, const std::string& precision) {
     const std::string bytes =
         precision.empty() ? (kind == "char" || kind == "uchar" ? "1" : "4") : precision;

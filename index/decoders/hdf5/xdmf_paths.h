@@ -4,6 +4,7 @@
 #include "index/formats/stored_scalar.h"
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,10 @@ class XMLElement;
 } // namespace tinyxml2
 
 namespace isochron::index {
+
+/// The first of these attributes that an element has; empty if it has none.
+std::string attribute(const tinyxml2::XMLElement& element,
+                      std::initializer_list<const char*> names);
 
 /// `file.h5:/fields/rho`
 struct XdmfHeavy {

@@ -2,11 +2,13 @@
 #include "index/decoders/decoders.h"
 #include "index/decoders/mesh/mesh_source.h"
 #include "index/decoders/shared_decode.h"
+#include "index/decoders/vtk/vtk_fields.h"
 #include "index/decoders/vtk/vtk_ghosts.h"
 #include "index/decoders/vtk/vtk_resample.h"
 #include "index/decoders/vtk/vtk_session.h"
 #include "index/error.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
 
@@ -139,6 +141,10 @@ class MeshFile final : public DecodedFile {
                           std::back_inserter(info_.notes));
         if (info_.times.empty())
             take_time_of_vtk(mesh_->data().GetFieldData(), info_);
+        info_.value_unit = source.unit_of(chosen_.array.name);
+        take_fields_of_vtk(mesh_->data(), chosen_, "", info_);
+        if (auto note = note_on_unread(source.unread()))
+            info_.notes.push_back(std::move(*note));
     }
 
     fs::path path_;

@@ -1,6 +1,7 @@
 // Sets up vtkExodusIIReader, vtkCGNSReader, vtkOpenFOAMReader and vtkAMReXGridReader.
 #include "index/decoders/mesh/mesh_source.h"
 
+#include "index/decoders/mesh/mesh_fields.h"
 #include "index/error.h"
 #include "index/formats/data_stream.h"
 #include "index/formats/text_header.h"
@@ -45,7 +46,8 @@ MeshSource exodus_source(const fs::path& path) {
             select,
             "",
             "",
-            {"nodes are where they are at rest: displacements are arrays like others"}};
+            {"nodes are where they are at rest: displacements are arrays like others"},
+            [raw = reader.GetPointer()] { return unread_of_exodus(*raw); }};
 }
 
 MeshSource cgns_source(const fs::path& path) {
@@ -57,7 +59,7 @@ MeshSource cgns_source(const fs::path& path) {
         raw->EnableAllPointArrays();
         raw->EnableAllCellArrays();
     };
-    return {reader.GetPointer(), select, "", "", {}};
+    return {reader.GetPointer(), select, "", "", {}, [path] { return unread_of_cgns(path); }};
 }
 
 /// The last time of a case, whose times are folders; below all numbers if there is none.
@@ -125,6 +127,8 @@ MeshSource openfoam_source(const fs::path& path) {
         "m",
         "s",
         {"values of cells are averaged to points by VTK before they are interpolated"}};
+    source.unit_of = [cases = std::vector{folder, folder / "processor0"}](
+                         const std::string& field) { return unit_of_openfoam(cases, field); };
     if (divided)
         source.notes.push_back("the case is divided among processors: where their parts meet, "
                                "points have the mean of the cells of one part");
@@ -140,7 +144,7 @@ MeshSource amrex_source(const fs::path& path) {
         raw->GetCellDataArraySelection()->EnableAllArrays();
         raw->GetPointDataArraySelection()->EnableAllArrays();
     };
-    return {reader.GetPointer(), select, "", "", {}};
+    return {reader.GetPointer(), select, "", "", {}, [path] { return unread_of_amrex(path); }};
 }
 
 } // namespace

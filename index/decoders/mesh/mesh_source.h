@@ -17,6 +17,13 @@ struct MeshSource {
     std::function<void()> select_all;
     std::string length_unit, time_unit; ///< that the format sets; empty if none
     std::vector<std::string> notes;
+    /// What the file states and nobody reads, as `note_on_unread` takes it; once the reader's
+    /// information has been updated.
+    std::function<std::vector<std::string>()> unread = [] { return std::vector<std::string>(); };
+    /// The unit of an array; empty where the format has none.
+    std::function<std::string(const std::string& array)> unit_of = [](const std::string&) {
+        return std::string();
+    };
 };
 
 /// The reader for an Exodus (.e, .exo, .ex2, .exii) or CGNS file, an OpenFOAM case (.foam,

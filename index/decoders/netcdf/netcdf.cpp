@@ -3,6 +3,7 @@
 #include "index/decoders/netcdf/netcdf_values.h"
 #include "index/error.h"
 #include "index/formats/stored_file.h"
+#include "index/formats/text_header.h"
 #include "index/formats/unread_fields.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -76,6 +78,20 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
     return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
 }
 
+/// Whether coordinates that an attribute names place the vertices one by one, as on a curved grid:
+/// then they are not used.
+bool names_curved_axes(const NetcdfFile& file, const NetcdfVariable& variable) {
+    std::istringstream names(file.text(variable, "coordinates"));
+    for (std::string name; names >> name;)
+        for (const NetcdfVariable& other : file.variables())
+            if (other.name.substr(other.name.rfind('/') + 1) == name &&
+                std::ranges::count_if(other.dimensions, [](const NetcdfDimension& each) {
+                    return each.length > 1;
+                }) > 1)
+                return true;
+    return false;
+}
+
 /// Attributes of the CF conventions and others that change neither values nor places here; texts that
 /// only describe are left out.
 std::optional<std::string> note_on_attributes(const NetcdfFile& file,
@@ -123,6 +139,9 @@ std::optional<std::string> note_on_attributes(const NetcdfFile& file,
     for (const std::string& name : file.attributes(variable))
         if (!kReadOrText.contains(name))
             unread.push_back(name);
+    if (names_curved_axes(file, variable))
+        unread.push_back(fmt::format("coordinates {} (a curved grid is shown straight)",
+                                     excerpt(file.text(variable, "coordinates"))));
     return note_on_unread(unread);
 }
 
@@ -133,6 +152,10 @@ void expect_no_other_format(const NetcdfFile& file) {
             throw Error(fmt::format("{}: MINC 1, which scales each slice in its own way, expected "
                                     "plain NetCDF; mnc2nii of the MINC tools makes NIfTI of it",
                                     file.name()));
+    if (!file.variables().empty() &&
+        file.text(group_of(file.variables().front()), "Conventions").find("AMBER") !=
+            std::string::npos)
+        throw Error(fmt::format("{}: a trajectory of AMBER, expected volumes", file.name()));
 }
 
 class NetcdfVolume final : public DecodedFile {

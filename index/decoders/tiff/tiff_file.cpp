@@ -176,11 +176,12 @@ void TiffFile::note_tags() {
             unread.push_back(fmt::format("{} {}", name, position));
     }
     constexpr std::uint32_t kModelPixelScale = 33550, kModelTiepoint = 33922,
-                            kModelTransformation = 34264, kNoData = 42113;
-    for (const auto& [tag, name] : {std::pair(kModelPixelScale, "ModelPixelScale"),
-                                    std::pair(kModelTiepoint, "ModelTiepoint"),
-                                    std::pair(kModelTransformation, "ModelTransformation"),
-                                    std::pair(kNoData, "GDAL_NODATA")})
+                            kModelTransformation = 34264, kNoData = 42113, kZeissLsm = 34412;
+    for (const auto& [tag, name] :
+         {std::pair(kModelPixelScale, "ModelPixelScale"),
+          std::pair(kModelTiepoint, "ModelTiepoint"),
+          std::pair(kModelTransformation, "ModelTransformation"), std::pair(kNoData, "GDAL_NODATA"),
+          std::pair(kZeissLsm, "CZ_LSMINFO (--spacing)")})
         if (TIFFFindField(file_, tag, TIFF_ANY)) {
             // The library keeps tags that it does not know: their count, and where they are.
             std::uint32_t count = 0;
@@ -193,16 +194,22 @@ void TiffFile::note_tags() {
 }
 
 void TiffFile::list_pages() {
+    std::size_t smaller = 0;
     do {
         const auto kind = field<std::uint32_t>(file_, TIFFTAG_SUBFILETYPE, 0);
-        if (!offsets_.empty() && (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0)
+        if (!offsets_.empty() && (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0) {
+            ++smaller;
             continue;
+        }
         offsets_.push_back(TIFFCurrentDirOffset(file_));
         if (offsets_.size() > kMostPages)
             throw Error(fmt::format("{}: more than {} pages", name_, kMostPages));
     } while (TIFFReadDirectory(file_));
     if (!words_of_libtiff().empty())
         fail(fmt::format("damaged behind page {}", offsets_.size()));
+    if (smaller > 0)
+        notes_.push_back(
+            fmt::format("{} smaller pictures or masks beside the pages are left out", smaller));
     page_ = offsets_.size(); // none is current
     go_to(0);
     expect_room(name_, 0, at_best(file_),

@@ -1,5 +1,6 @@
 // Reads VTK XML image data (.vti) with vtkXMLImageDataReader, in all encodings and compressors.
 #include "index/decoders/decoders.h"
+#include "index/decoders/vtk/vtk_fields.h"
 #include "index/decoders/vtk/vtk_ghosts.h"
 #include "index/decoders/vtk/vtk_session.h"
 #include "index/decoders/vtk/xml_markup.h"
@@ -101,6 +102,7 @@ class VtiFile final : public DecodedFile {
         });
         // A second call, since VTK's information is complete only if the first reported no error.
         with_vtk(path_, [&] { describe(options); });
+        take_fields_of_markup(markup, chosen_, info_);
         if (markup.find("vtkLZ4DataCompressor") != markup.npos)
             info_.notes.push_back(
                 "LZ4 data of VTK carry no check: damage to them may go unnoticed");

@@ -1,5 +1,6 @@
 // Reads legacy VTK structured points (.vtk), ascii and binary, with vtkStructuredPointsReader.
 #include "index/decoders/decoders.h"
+#include "index/decoders/vtk/vtk_fields.h"
 #include "index/decoders/vtk/vtk_ghosts.h"
 #include "index/decoders/vtk/vtk_legacy_reading.h"
 #include "index/decoders/vtk/vtk_session.h"
@@ -80,6 +81,7 @@ class LegacyFile final : public DecodedFile {
             std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
                               std::back_inserter(info_.notes));
             take_time_of_vtk(image.GetFieldData(), info_);
+            take_fields_of_vtk(image, chosen_, title_of(path_), info_);
         });
     }
 

@@ -23,24 +23,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace isochron::index {
 namespace {
-
-/// Every grid of a composite one, or the one that there is.
-void each_grid(vtkDataObject& data, const std::function<void(vtkDataSet&)>& take) {
-    if (auto* one = vtkDataSet::SafeDownCast(&data))
-        return take(*one);
-    auto* all = vtkCompositeDataSet::SafeDownCast(&data);
-    if (!all)
-        return;
-    const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(all->NewIterator());
-    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-        if (auto* one = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject()))
-            take(*one);
-}
 
 /// Removes the flags of the vertices and cells that lay within a grid: VTK writes them when it
 /// resamples, and ghost flags say the same.
@@ -131,6 +117,18 @@ vtkSmartPointer<vtkImageData> resampled_by(vtkDataObject& data,
 }
 
 } // namespace
+
+void each_grid(vtkDataObject& data, const std::function<void(vtkDataSet&)>& take) {
+    if (auto* one = vtkDataSet::SafeDownCast(&data))
+        return take(*one);
+    auto* all = vtkCompositeDataSet::SafeDownCast(&data);
+    if (!all)
+        return;
+    const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(all->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+        if (auto* one = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject()))
+            take(*one);
+}
 
 std::array<std::uint32_t, 3> vertices_by_cells(vtkDataObject& data, const std::string& file) {
     constexpr double kMostVertices = 1 << 27;

@@ -7,13 +7,18 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
 class vtkDataObject;
+class vtkDataSet;
 class vtkImageData;
 
 namespace isochron::index {
+
+/// Every grid of a composite one, or the one that there is.
+void each_grid(vtkDataObject& data, const std::function<void(vtkDataSet&)>& take);
 
 /// Vertices along each axis of a regular grid as fine as the smallest cell.
 /// @throws Error naming the file: no cells, or too many vertices

@@ -133,8 +133,7 @@ std::optional<std::string> with_easy_infinities(std::string_view text) {
     return ambiguous ? std::nullopt : std::optional(std::move(easy));
 }
 
-void expect_shallow(std::string_view markup, const std::string& file) {
-    int depth = 0;
+void for_each_tag(std::string_view markup, const std::function<void(Tag)>& visit) {
     std::size_t at = 0;
     while ((at = markup.find('<', at)) != markup.npos) {
         const std::string_view rest = markup.substr(at);
@@ -146,16 +145,23 @@ void expect_shallow(std::string_view markup, const std::string& file) {
             at = behind(markup, ">", at);
         } else {
             const std::size_t end = behind_tag(markup, at);
-            if (rest.starts_with("</"))
-                depth = std::max(0, depth - 1);
-            else if (!markup.substr(at, end - at).ends_with("/>"))
-                ++depth;
-            if (depth > kDeepest)
-                throw Error(fmt::format("{}: elements nested more than {} deep, at byte {}", file,
-                                        kDeepest, at));
+            visit({at, markup.substr(at, end - at)});
             at = end;
         }
     }
+}
+
+void expect_shallow(std::string_view markup, const std::string& file) {
+    int depth = 0;
+    for_each_tag(markup, [&](Tag tag) {
+        if (tag.text.starts_with("</"))
+            depth = std::max(0, depth - 1);
+        else if (!tag.text.ends_with("/>"))
+            ++depth;
+        if (depth > kDeepest)
+            throw Error(fmt::format("{}: elements nested more than {} deep, at byte {}", file,
+                                    kDeepest, tag.at));
+    });
 }
 
 } // namespace isochron::index

@@ -3,6 +3,8 @@
 
 #include "index/system/mapped_file.h"
 
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -17,6 +19,14 @@ std::string_view markup_of(const MappedFile& file);
 /// file without an error, and missing values become whatever was in memory.
 /// @throws Error naming the file
 void expect_end(const MappedFile& file, const std::string& name);
+
+/// A tag of markup, `<Piece Extent="...">`, and the place where it begins.
+struct Tag {
+    std::size_t at;
+    std::string_view text;
+};
+/// Calls `visit` for each tag in order, but for comments, declarations and raw text.
+void for_each_tag(std::string_view markup, const std::function<void(Tag)>& visit);
 
 /// Checks how deep elements are nested. VTK's parsers recurse for each level, and their time grows
 /// with the square of the depth.

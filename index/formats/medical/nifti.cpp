@@ -4,6 +4,7 @@
 // Cox et al., "A (sort of) new image data format standard: NIfTI-1", NeuroImage 22, 2004;
 // field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
 #include "index/error.h"
+#include "index/formats/medical/nifti_codes.h"
 #include "index/formats/own_formats.h"
 #include "index/formats/reordered_file.h"
 #include "index/formats/stored_file.h"
@@ -200,25 +201,6 @@ NiftiHeader read_header(const fs::path& path) {
                             Fields(head, false).at<std::int32_t>(0), kBytes1, kBytes2));
 }
 
-StoredType type_of(std::int32_t datatype, const std::string& name) {
-    switch (datatype) {
-    case 2: return StoredType::u8;
-    case 4: return StoredType::i16;
-    case 8: return StoredType::i32;
-    case 16: return StoredType::f32;
-    case 64: return StoredType::f64;
-    case 256: return StoredType::i8;
-    case 512: return StoredType::u16;
-    case 768: return StoredType::u32;
-    case 1024: return StoredType::i64;
-    case 1280: return StoredType::u64;
-    default:
-        throw Error(fmt::format("{}: NIfTI datatype {}, expected integers of up to 64 bits, f32 or "
-                                "f64",
-                                name, datatype));
-    }
-}
-
 // The rotation of METHOD 2 in nifti1.h; columns are scaled by pixdim, the third also by qfac.
 glm::dmat3 quaternion_axes(const NiftiHeader& h) {
     double b = h.quatern[0], c = h.quatern[1], d = h.quatern[2];
@@ -283,27 +265,6 @@ bool differ(const NiftiHeader& h) {
     return false;
 }
 
-std::string length_unit(std::int32_t units) {
-    switch (units & 7) {
-    case 1: return "m";
-    case 2: return "mm";
-    case 3: return "um";
-    default: return {};
-    }
-}
-
-std::string time_unit(std::int32_t units) {
-    switch (units & 56) {
-    case 8: return "s";
-    case 16: return "ms";
-    case 24: return "us";
-    case 32: return "Hz";
-    case 40: return "ppm";
-    case 48: return "rad/s";
-    default: return {};
-    }
-}
-
 /// `scan.hdr` of `scan.img`, which may be given in its place.
 fs::path header_of_pair(const fs::path& path) {
     const std::string name = path.string();
@@ -352,15 +313,18 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     std::vector<std::string> unread = h.unread;
     if (h.sform_code > 0 && h.qform_code > 0 && differ(h))
         unread.emplace_back("qform, which differs from the sform");
+    std::error_code ignored;
+    if (fs::path mat = fs::path(path).replace_extension(".mat"); h.pair && fs::exists(mat, ignored))
+        unread.push_back(fmt::format("{} beside it, the place by SPM", mat.filename().string()));
     if (auto note = note_on_unread(unread))
         info.notes.push_back(std::move(*note));
-    info.length_unit = length_unit(h.xyzt_units);
+    info.length_unit = nifti_length_unit(h.xyzt_units);
     // scl_slope 0 means that there is no scaling.
     if (h.scl_slope != 0 && std::isfinite(h.scl_slope) && std::isfinite(h.scl_inter))
         info.scaling = {h.scl_slope, h.scl_inter};
 
     StoredLayout layout;
-    layout.array = {"values", type_of(h.datatype, name)};
+    layout.array = {"values", nifti_type(h.datatype, name)};
     layout.big_endian = h.big_endian;
     layout.data = h.pair ? image_beside(path) : path;
     layout.compression = is_gzip(layout.data) ? Compression::deflate : Compression::none;
@@ -376,7 +340,7 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     }
     layout.first_time = h.toffset;
     layout.time_step = h.pixdim[4];
-    info.time_unit = time_unit(h.xyzt_units);
+    info.time_unit = nifti_time_unit(h.xyzt_units);
     if (dimensions < 5 || h.dim[5] <= 1)
         return open_stored(path, std::move(info), layout, options);
     constexpr std::int64_t kMostComponents = 4096;

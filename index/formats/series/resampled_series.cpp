@@ -114,7 +114,7 @@ class ResampledSeries final : public VolumeSeries {
         for (int axis = 0; axis < 3; ++axis)
             places_[static_cast<std::size_t>(axis)] = between(info_.grid, from, axis);
         std::erase_if(info_.notes, [](const std::string& note) {
-            return note.find("--resample makes it uniform") != std::string::npos;
+            return note.find(" is not uniform: ") != std::string::npos;
         });
         info_.notes.push_back(note(misfit()));
     }

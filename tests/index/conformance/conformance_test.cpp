@@ -30,6 +30,19 @@ ReadOptions options_in(const json& given) {
         options.component = given["component"];
     if (given.contains("resample"))
         options.resample = given["resample"].get<std::array<std::uint32_t, 3>>();
+    if (given.contains("dims"))
+        options.dims = given["dims"].get<std::array<std::uint32_t, 3>>();
+    if (given.contains("type"))
+        options.type = value_type_from_name(given["type"].get<std::string>());
+    if (given.contains("spacing_given"))
+        options.spacing =
+            glm::dvec3(double(given["spacing_given"][0]), double(given["spacing_given"][1]),
+                       double(given["spacing_given"][2]));
+    if (given.value("first_step", false))
+        options.steps = {0, 0, 1};
+    options.allow_surplus = given.value("allow_surplus", false);
+    options.header_bytes = given.value("header_bytes", std::uint64_t{0});
+    options.big_endian = given.value("big_endian", false);
     options.extra_axis_is_time = given.value("extra_axis_is_time", false);
     return options;
 }
@@ -242,10 +255,10 @@ TEST_P(Conformance, DamageWithinFoldersIsOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance,
-                         testing::Values("with_files.py", "with_h5py.py", "with_meshes.py",
-                                         "with_netcdf4.py", "with_nibabel.py", "with_numpy.py",
-                                         "with_pydicom.py", "with_tifffile.py", "with_vtk.py",
-                                         "with_xdmf.py", "with_zarr.py"),
+                         testing::Values("with_files.py", "with_foreign.py", "with_h5py.py",
+                                         "with_meshes.py", "with_netcdf4.py", "with_nibabel.py",
+                                         "with_numpy.py", "with_pydicom.py", "with_tifffile.py",
+                                         "with_vtk.py", "with_xdmf.py", "with_zarr.py"),
                          [](const auto& script) {
                              const std::string name = script.param;
                              return name.substr(5, name.size() - 8);

@@ -1,9 +1,6 @@
-"""For each format the fields of its standard: a plain file, and one with the field set to something unusual. fields.json
-has both by format and field; docs/FIELDS.md says of each whether it is read or noted."""
-import json
+"""Fields of volumes: see field_files.py."""
 import os
 import struct
-import sys
 
 import h5py
 import netCDF4
@@ -14,26 +11,7 @@ import zarr
 from pydicom.dataset import FileDataset, FileMetaDataset
 from pydicom.uid import ExplicitVRLittleEndian, generate_uid
 
-folder = sys.argv[1]
-fields = {}
-number = 0
-values = np.random.default_rng(3).integers(1, 200, (4, 5, 6))
-
-
-def path(end):
-    global number
-    number += 1
-    os.makedirs(os.path.join(folder, f"f{number}"))
-    return os.path.join(f"f{number}", "file" + end)
-
-
-def full(name):
-    return os.path.join(folder, name)
-
-
-def add(kind, field, plain, changed, same=False, **options):
-    """same: the field says where the same values are."""
-    fields.setdefault(kind, {})[field] = dict(plain=plain, changed=changed, same=same, options=options)
+from field_files import add, done, full, path, values
 
 
 # ---- NRRD
@@ -106,7 +84,8 @@ for field, value in [
     change = {field: value}
     if field == "ElementNumberOfChannels":
         change["DimSize"] = "6 5 2"
-    add("MetaImage", field, plain, meta(**change), **({"component": "0"} if "Channels" in field else {}))
+    add("MetaImage", field, plain, meta(**change), refused=field in ("CompressedData", "BinaryData", "NDims"),
+        **({"component": "0"} if "Channels" in field else {}))
 name = path(".mhd")
 with open(full(name), "w") as out:
     out.write("NDims = 3\nDimSize = 6 5 4\nElementType = MET_FLOAT\nHeaderSize = 4\nElementDataFile = other.raw\n")
@@ -167,8 +146,9 @@ plain = bov()
 for field, value in [("TIME", "3.5"), ("DATA_FILE", "w.raw"), ("DATA_SIZE", "5 6 4"), ("DATA_FORMAT", "INT"),
                      ("VARIABLE", '"w"'), ("DATA_ENDIAN", "BIG"), ("CENTERING", "nodal"), ("BRICK_ORIGIN", "1 2 3"),
                      ("BRICK_SIZE", "12 5 4"), ("DATA_COMPONENTS", "2"), ("HAS_BOUNDARY", "true")]:
-    add("BOV", field, plain, bov(**{field: value}), **({"component": "0"} if field == "DATA_COMPONENTS" else {}))
-add("BOV", "BYTE_OFFSET", plain, bov(BYTE_OFFSET="4"))
+    add("BOV", field, plain, bov(**{field: value}),
+        **(dict(component="0", refused=True) if field == "DATA_COMPONENTS" else {}))
+add("BOV", "BYTE_OFFSET", plain, bov(BYTE_OFFSET="4"), refused=True)
 
 
 # ---- TIFF: tags, ImageJ's lines, OME-XML
@@ -190,6 +170,7 @@ add("TIFF", "YPosition", plain, tiff(extratags=[(287, "2I", 1, (5, 1), True)]))
 add("TIFF", "ModelPixelScale", plain, tiff(extratags=[(33550, "d", 3, (2., 2., 2.), True)]))
 add("TIFF", "ModelTiepoint", plain, tiff(extratags=[(33922, "d", 6, (0., 0., 0., 1., 2., 3.), True)]))
 add("TIFF", "GDAL_NODATA", plain, tiff(extratags=[(42113, "s", 0, "7", True)]))
+add("TIFF", "CZ_LSMINFO", plain, tiff(extratags=[(34412, "B", 4, b"LI@\0", True)]))
 add("TIFF", "SampleFormat", plain, tiff(data=values.astype("i2")))
 add("TIFF", "BitsPerSample", plain, tiff(data=values.astype("u1")))
 add("TIFF", "SamplesPerPixel", plain, tiff(data=np.stack([values + 1] * 3, -1).astype("u2"), photometric="rgb"), component="0")
@@ -304,6 +285,21 @@ add("NetCDF (CF)", "time: calendar", netcdf("time", time=True, units="days since
     netcdf("time", time=True, units="days since 2000-01-01", calendar="360_day"))
 
 
+
+
+def curved(named):
+    name = netcdf()
+    data = netCDF4.Dataset(full(name), "a")
+    data.createVariable("lon", "f8", ("y", "x"))[:] = 1
+    if named:
+        data["v"].coordinates = "lon"
+    data.close()
+    return name
+
+
+add("NetCDF (CF)", "coordinates (two-dimensional)", curved(False), curved(True))
+
+
 # ---- openPMD
 def openpmd(time=1., **attributes):
     name = path(".h5")
@@ -328,25 +324,6 @@ for field, value in [("gridSpacing", np.array([1., 2, 3])), ("gridGlobalOffset",
                      ("axisLabels", np.array(["x", "y", "z"], "S1"))]:
     add("openPMD", field, plain, openpmd(**{field: value}))
 add("openPMD", "timeUnitSI", plain, openpmd(time=1e-3))
-
-
-# ---- VTK image data, collections
-def vti(attributes='Origin="0 0 0" Spacing="1 1 1"', field=""):
-    name = path(".vti")
-    text = " ".join(str(v) for v in values.ravel())
-    with open(full(name), "w") as out:
-        out.write('<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian"><ImageData WholeExtent="0 5 0 4 0 3" '
-                  f'{attributes}>{field}<Piece Extent="0 5 0 4 0 3"><PointData><DataArray type="Float32" Name="v" '
-                  f'format="ascii">{text}</DataArray></PointData></Piece></ImageData></VTKFile>')
-    return name
-
-
-plain = vti()
-add("VTK image data", "Origin", plain, vti('Origin="1 0 0" Spacing="1 1 1"'))
-add("VTK image data", "Spacing", plain, vti('Origin="0 0 0" Spacing="2 1 1"'))
-add("VTK image data", "Direction", plain, vti('Origin="0 0 0" Spacing="1 1 1" Direction="0 1 0 1 0 0 0 0 1"'))
-add("VTK image data", "TimeValue", plain, vti(field='<FieldData><DataArray type="Float64" Name="TimeValue" '
-                                                    'NumberOfTuples="1" format="ascii">3</DataArray></FieldData>'))
 
 
 # ---- DICOM
@@ -382,5 +359,4 @@ for field, value in [("RescaleSlope", 2), ("RescaleIntercept", -5), ("PixelSpaci
         change = {"RescaleSlope": 1, "RescaleIntercept": 0, **change}
     add("DICOM", field, plain, dicom(**change))
 
-with open(full("fields.json"), "w") as out:
-    json.dump(fields, out)
+done("fields")

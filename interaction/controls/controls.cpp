@@ -1,10 +1,11 @@
 // Turns device states into commands.
 #include "interaction/controls/controls.h"
 
+#include "interaction/controls/key_repeat.h"
 #include "interaction/controls/room_panel.h"
+#include "interaction/controls/time_controls.h"
 #include "interaction/input/actions.h"
 #include "interaction/navigation/navigator.h"
-#include "interaction/playback.h"
 #include "interaction/tools/clip_tool.h"
 #include "interaction/tools/tool_box.h"
 
@@ -23,29 +24,8 @@ constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full defl
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
 constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
 constexpr float kEyeStep = 0.001f;       ///< [m]
-constexpr Seconds kRepeatDelay{0.4};     ///< a held key repeats after this
-constexpr Seconds kRepeatInterval{0.05}; ///< and then this often
 
 } // namespace
-
-/// Presses of one button, counted from its level and the clock.
-struct KeyRepeat {
-    bool was_down = false;
-    Seconds next{0};
-
-    int presses(bool down, Seconds now) {
-        int count = 0;
-        if (down && !was_down) {
-            count = 1;
-            next = now + kRepeatDelay;
-        }
-        for (; down && now >= next && count < 4; next += kRepeatInterval)
-            ++count;
-        next = std::max(next, now);
-        was_down = down;
-        return count;
-    }
-};
 
 bool has_colors(const ControlContext& context) {
     return context.color_arrays.names && !context.color_arrays.names->empty();
@@ -76,9 +56,9 @@ Coloring after(const Coloring& coloring, bool has_second_array) {
 struct Controls::State {
     ButtonLevels before;
     std::optional<Seconds> last_time;
-    KeyRepeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
+    KeyRepeat isovalue_up, isovalue_down, eyes_apart, eyes_together;
     Navigator navigator;
-    Playback playback;
+    TimeControls time_controls;
     ToolBox tools;
     Commands found;                 ///< by tools, not yet taken
     std::vector<std::string> notes; ///< of tools, not yet taken
@@ -108,50 +88,6 @@ struct Controls::State {
         const double now_shown = context.settings.isovalue();
         const double from = std::isfinite(now_shown) ? now_shown : context.series.low + range / 2;
         return std::clamp(from + change * range, context.series.low, context.series.high);
-    }
-
-    /// Sets `step`, `playback` and `follow` if they change.
-    void play(const Reading& now, const ControlContext& context, Seconds time, Seconds elapsed,
-              Commands& commands) {
-        static const std::vector<double> kNone;
-        const std::vector<double>& times = context.series.times ? *context.series.times : kNone;
-        const auto steps = static_cast<std::int64_t>(times.size());
-        PlaybackState state = context.settings.playback;
-        const bool toggle = now.pressed(Action::play) || now.pressed(GamepadButton::a);
-        if (toggle)
-            state.playing = !state.playing;
-        if (now.pressed(Action::reverse) || now.pressed(GamepadButton::b))
-            state.reverse = !state.reverse;
-        if (now.pressed(Action::loop))
-            state.loop = !state.loop;
-        if (now.pressed(Action::faster))
-            state.speed = std::min(state.speed * 2, kFastest);
-        if (now.pressed(Action::slower))
-            state.speed = std::max(state.speed / 2, kSlowest);
-
-        std::int64_t step = context.settings.step;
-        const int forward = step_forward.presses(
-            now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper), time);
-        const int back = step_back.presses(
-            now.key(Action::step_back) || now.pad(GamepadButton::left_bumper), time);
-        if (forward != back && steps > 0) {
-            step += forward - back;
-            step = state.loop ? (step % steps + steps) % steps
-                              : std::clamp<std::int64_t>(step, 0, steps - 1);
-            state.playing = false;
-        }
-        const Playback::Result reached =
-            playback.advance(times, static_cast<std::uint32_t>(step), state, elapsed);
-        state.playing = reached.playing;
-        if (reached.step != context.settings.step)
-            commands.step = reached.step;
-        if (now.pressed(Action::follow)) {
-            commands.follow = !context.settings.follow;
-            if (*commands.follow && steps > 0)
-                commands.step = static_cast<std::uint32_t>(steps - 1);
-        }
-        if (state != context.settings.playback)
-            commands.playback = state;
     }
 
     /// Saves the volume's place in this frame under the next free name; drops the oldest view if
@@ -226,6 +162,8 @@ struct Controls::State {
         if (now.pressed(Action::stamp))
             commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
         commands.screenshot = now.pressed(Action::screenshot);
+        commands.copy = now.pressed(Action::copy);
+        commands.save = now.pressed(Action::save_session);
     }
 
     /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
@@ -234,6 +172,8 @@ struct Controls::State {
         const bool asks = now.pressed(Action::quit) && context.settings.tools == Tools{};
         if (now.pressed(Action::pick) && context.settings.leaving != asks)
             commands.quit = true;
+        if (now.pressed(Action::ask_to_quit) && !context.settings.leaving)
+            commands.leaving = true;
         if (!now.pressed(Action::quit))
             return;
         if (context.settings.leaving || asks)
@@ -259,6 +199,8 @@ struct Controls::State {
             commands.tools = tools;
         if (now.pressed(Action::snap_clip))
             commands.clip = snapped_next(context.settings.clip, context.data);
+        if (now.pressed(Action::flip_clip) && context.settings.clip.shown)
+            commands.clip = flipped(context.settings.clip);
         if (now.pressed(Action::remove_made))
             remove_made(context, commands);
     }
@@ -306,7 +248,8 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     const double isovalue = s.isovalue(now, context, input.time, seconds);
     if (isovalue != context.settings.isovalue() && std::isfinite(isovalue))
         commands.isovalue = isovalue;
-    s.play(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)), commands);
+    s.time_controls.update(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)),
+                           commands, s.notes);
     s.switches(now, context, input.time, commands);
     s.leave(now, context, commands);
     s.choose_tools(now, context, commands);

@@ -146,6 +146,11 @@ ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data) {
     return snapped(plane, next, data);
 }
 
+ClipPlane flipped(ClipPlane plane) {
+    plane.normal = -plane.normal;
+    return plane;
+}
+
 std::vector<glm::dvec3> outline(const ClipPlane& plane, const DataFrame& data) {
     std::vector<glm::dvec3> corners;
     // The corners are where the plane crosses the twelve edges of the box.

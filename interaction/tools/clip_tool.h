@@ -39,6 +39,9 @@ ClipPlane snapped(const ClipPlane& plane, int axis, const DataFrame& data);
 /// `snapped` across the axis after the plane's current one; across the first if it has none.
 ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data);
 
+/// The plane that cuts away the other side.
+ClipPlane flipped(ClipPlane plane);
+
 /// Its outline on the data's box.
 ToolDrawing draw_clip(const Settings& settings, const DataFrame& data);
 

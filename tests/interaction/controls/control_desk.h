@@ -43,6 +43,13 @@ class Desk {
         merge(commands, frame({head_at(kStanding), keys_down(0)}));
         return commands;
     }
+    Commands tap(Action action) {
+        const char* device = is_of_more_keys(action) ? "more_keys" : "keys";
+        Commands commands =
+            frame({head_at(kStanding), {device, std::nullopt, true, bit(action), {}}});
+        merge(commands, frame({head_at(kStanding)}));
+        return commands;
+    }
     const Similarity& volume() const { return settings.room_from_physical; }
     glm::dvec3 center() const { return transform(volume(), context.series.pivot); }
 

@@ -100,6 +100,7 @@ class LiveLoop {
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
     void take_next_data(Session& session);
+    void keep(Session& session, const interaction::Commands& commands, interaction::Seconds now);
     void open(const std::filesystem::path& data, Session& session);
     void make_movies(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);

@@ -2,6 +2,7 @@
 #include "app/session/picture_maker.h"
 
 #include "app/scene/caption.h"
+#include "app/scene/mark.h"
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/tool_table.h"
@@ -131,6 +132,14 @@ Picture PictureMaker::first(const ExplorerState& state) const {
 void PictureMaker::show_cells(Picture& picture, const ExplorerState& state) const {
     picture.cells = sets_.shown();
     picture.scale = shown_scale(state);
+}
+
+std::string PictureMaker::words_under_pointer(const interaction::InputState& input,
+                                              const ExplorerState& state) const {
+    const auto pointed = picker_.pointed(input, !panel_.in_room().touched(), state, sets_.shown());
+    if (!pointed && !state.mark.point)
+        return "";
+    return mark_text(pointed ? pointed->point : *state.mark.point, arrays_.shown(state).info());
 }
 
 Picture PictureMaker::kept(const Picture& picture) const {

@@ -5,6 +5,7 @@
 #include "app/session/kept/recording_file.h"
 #include "app/session/kept/user_memory.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -46,6 +47,34 @@ TEST_F(ExploreWindow, WithoutADisplayItSaysSo) {
     unsetenv("DISPLAY");
     EXPECT_EQ(Program({"explore", file("sphere.isochron")}).exit_status(), 1);
     EXPECT_EQ(Program({"explore"}).exit_status(), 1);
+}
+
+TEST_F(ExploreWindow, CopiesTheValueUnderTheCursorAndSavesTheSession) {
+    const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel",
+                                  "--session", file("kept.isochron-session")});
+    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "240"});
+    std::string copied;
+    EXPECT_TRUE(test_support::eventually([&] { // the surface is there after some frames
+        screen_.xdotool({"key", "ctrl+c"});
+        await_frame();
+        copied = screen_.clipboard();
+        return copied.find(" mm: 8 at 0 s") != copied.npos;
+    })) << copied;
+    screen_.xdotool({"key", "ctrl+s"});
+    await_frame();
+    EXPECT_TRUE(comes("kept.isochron-session", "\"isovalue\": 8"));
+    screen_.xdotool({"key", "ctrl+q"});
+    await_frame();
+    screen_.xdotool({"key", "Return"});
+    EXPECT_EQ(program->exit_status(), 0);
+    const auto recording = read_recording(file("walk.jsonl"));
+    const auto any = [&](auto claim) {
+        return std::ranges::any_of(recording.frames,
+                                   [&](const auto& frame) { return claim(frame.commands); });
+    };
+    EXPECT_TRUE(any([](const auto& c) { return c.copy; }));
+    EXPECT_TRUE(any([](const auto& c) { return c.save; }));
+    EXPECT_TRUE(any([](const auto& c) { return c.leaving == true; }));
 }
 
 TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {

@@ -107,6 +107,14 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
             << "that alone has changed";
     }
     std::filesystem::remove(path.string());
+    {
+        SessionKeeper keeper(path, kept_of(state), true);
+        keeper.save_now(state, head);
+        keeper.finish(state, head);
+        EXPECT_TRUE(back_from(path).grid) << "asked for, though nothing has changed";
+        EXPECT_THAT(keeper.messages(), testing::ElementsAre("session saved: " + path.string()));
+    }
+    std::filesystem::remove(path.string());
     save_session(path, kept_of(state));
     state.step = 3;
     SessionKeeper second(path, start, false);

@@ -56,11 +56,10 @@ bool PictureMaker::on_desktop(const Audience& audience) const {
            !outputs_.room() && screens.front().screen.fit_aspect;
 }
 
-/// Where mouse and keyboard play the wand, the wand points only while the cursor is over the
-/// window.
+/// The ray of a wand that mouse and keyboard play shows nothing that the cursor does not show.
 Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerState& state) const {
     const bool touched = panel_.in_room().touched();
-    const bool points = !panel_.head_is_emulated() || touched || input.find("pointer") != nullptr;
+    const bool points = !panel_.head_is_emulated();
     const interaction::DeviceState* wand =
         config_.rendering.wand_ray && points ? input.find("wand") : nullptr;
     return {wand ? wand->pose : std::nullopt,

@@ -5,6 +5,7 @@
 #include "interaction/controls/room_panel.h"
 #include "interaction/controls/time_controls.h"
 #include "interaction/input/actions.h"
+#include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/clip_tool.h"
 #include "interaction/tools/tool_box.h"
@@ -24,6 +25,7 @@ constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full defl
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
 constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
 constexpr float kEyeStep = 0.001f;       ///< [m]
+constexpr Seconds kDoubleClick{0.4};     ///< from one click to the next
 
 } // namespace
 
@@ -63,6 +65,7 @@ struct Controls::State {
     Commands found;                 ///< by tools, not yet taken
     std::vector<std::string> notes; ///< of tools, not yet taken
     int stamps = 0;
+    std::optional<Seconds> clicked; ///< the mouse's last click, if it was not the second one
 
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
                     double seconds) {
@@ -92,7 +95,7 @@ struct Controls::State {
 
     /// Saves the volume's place in this frame under the next free name; drops the oldest view if
     /// there are `kMostViews`.
-    static void save_view(const ControlContext& context, Commands& commands) {
+    void save_view(const ControlContext& context, Commands& commands) {
         std::vector<Viewpoint> views = context.settings.views;
         std::size_t number = 1;
         const auto name = [&] { return fmt::format("view-{}", number); };
@@ -102,6 +105,7 @@ struct Controls::State {
             views.erase(views.begin());
         views.push_back(
             {name(), commands.room_from_physical.value_or(context.settings.room_from_physical)});
+        notes.push_back(fmt::format("viewpoint {} saved: N goes there", views.back().name));
         commands.views = std::move(views);
     }
 
@@ -223,6 +227,35 @@ struct Controls::State {
         obey(Action::redo, WandButton::redo, context.ways.redo);
     }
 
+    /// Two clicks in quick succession bring a place on a surface to the middle of the view, at the
+    /// same distance. It depends on the surfaces that are shown.
+    void focus(const Reading& now, const ControlContext& context, Seconds time,
+               const Similarity& volume) {
+        if (!(Reading::buttons(now.mouse) & ~now.before.mouse & bit(MouseBit::left)))
+            return;
+        const bool twice = clicked && time - *clicked <= kDoubleClick;
+        clicked = twice ? std::nullopt : std::optional(time);
+        const auto eye = Reading::hand(now.pointer);
+        if (!twice || !eye || !context.find_surface ||
+            context.settings.tools.mouse != ToolKind::pick)
+            return;
+        const auto hit = context.find_surface(*eye);
+        if (!hit)
+            return;
+        const Pose head = now.viewer();
+        const glm::dvec3 from(head.position), at = transform(volume, hit->point.position);
+        const glm::dvec3 ahead =
+            glm::normalize(glm::dquat(head.orientation)) * glm::dvec3(0, 0, -1);
+        found.room_from_physical = moved(volume, from + glm::distance(at, from) * ahead - at);
+    }
+
+    /// Says why the wheel does nothing any more.
+    void tell_bounds(const Reading& now, const ControlContext& context, const Similarity& volume) {
+        if (!now.key(Action::control) && Reading::valuator(now.mouse, kMouseWheel) != 0 &&
+            volume == context.settings.room_from_physical)
+            notes.emplace_back("the wheel goes no further: Home shows all data again");
+    }
+
     ToolBox::Outcome with_tools(const Reading& now, const ControlContext& context,
                                 const Similarity& volume) {
         return context.settings.leaving ? ToolBox::Outcome() : tools.update(now, {context, volume});
@@ -245,6 +278,8 @@ Commands Controls::update(const InputState& input, const ControlContext& context
         s.navigator.update(now, context, seconds, s.tools.takes_drag(now, context));
     if (volume != context.settings.room_from_physical)
         commands.room_from_physical = volume;
+    s.tell_bounds(now, context, volume);
+    s.focus(now, context, input.time, volume);
     const double isovalue = s.isovalue(now, context, input.time, seconds);
     if (isovalue != context.settings.isovalue() && std::isfinite(isovalue))
         commands.isovalue = isovalue;

@@ -137,12 +137,13 @@ std::span<const KeyLine> key_lines() {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 34> kLines{{
+    static constexpr std::array<ControlLine, 35> kLines{{
         {mouse, "Click", "pick the surface there, or what the tool does (4 5 6)"},
+        {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},
         {mouse, "Middle drag, or Shift + left", "move the volume"},
         {mouse, "Right drag", "look around"},
-        {mouse, "Wheel", "scale about the center of the volume"},
+        {mouse, "Wheel", "scale about the place under the cursor"},
         {mouse, "Ctrl + wheel", "isovalue by 0.1 % of the range"},
         {mouse, "Mouse", "aims the wand"},
         {keyboard, "F1 or ?", "help: keys, mouse and devices"},

@@ -25,7 +25,7 @@ bool is_pressed(interaction::Key key, std::span<const interaction::WindowEvent> 
 }
 
 constexpr const char* kNoPlaceForSession =
-    "the session is not saved: there is no home folder; --session names a file for it";
+    "the session is not saved: there is no folder for it; --session names a file";
 
 bool is_held(const InputState& input) {
     return std::ranges::any_of(input.devices, [](const interaction::DeviceState& device) {
@@ -165,8 +165,13 @@ bool LiveLoop::goes_on(const Commands& commands, const InputState& input) const 
 }
 
 void LiveLoop::record(interaction::RecordedFrame frame) {
-    recording_.post([recorder = recorder_, frame = std::move(frame)] {
-        recorder->append(frame);
+    recording_.post([recorder = recorder_, lost = recording_lost_, frame = std::move(frame)] {
+        try {
+            recorder->append(frame);
+        } catch (...) {
+            *lost = true;
+            throw;
+        }
         return std::string();
     });
 }
@@ -285,7 +290,8 @@ void LiveLoop::run(Session& session) {
         interaction::merge(commands, from_panel);
         headset_.feel(commands.haptics);
         const FrameReport& drawn = session.frame(input, commands, Waiting::never, latch);
-        if (recorder_)
+        session.set_recording(records());
+        if (records())
             record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
         keep(session, commands, input.time);

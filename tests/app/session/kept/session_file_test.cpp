@@ -1,4 +1,5 @@
 // A resumed session is the same as the saved one, pixel by pixel.
+#include "app/session/kept/session_claim.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/kept/session_keeper.h"
 #include "tests/interaction/recording/random_commands.h"
@@ -121,6 +122,23 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
     second.finish(state, head);
     EXPECT_EQ(back_from(path).step, 3u);
     EXPECT_EQ(back_from(path.string() + ".before").step, 0u);
+}
+
+TEST(SessionClaim, TwoProgramsHaveAFileEachUntilTheyEnd) {
+    TestFolder folder;
+    const auto wanted = folder.path() / "deep" / "sphere-00.isochron-session";
+    {
+        const SessionClaim first(wanted);
+        EXPECT_EQ(first.path(), wanted);
+        {
+            const SessionClaim second(wanted), third(wanted);
+            EXPECT_EQ(second.path().filename(), "sphere-00-2.isochron-session");
+            EXPECT_EQ(third.path().filename(), "sphere-00-3.isochron-session");
+        }
+        EXPECT_EQ(SessionClaim(wanted).path().filename(), "sphere-00-2.isochron-session");
+    }
+    EXPECT_EQ(SessionClaim(wanted).path(), wanted);
+    EXPECT_TRUE(std::filesystem::is_empty(wanted.parent_path())) << "no locks are left";
 }
 
 TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {

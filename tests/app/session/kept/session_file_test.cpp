@@ -1,4 +1,5 @@
 // A resumed session is the same as the saved one, pixel by pixel.
+#include "app/explore/kept_session.h"
 #include "app/session/kept/session_claim.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/kept/session_keeper.h"
@@ -122,6 +123,17 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
     second.finish(state, head);
     EXPECT_EQ(back_from(path).step, 3u);
     EXPECT_EQ(back_from(path.string() + ".before").step, 0u);
+}
+
+TEST(KeptSession, WhereItCannotBeKeptIsSaidWithTheReason) {
+    TestFolder folder;
+    EXPECT_THAT(why_not_kept(std::nullopt), testing::HasSubstr("neither HOME nor XDG_STATE_HOME"));
+    const auto file = folder.write("none", "a file where a folder should be");
+    EXPECT_THAT(why_not_kept(std::filesystem::path(file) / "isochron" / "a.isochron-session"),
+                testing::AllOf(testing::HasSubstr("this session is not saved"),
+                               testing::HasSubstr("none/isochron")));
+    EXPECT_EQ(why_not_kept(folder.path() / "new" / "a.isochron-session"), "");
+    EXPECT_EQ(why_not_kept("a.isochron-session"), "");
 }
 
 TEST(SessionClaim, TwoProgramsHaveAFileEachUntilTheyEnd) {

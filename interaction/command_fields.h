@@ -25,6 +25,23 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"reverse"}, r.reverse...);
     visit(Field{"loop"}, r.loop...);
     visit(Field{"speed", kSlowest, kFastest}, r.speed...);
+    visit(Field{.key = "ping_pong", .may_lack = true}, r.ping_pong...);
+    visit(Field{.key = "every", .low = 1, .high = kMostSkipped, .may_lack = true}, r.every...);
+    visit(Field{.key = "unit", .may_lack = true}, r.unit...);
+    visit(Field{.key = "rate", .low = kSlowestRate, .high = kFastestRate, .may_lack = true},
+          r.rate...);
+}
+
+template <class Visit, Of<StepRange>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"first"}, r.first...);
+    visit(Field{"last"}, r.last...);
+}
+
+template <class Visit, Of<Bookmark>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"name"}, r.name...);
+    visit(Field{"step"}, r.step...);
 }
 
 template <class Visit, Of<Viewpoint>... Records>
@@ -108,6 +125,8 @@ void each_field(Visit&& visit, Records&... r) {
     each_setting(visit, r...);
     visit(Field{"isovalue"}, r.isovalue...);
     visit(Field{"screenshot"}, r.screenshot...);
+    visit(Field{"copy"}, r.copy...);
+    visit(Field{"save"}, r.save...);
     visit(Field{"quit"}, r.quit...);
     visit(Field{"undo"}, r.undo...);
     visit(Field{"redo"}, r.redo...);

@@ -23,6 +23,9 @@ inline constexpr double kLongestPulse = 1.0; ///< [s]
 struct Commands : SettingChanges {
     std::optional<double> isovalue; ///< of the picked surface
     bool screenshot = false;
+    bool copy =
+        false; ///< the value under the pointer, or of the mark, as a text to paste elsewhere
+    bool save = false; ///< the session is saved now
     bool quit = false;
     bool undo = false; ///< the settings in these commands undo the newest change
     bool redo = false; ///< the settings in these commands redo the change that was undone last

@@ -7,65 +7,71 @@
 namespace isochron::interaction {
 namespace {
 
-std::uint32_t step_at(std::span<const double> times, double cursor) {
-    const auto after = std::ranges::partition_point(
-        times, [&](double time) { return time - times.front() <= cursor; });
-    return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - times.begin(), 1) - 1);
+/// The time at which playing enters a place: its beginning, or in reverse its end.
+double entry(const StepTrack& track, std::uint32_t place, bool reverse) {
+    return reverse ? std::nextafter(track.start(place + 1), 0.0) : track.start(place);
 }
 
-/// The time at which playback enters `step`: its beginning, or in reverse its end.
-double entry(std::span<const double> times, std::uint32_t step, bool reverse) {
-    if (!reverse)
-        return times[step] - times.front();
-    const double end = step + 1 < times.size() ? times[step + 1] - times.front() : period(times);
-    return std::nextafter(end, 0.0);
-}
+struct Moment {
+    double time;
+    bool reverse;
+};
 
-double valid_speed(double speed) {
-    return speed > 0.0 ? std::clamp(speed, kSlowest, kFastest) : 1.0;
+/// Goes to and fro: the places between the ends are shown on both ways, the ends once in a round.
+Moment swung(const StepTrack& track, const Moment& from, double distance) {
+    // One round as a line: all places on the way up, then those between the ends on the way down.
+    const double up = track.duration(), top = track.start(track.last());
+    const double round = up + top - track.start(1);
+    double at = (from.reverse ? up + top - from.time : from.time) + distance;
+    at -= round * std::floor(at / round);
+    const bool down = at >= up;
+    return {std::clamp(down ? up + top - at : at, 0.0, down ? std::nextafter(top, 0.0) : up), down};
 }
 
 } // namespace
 
-double period(std::span<const double> times) {
-    if (times.size() < 2)
-        return 0.0;
-    const double span = times.back() - times.front();
-    return span + span / static_cast<double>(times.size() - 1);
-}
-
 Playback::Result Playback::advance(std::span<const double> times, std::uint32_t step,
-                                   const PlaybackState& state, Seconds elapsed) {
-    const double round = period(times);
-    if (!(round > 0.0) || !std::isfinite(round))
-        return {step, false};
-    const auto last = static_cast<std::uint32_t>(times.size() - 1);
-    step = std::min(step, last);
-    const std::uint32_t end = state.reverse ? 0 : last;
+                                   const PlaybackState& state, Seconds elapsed,
+                                   const StepRange& range) {
+    if (times.empty())
+        return {step, false, state.reverse};
+    const StepTrack track(times, range, state);
+    const double round = track.duration();
+    if (!(round > 0.0) || !std::isfinite(round) || track.places() < 2)
+        return {step, false, state.reverse};
+    step = std::min(step, static_cast<std::uint32_t>(times.size() - 1));
+    const std::uint32_t end = state.reverse ? 0 : track.last();
     const bool starts = state.playing && !was_playing_;
     was_playing_ = state.playing;
 
     const bool turned_at_rest = state.reverse != reverse_ && (starts || !state.playing);
     reverse_ = state.reverse;
-    if (starts && !state.loop && step == end) {
-        step = last - end;
-        cursor_ = entry(times, step, state.reverse);
-    } else if (turned_at_rest || step_at(times, cursor_) != step) {
-        cursor_ = entry(times, step, state.reverse);
+    std::uint32_t place = track.place_of(step, state.reverse);
+    const bool ends = !state.loop && !state.ping_pong;
+    if (starts && ends && place == end) {
+        place = track.last() - end;
+        time_ = entry(track, place, state.reverse);
+    } else if (turned_at_rest || track.place_at(time_) != place) {
+        time_ = entry(track, place, state.reverse);
     }
     if (!state.playing)
-        return {step, false};
+        return {step, false, state.reverse};
 
-    const double distance =
-        valid_speed(state.speed) * round / kRoundSeconds * std::max(elapsed.count(), 0.0);
-    cursor_ += state.reverse ? -distance : distance;
-    if (state.loop) {
-        cursor_ -= round * std::floor(cursor_ / round);
-        return {step_at(times, cursor_), true};
+    const double distance = track_rate(state, times) * std::max(elapsed.count(), 0.0);
+    if (state.ping_pong) {
+        const Moment now = swung(track, {time_, state.reverse}, distance);
+        time_ = now.time;
+        reverse_ = now.reverse;
+        return {track.step(track.place_at(time_)), true, now.reverse};
     }
-    cursor_ = std::clamp(cursor_, 0.0, round);
-    step = step_at(times, cursor_);
-    return {step, step != end};
+    time_ += state.reverse ? -distance : distance;
+    if (state.loop) {
+        time_ -= round * std::floor(time_ / round);
+        return {track.step(track.place_at(time_)), true, state.reverse};
+    }
+    time_ = std::clamp(time_, 0.0, round);
+    place = track.place_at(time_);
+    return {track.step(place), place != end, state.reverse};
 }
 
 } // namespace isochron::interaction

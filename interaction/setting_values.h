@@ -24,15 +24,46 @@ inline constexpr std::array<std::string_view, 4> kNames<QualityMode>{"auto", "fa
 inline constexpr double kSlowest = 1.0 / 64.0, kFastest = 64.0; ///< playback speeds
 inline constexpr float kWidestEyes = 0.1f;                      ///< [m]
 
-/// How time plays. `speed` is a factor of the base speed, at which the whole series takes 10 s; it
-/// counts physical time, not steps.
+/// What the speed of playback counts.
+enum class SpeedUnit : std::uint8_t {
+    series, ///< `speed`: how much faster than 10 s for the whole series
+    steps,  ///< `rate`: shown steps a second, each for the same time
+    time    ///< `rate`: units of the data's time a second
+};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<SpeedUnit>{"series", "steps", "time"};
+
+inline constexpr double kSlowestRate = 1e-30, kFastestRate = 1e30;
+inline constexpr std::uint32_t kMostSkipped = 1000; ///< most steps from one shown step to the next
+
+/// How time plays. Steps last as long as they do in the data, except where `unit` is `steps`.
 struct PlaybackState {
     bool playing = false;
     bool reverse = false;
-    bool loop = true;
-    double speed = 1.0; ///< kSlowest to kFastest
+    bool loop = true;        ///< goes on at the other end; without it, playing stops at the end
+    double speed = 1.0;      ///< kSlowest to kFastest; counts where `unit` is `series`
+    bool ping_pong = false;  ///< turns back at both ends, whether it loops or not
+    std::uint32_t every = 1; ///< only every so many steps are shown, 1 to kMostSkipped
+    SpeedUnit unit = SpeedUnit::series;
+    double rate = 10.0; ///< kSlowestRate to kFastestRate; counts where `unit` is not `series`
     bool operator==(const PlaybackState&) const = default;
 };
+
+/// The steps that playing keeps to, counted from 0. A series that grows has new steps at its end:
+/// a range without `last` has them, too.
+struct StepRange {
+    std::optional<std::uint32_t> first; ///< none: the first step of the series
+    std::optional<std::uint32_t> last;  ///< itself included; none: the last step of the series
+    bool operator==(const StepRange&) const = default;
+};
+
+/// A time to come back to.
+struct Bookmark {
+    std::string name;
+    std::uint32_t step = 0;
+    bool operator==(const Bookmark&) const = default;
+};
+inline constexpr std::size_t kMostBookmarks = 256;
 
 /// A place in the data to come back to.
 struct Viewpoint {

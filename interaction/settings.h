@@ -44,6 +44,8 @@ struct SettingsOf {
     Holds<std::uint32_t> step{};
     Holds<bool> follow{}; ///< show the last step whenever a new one arrives
     Holds<PlaybackState> playback{};
+    Holds<StepRange> play_range{};
+    Holds<std::vector<Bookmark>> bookmarks{}; ///< all of them, at most kMostBookmarks
 
     // Where and how it is seen.
     Holds<Similarity> room_from_physical{}; ///< navigation's result
@@ -81,6 +83,8 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "step", .dragged = true}, r.step...);
     visit(Field{.key = "follow"}, r.follow...);
     visit(Field{"playback"}, r.playback...);
+    visit(Field{.key = "play_range", .dragged = true}, r.play_range...);
+    visit(Field{.key = "bookmarks", .most = kMostBookmarks}, r.bookmarks...);
     visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
     visit(Field{"quality"}, r.quality...);
     visit(Field{.key = "eye_separation", .low = 0, .high = kWidestEyes, .dragged = true},

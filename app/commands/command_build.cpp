@@ -21,6 +21,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string_view>
 
 namespace isochron::app {
 namespace {
@@ -50,6 +51,37 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
                         "found\n",
                         grouped(all));
     return text;
+}
+
+/// A word of a command line, in quotes where a shell needs them.
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                        "0123456789_-+=./:,@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == word.npos)
+        return word;
+    std::string quoted = "'";
+    for (const char each : word)
+        quoted += each == '\'' ? std::string("'\\''") : std::string(1, each);
+    return quoted + "'";
+}
+
+/// Opens the files. Where they leave the choice among several arrays, tells the command for each.
+BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+    try {
+        return open_sources(files, arguments);
+    } catch (const index::Error&) {
+        std::string start = "isochron build";
+        for (const std::string& file : arguments.files)
+            start += " " + shell_word(file);
+        if (!arguments.out.empty())
+            start += " -o " + shell_word(arguments.out.string());
+        const auto names = arrays_to_choose(files, arguments);
+        for (const std::string& name : names)
+            print_safely(fmt::format("{} --array {}\n", start, shell_word(name)), stderr);
+        if (!names.empty())
+            print_safely(start + " --all-arrays\n", stderr);
+        throw;
+    }
 }
 
 /// Appends in place where that can be, else builds anew.
@@ -112,7 +144,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         guard_index(arguments, files, nullptr); // at once, as opening may take long
-        sources = open_sources(files, arguments);
+        sources = opened(files, arguments);
         guard_index(arguments, files, &sources);
         if (held)
             append_sources(sources, held, arguments.out.string());

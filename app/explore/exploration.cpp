@@ -8,6 +8,7 @@
 #include "app/explore/kept_session.h"
 #include "app/explore/live_setup.h"
 #include "app/explore/pattern_exploration.h"
+#include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
 #include "app/session/data_choice.h"
 #include "app/text.h"
@@ -113,6 +114,8 @@ void Exploration::open_data() {
     if (!options_.data && options_.sources.files.empty())
         throw UsageError("file is required in a job: an index made by `isochron build`");
     config_ = configure(options_);
+    if (job_.size() == 1 && may_keep_window_size(options_, config_))
+        recall_window_size(config_);
     if (job_.leads())
         warn(config_);
     if (config_.openxr.enabled && job_.size() > 1)
@@ -207,12 +210,15 @@ LiveOptions Exploration::live_options_with(UserMemory& memory, BackgroundWork& w
 
 void Exploration::lead(LiveLoop& live) {
     if (job_.size() == 1)
-        keep_session(live, kept_in(options_, *file_), *options_.data, *file_, *session_, earlier_);
+        keep(live);
     const auto header = header_of(*session_, config_, *file_, *options_.data);
     if (options_.record) {
         live.record(index::end_of_links(*options_.record), header);
         session_->set_recording(true);
     }
+    if (indexing_ && file_->arrays() > 1)
+        session_->show_messages(
+            {fmt::format("{} arrays: Ctrl + A shows the next one", file_->arrays())});
     if (job_.size() == 1)
         live.offer_movies(movie_orders(options_, header));
     live.watch(*options_.data, file_);
@@ -220,9 +226,26 @@ void Exploration::lead(LiveLoop& live) {
     live.run(*session_);
 }
 
+/// Saves the session as it goes on, or says why it does not.
+void Exploration::keep(LiveLoop& live) {
+    auto path = kept_in(options_, *file_);
+    const std::string why_not = why_not_kept(path);
+    if (!why_not.empty()) {
+        print_safely(fmt::format("isochron: {}\n", why_not), stderr);
+        session_->show_messages({why_not});
+        path.reset();
+    } else if (!options_.session) {
+        path = claim_.emplace(*path).path();
+    }
+    keep_session(live, path, *options_.data, *file_, *session_, earlier_,
+                 earlier_ && path == kept_in(options_, *file_));
+}
+
 void Exploration::finish(LiveLoop& live, UserMemory& memory) {
     live.finish(*session_);
     session_->outputs().pictures().finish();
+    if (job_.size() == 1 && may_keep_window_size(options_, config_))
+        remember_window_size(session_->outputs().windows()[0].framebuffer_size());
     if (session_->panel().introduced())
         memory.set_introduced();
     print_status(live);

@@ -7,6 +7,7 @@
 #include "app/explore/cluster_job.h"
 #include "app/explore/explore_options.h"
 #include "app/indexing/indexing.h"
+#include "app/session/kept/session_claim.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/kept/user_memory.h"
 #include "app/session/live_loop.h"
@@ -41,6 +42,7 @@ class Exploration {
 
     LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);
     void lead(LiveLoop& live);
+    void keep(LiveLoop& live);
     void finish(LiveLoop& live, UserMemory& memory);
     void save(LiveLoop& live);
 
@@ -56,6 +58,7 @@ class Exploration {
     std::optional<stereo::Windows> windows_;
     std::optional<Session> session_;
     std::optional<SavedSession> earlier_; ///< which is resumed
+    std::optional<SessionClaim> claim_;   ///< on the file to which this one is saved
 };
 
 } // namespace isochron::app

@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <string_view>
+#include <unistd.h>
 
 namespace isochron::app {
 
@@ -73,9 +76,25 @@ std::optional<SavedSession> earlier_session(const std::optional<std::filesystem:
     return std::nullopt;
 }
 
+std::string why_not_kept(const std::optional<std::filesystem::path>& path) {
+    if (!path)
+        return "this session is not saved: neither HOME nor XDG_STATE_HOME is set; --session names "
+               "a file for it";
+    std::filesystem::path folder = path->parent_path();
+    if (folder.empty())
+        folder = ".";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!error && access(folder.c_str(), W_OK) == 0)
+        return "";
+    return fmt::format("this session is not saved: {}: {}; --session names a file elsewhere",
+                       folder.string(),
+                       error ? error.message() : std::string(std::strerror(errno)));
+}
+
 void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& path,
                   const std::string& data, const index::IndexFile& file, const Session& session,
-                  const std::optional<SavedSession>& earlier) {
+                  const std::optional<SavedSession>& earlier, bool resumed) {
     if (earlier)
         live.stand(earlier->head);
     if (path)
@@ -83,7 +102,7 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
                           {std::string(kProgram), std::filesystem::absolute(data).string(),
                            data_hash_of(file), session.state().as_commands(), live.standing(),
                            session.left_arrays()},
-                          earlier.has_value());
+                          resumed);
 }
 
 } // namespace isochron::app

@@ -27,9 +27,14 @@ std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
 std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
                                             bool resume);
 
+/// Why a session cannot be kept in this file, in one line; empty: it can.
+/// @param path empty: there is no folder for it
+std::string why_not_kept(const std::optional<std::filesystem::path>& path);
+
 /// Makes the loop save the session to `path`, and start with the head of the earlier session.
+/// @param resumed that session lies in the same file
 void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& path,
                   const std::string& data, const index::IndexFile& file, const Session& session,
-                  const std::optional<SavedSession>& earlier);
+                  const std::optional<SavedSession>& earlier, bool resumed);
 
 } // namespace isochron::app

@@ -24,7 +24,7 @@ std::string why_not_open(const std::filesystem::path& data) {
         if (is_index_name(arguments.files))
             open_index_to_show(data);
         else
-            open_sources(expand_patterns(arguments.files), arguments);
+            open_one_or_all(expand_patterns(arguments.files), arguments);
         return {};
     } catch (const std::exception& error) {
         return one_line(error.what());

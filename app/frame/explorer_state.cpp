@@ -59,7 +59,19 @@ bool holds(const Field&, const interaction::Look& look) {
     return holds(Field{"", 0, 1}, look.occlusion);
 }
 bool holds(const Field&, const interaction::PlaybackState& playback) {
-    return holds(Field{"", interaction::kSlowest, interaction::kFastest}, playback.speed);
+    return holds(Field{"", interaction::kSlowest, interaction::kFastest}, playback.speed) &&
+           holds(Field{"", 1, interaction::kMostSkipped}, playback.every) &&
+           holds(Field{"", interaction::kSlowestRate, interaction::kFastestRate}, playback.rate);
+}
+bool holds(const Field& field, const interaction::StepRange& range) {
+    return range.first.value_or(0) <= field.high && range.last.value_or(0) <= field.high &&
+           (!range.last || range.first.value_or(0) <= *range.last);
+}
+bool holds(const Field& field, const std::vector<interaction::Bookmark>& bookmarks) {
+    return bookmarks.size() <= field.most &&
+           std::ranges::all_of(bookmarks, [&](const interaction::Bookmark& bookmark) {
+               return holds(field, bookmark.step);
+           });
 }
 bool holds(const Field&, const interaction::Similarity& similarity) {
     return interaction::is_valid(similarity);
@@ -114,7 +126,8 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
             const void* member = &kept;
             if (member == &state.picked)
                 field.high = static_cast<double>(state.isosurfaces.size()) - 1;
-            else if (member == &state.step || member == &state.mark)
+            else if (member == &state.step || member == &state.mark ||
+                     member == &state.play_range || member == &state.bookmarks)
                 field.high = static_cast<double>(state.known_steps(held)) - 1;
             else if (member == &state.steps)
                 field.high = static_cast<double>(held);

@@ -13,8 +13,15 @@ namespace {
 
 constexpr interaction::Seconds kPause{0.4}; ///< without a change ends a drag without a button
 
+/// Whether time that plays to and fro has turned, which is nobody's change.
+bool turned_by_itself(const ExplorerState& a, const ExplorerState& b) {
+    interaction::PlaybackState turned = a.playback;
+    turned.reverse = !turned.reverse;
+    return a.playback.playing && a.playback.ping_pong && b.playback == turned;
+}
+
 /// The settings that differ between two states, one bit each; `dragged` has only the settings that
-/// a drag changes. Time steps while playing do not count.
+/// a drag changes. What time does while it plays does not count.
 struct Changed {
     std::uint64_t all = 0, dragged = 0;
 };
@@ -24,7 +31,9 @@ Changed changed(const ExplorerState& a, const ExplorerState& b) {
     std::uint64_t bit = 1;
     interaction::each_setting(
         [&](const interaction::Field& field, const auto& left, const auto& right) {
-            const bool played = a.playback.playing && static_cast<const void*>(&left) == &a.step;
+            const void* member = &left;
+            const bool played = (a.playback.playing && member == &a.step) ||
+                                (member == &a.playback && turned_by_itself(a, b));
             if (field.undone && !played && !(left == right)) {
                 result.all |= bit;
                 if (field.dragged)

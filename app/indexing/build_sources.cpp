@@ -99,6 +99,16 @@ std::vector<std::string> without_patterns(const Open& open, const BuildArguments
     return names;
 }
 
+/// The names in all entries, each once.
+std::vector<std::string> names_among(const index::VolumeSeries& series) {
+    std::vector<std::string> names;
+    for (const std::string& offered : series.info().arrays)
+        if (const std::string name = name_in(offered);
+            std::ranges::find(names, name) == names.end())
+            names.push_back(name);
+    return names;
+}
+
 /// Opens every array that goes with the first.
 void open_all(const Open& open, const index::ReadOptions& options,
               const std::vector<std::string>& names, BuildSources& sources) {
@@ -131,11 +141,7 @@ void open_arrays(const Open& open, const BuildArguments& arguments, BuildSources
         index::ReadOptions any = options;
         any.any_array = true;
         SeriesPtr first = open(any);
-        std::vector<std::string> names;
-        for (const std::string& offered : first->info().arrays)
-            if (const std::string name = name_in(offered);
-                std::ranges::find(names, name) == names.end())
-                names.push_back(name);
+        const std::vector<std::string> names = names_among(*first);
         if (!names.empty())
             return open_all(open, options, names, sources);
         sources.volume = std::move(first); // files with one array that has no name
@@ -196,6 +202,32 @@ BuildSources open_sources(const std::vector<std::filesystem::path>& files,
     if (of_colors.array && !is_among(sources, of_colors.array))
         sources.colors = index::open_index_series(index, of_colors);
     return sources;
+}
+
+std::vector<std::string> arrays_to_choose(const std::vector<std::filesystem::path>& files,
+                                          const BuildArguments& arguments) {
+    if (arguments.all_arrays || arguments.read.array)
+        return {};
+    try {
+        index::ReadOptions any = read_options(arguments);
+        any.any_array = true;
+        std::vector<std::string> names = names_among(*index::open_series(files, any));
+        return names.size() > 1 ? names : std::vector<std::string>();
+    } catch (const index::Error&) {
+        return {};
+    }
+}
+
+BuildSources open_one_or_all(const std::vector<std::filesystem::path>& files,
+                             BuildArguments& arguments) {
+    try {
+        return open_sources(files, arguments);
+    } catch (const index::Error&) {
+        if (arrays_to_choose(files, arguments).empty())
+            throw;
+    }
+    arguments.all_arrays = true;
+    return open_sources(files, arguments);
 }
 
 void append_sources(BuildSources& sources, const std::shared_ptr<const index::IndexFile>& held,

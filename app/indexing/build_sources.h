@@ -31,6 +31,16 @@ struct BuildSources {
 BuildSources open_sources(const std::vector<std::filesystem::path>& files,
                           const BuildArguments& arguments);
 
+/// The arrays among which files leave the choice, as `--array` takes them; empty where one is named,
+/// all are taken, or there are no several arrays.
+std::vector<std::string> arrays_to_choose(const std::vector<std::filesystem::path>& files,
+                                          const BuildArguments& arguments);
+
+/// As `open_sources`; where files leave the choice among several arrays, it opens all of one shape,
+/// and the arguments say so.
+BuildSources open_one_or_all(const std::vector<std::filesystem::path>& files,
+                             BuildArguments& arguments);
+
 /// For `build --append`: leaves of each series only the steps that the index does not have yet.
 /// @throws index::Error when the index has other arrays, or as `index::append_to`
 void append_sources(BuildSources& sources, const std::shared_ptr<const index::IndexFile>& held,

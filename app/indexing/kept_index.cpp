@@ -271,10 +271,11 @@ bool has_no_options(const BuildArguments& arguments) {
     return options_text(arguments) == options_text({});
 }
 
-fs::path kept_index(const BuildArguments& arguments, const fs::path& folder,
+fs::path kept_index(const BuildArguments& given, const fs::path& folder,
                     const KeptIndexReports& reports, std::uint64_t most_bytes) {
+    BuildArguments arguments = given;
     const std::vector<fs::path> files = expand_patterns(arguments.files);
-    BuildSources sources = open_sources(files, arguments);
+    BuildSources sources = open_one_or_all(files, arguments); // arrays are chosen in the window
     if (reports.opened)
         reports.opened(sources.volume->info().steps());
     index::make_folder(folder);

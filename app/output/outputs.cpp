@@ -13,6 +13,21 @@
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+/// Size of a picture that shows what a window shows beside its panel.
+glm::ivec2 size_beside_panel(const stereo::Display& display) {
+    if (display.window().viewports.size() != 1)
+        return display.size();
+    const glm::ivec2 eye = display.eye_size(0);
+    switch (stereo::upright(display.mode())) {
+    case stereo::StereoMode::side_by_side: return {2 * eye.x, eye.y};
+    case stereo::StereoMode::top_bottom: return {eye.x, 2 * eye.y};
+    default: return eye;
+    }
+}
+
+} // namespace
 
 Outputs::Outputs(const Config& config, stereo::Windows windows,
                  std::unique_ptr<stereo::Headset> headset)
@@ -271,7 +286,20 @@ void Outputs::take_screenshots(const PictureNote& frame) {
     const PictureNames names = picture_names(config_.installation);
     kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
         const std::size_t number = windows_.number(i);
-        write({.window = number}, names.windows[number].suffix, display.read_window());
+        const PicturePart part{.window = number};
+        if (displays_[i].fills())
+            return write(part, names.windows[number].suffix, display.read_window());
+        // Beside a panel the data are seen in what the panel leaves free: that is the picture.
+        PictureNote seen = noted(frame, part);
+        seen.size = size_beside_panel(displays_[i]);
+        const auto context = stereo::offscreen_beside(windows_.drawing(), seen.size);
+        stereo::Display picture(gl_, windows_.drawing(), *context, display.window(),
+                                picture_options(gl_, config_, seen.size));
+        draw_window(picture, drawn_.scene, {}, true);
+        write_image(picture.read_window(),
+                    screenshot_folder_ /
+                        fmt::format("{}{}.png", stem, names.windows[number].suffix),
+                    text_of(seen));
     });
 }
 

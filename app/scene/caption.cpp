@@ -2,7 +2,6 @@
 #include "app/scene/caption.h"
 
 #include "app/scene/legend.h"
-#include "app/scene/mark.h"
 #include "app/text.h"
 #include "index/volume/time_unit.h"
 
@@ -25,15 +24,18 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
     return text;
 }
 
-std::vector<render::ScreenQuad>
-caption_quads(const std::string& words, const render::TextPass& text, const glm::ivec2& picture) {
+std::vector<render::ScreenQuad> caption_quads(const std::string& words,
+                                              const render::TextPass& text,
+                                              const glm::ivec2& picture, const Ink& ink) {
     std::vector<render::ScreenQuad> quads;
     const float height = text_height(picture);
     const float width = height * render::text_width(text.atlas(), words);
     const glm::vec3 middle(
         glm::floor(glm::vec2(height + 0.5f * width, static_cast<float>(picture.y) - 1.5f * height)),
         0.0f);
-    add_label(words, middle, text, picture, quads);
+    const glm::vec2 half(0.5f * width + 0.4f * height, 0.8f * height);
+    text.fill(middle, -half, half, ink.paper, quads);
+    text.set({.text = words, .at = middle, .color = ink.text}, height, quads);
     return quads;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/scene/color_scale.h"
+#include "app/scene/ink.h"
 #include "interaction/commands.h"
 #include "render/passes/text_pass.h"
 
@@ -19,6 +20,7 @@ struct Legend {
     std::span<const interaction::Isosurface> surfaces; ///< listed if there are several
     std::string value_unit;                            ///< of their isovalues
     std::optional<ColorScale> scale;                   ///< of colored surfaces; empty: none
+    Ink ink{};
 };
 
 /// Height of text in a picture [pixel]: a fortieth of the picture's height, from 11 to 40.

@@ -1,15 +1,15 @@
 // What a look comes to.
 #include "app/scene/look.h"
 
+#include "app/scene/ink.h"
+
 namespace isochron::app {
 namespace {
 
-constexpr glm::vec3 kPaperWhite(0.94f, 0.945f, 0.95f);
 constexpr glm::vec3 kFloor(0.045f, 0.05f, 0.06f), kSky(0.30f, 0.36f, 0.45f);
-constexpr glm::vec3 kInk(0.13f, 0.15f, 0.18f);
 
 void turn_dark(glm::vec4& color) {
-    color = glm::vec4(kInk, color.w);
+    color = glm::vec4(kDarkInk, color.w);
 }
 
 } // namespace

@@ -17,7 +17,6 @@ constexpr std::array<glm::vec4, 3> kAxisColors{glm::vec4(0.95f, 0.42f, 0.38f, 1.
                                                glm::vec4(0.50f, 0.85f, 0.45f, 1.0f),
                                                glm::vec4(0.45f, 0.65f, 1.0f, 1.0f)};
 constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
-constexpr glm::vec4 kBarInk(0.90f, 0.92f, 0.95f, 1.0f), kBarPaper(0.05f, 0.06f, 0.07f, 0.72f);
 constexpr float kAxisLength = 2.6f; ///< heights of the text
 
 struct SeenAxis {
@@ -60,17 +59,19 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
 
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
-                           const index::SeriesInfo& info, const render::TextPass& text) {
+                           const index::SeriesInfo& info, const render::TextPass& text,
+                           const Ink& ink) {
     const float height = text_height(view.size);
     const glm::vec2 origin = glm::floor(glm::vec2((kAxisLength + 1.0f) * height));
     Orientation shown;
     for (const SeenAxis& each : seen_axes(view, room_from_physical.rotation)) {
         const auto axis = static_cast<std::size_t>(each.axis);
         const glm::vec2 end = origin + kAxisLength * height * glm::vec2(each.way);
-        shown.lines.push_back({glm::vec3(origin, 0), glm::vec3(end, 0), kAxisColors[axis]});
+        const glm::vec4 color(ink.bright * glm::vec3(kAxisColors[axis]), 1.0f);
+        shown.lines.push_back({glm::vec3(origin, 0), glm::vec3(end, 0), color});
         text.set({.text = kAxisNames[axis],
                   .at = glm::vec3(origin + 1.22f * (end - origin), 0.0f),
-                  .color = kAxisColors[axis]},
+                  .color = color},
                  height, shown.quads);
     }
     const auto bar = scale_bar(view, room_from_physical, physical_center(info.grid));
@@ -80,15 +81,15 @@ Orientation orientation_in(const render::View& view,
                          0.0f);
     const float tick = 0.25f * height, thick = std::max(1.0f, std::round(0.12f * height));
     text.fill(left, {-0.5f * height, -0.6f * height}, {bar->pixels + 0.5f * height, 1.9f * height},
-              kBarPaper, shown.quads);
-    text.fill(left, {0, 0}, {bar->pixels, thick}, kBarInk, shown.quads);
+              ink.paper, shown.quads);
+    text.fill(left, {0, 0}, {bar->pixels, thick}, ink.text, shown.quads);
     for (const float at : {0.0f, bar->pixels - thick})
-        text.fill(left, {at, -tick}, {at + thick, tick + thick}, kBarInk, shown.quads);
+        text.fill(left, {at, -tick}, {at + thick, tick + thick}, ink.text, shown.quads);
     text.set({.text = human_number(bar->length) + with_space(info.length_unit),
               .at = left + glm::vec3(0.5f * bar->pixels, 0, 0),
               .anchor = {0.5f, 0.0f},
               .offset = {0.0f, 0.5f},
-              .color = kBarInk},
+              .color = ink.text},
              height, shown.quads);
     return shown;
 }

@@ -5,8 +5,9 @@
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
+#include "app/scene/ink.h"
+#include "app/scene/legend.h"
 #include "app/scene/look.h"
-#include "app/scene/mark.h"
 #include "app/scene/orientation.h"
 #include "app/scene/small_surface.h"
 #include "interaction/navigation/navigation.h"
@@ -214,8 +215,10 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     if (depth)
         draw_among_cells(views, picture, placement);
     draw_before_cells(views, picture, placement);
+    const auto callouts = callouts_of(picture, picture.pointed, info_);
+    const auto papers = papers_of(callouts, text_pass_.atlas(), views);
     for (const render::View& view : views)
-        draw_over_cells(view, picture);
+        draw_over_cells(view, picture, {callouts, papers});
     return done;
 }
 
@@ -293,23 +296,22 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
 }
 
 /// What no cell hides.
-void Scene::draw_over_cells(const render::View& view, const Picture& picture) {
+void Scene::draw_over_cells(const render::View& view, const Picture& picture, const Words& words) {
     draw_panel(view, picture);
     draw_tools(view, picture);
-    if (picture.mark.point)
-        draw_mark(view, picture);
-    if (picture.pointed)
-        draw_pointed(view, picture, *picture.pointed);
+    for (std::size_t i = 0; i < words.callouts.size(); ++i)
+        draw_callout(view, picture, words.callouts[i], words.papers[i]);
     veil_pass_.draw(view, picture.veil);
-    text_pass_.draw(
-        render::pixel_view(view), glm::mat4(1.0f),
-        legend_quads({picture.isosurfaces, info_.value_unit, picture.scale}, text_pass_, view.size),
-        render::TextPass::Depth::none);
+    const Ink ink = ink_on(picture.look.background);
+    text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
+                    legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, ink},
+                                 text_pass_, view.size),
+                    render::TextPass::Depth::none);
     if (picture.orientation)
         draw_orientation(view, picture);
     if (!picture.caption.empty())
         text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
-                        caption_quads(picture.caption, text_pass_, view.size),
+                        caption_quads(picture.caption, text_pass_, view.size, ink),
                         render::TextPass::Depth::none);
 }
 
@@ -336,7 +338,7 @@ void Scene::draw_ray(const render::View& view, const Picture& picture, const Aid
 /// Drawn over the cells, as distances are measured through them.
 void Scene::draw_tools(const render::View& view, const Picture& picture) {
     const interaction::ToolDrawing& tools = picture.tools;
-    if (tools.lines.empty() && tools.labels.empty())
+    if (tools.lines.empty())
         return;
     std::vector<render::Line> lines;
     for (const interaction::ToolLine& line : tools.lines)
@@ -344,35 +346,19 @@ void Scene::draw_tools(const render::View& view, const Picture& picture) {
     gl_.DepthRange(kOverCells, kOverCells);
     line_pass_.draw(view, glm::mat4(1.0f), lines, kToolLine);
     gl_.DepthRange(0.0, 1.0);
-    std::vector<render::ScreenQuad> quads;
-    for (const interaction::ToolLabel& label : tools.labels)
-        if (const glm::vec3 at = in_room(picture, label.at); !hidden_by_panel(picture, view, at))
-            add_label(label.text, at, text_pass_, view.size, quads);
-    text_pass_.draw(view, glm::mat4(1.0f), quads, render::TextPass::Depth::none);
 }
 
 /// Drawn over the surface that it lies on, but not over the panel.
-void Scene::draw_mark(const render::View& view, const Picture& picture) {
-    const glm::vec3 at = in_room(picture, picture.mark.point->position);
-    if (hidden_by_panel(picture, view, at))
-        return;
-    text_pass_.draw(view, glm::mat4(1.0f),
-                    mark_quads(*picture.mark.point, at, info_, text_pass_, view.size),
-                    render::TextPass::Depth::none);
-}
-
-void Scene::draw_pointed(const render::View& view, const Picture& picture,
-                         const interaction::Pointed& pointed) {
-    const glm::vec3 at = in_room(picture, pointed.point.position);
-    if (hidden_by_panel(picture, view, at) || pointed.surface >= picture.isosurfaces.size())
-        return;
-    text_pass_.draw(view, glm::mat4(1.0f),
-                    pointed_quads(pointed, picture.isosurfaces, at, info_, text_pass_, view.size),
-                    render::TextPass::Depth::none);
+void Scene::draw_callout(const render::View& view, const Picture& picture, const Callout& callout,
+                         const CalloutPaper& paper) {
+    if (!hidden_by_panel(picture, view, callout.at))
+        text_pass_.draw(view, glm::mat4(1.0f), callout_quads(callout, paper, text_pass_, view.size),
+                        render::TextPass::Depth::none);
 }
 
 void Scene::draw_orientation(const render::View& view, const Picture& picture) {
-    const Orientation shown = orientation_in(view, picture.room_from_physical, info_, text_pass_);
+    const Orientation shown = orientation_in(view, picture.room_from_physical, info_, text_pass_,
+                                             ink_on(picture.look.background));
     const render::View pixels = render::pixel_view(view);
     gl_.DepthRange(0.0, 0.0); // nearer than all that has been drawn
     for (const render::Line& line : shown.lines)
@@ -388,8 +374,10 @@ void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::Vi
     gl_.DepthMask(GL_TRUE);
     gl_.Clear(GL_DEPTH_BUFFER_BIT); // of the aids before
     draw_ray(view, picture, aids);
-    if (aids.pointed)
-        draw_pointed(view, picture, *aids.pointed);
+    const auto callouts = callouts_of(picture, aids.pointed, info_);
+    if (aids.pointed && !callouts.empty()) // the others are part of the picture
+        draw_callout(view, picture, callouts.back(),
+                     papers_of(callouts, text_pass_.atlas(), std::span(&view, 1)).back());
     gl_.Disable(GL_SCISSOR_TEST);
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/config/config.h"
+#include "app/scene/callouts.h"
 #include "app/scene/cell_sets.h"
 #include "app/scene/kept_cells.h"
 #include "app/scene/picture.h"
@@ -83,12 +84,16 @@ class Scene {
                           const render::Placement& placement);
     void draw_before_cells(std::span<const render::View> views, const Picture& picture,
                            const render::Placement& placement);
-    void draw_over_cells(const render::View& view, const Picture& picture);
+    /// The words that stand beside places, and where.
+    struct Words {
+        std::span<const Callout> callouts;
+        std::span<const CalloutPaper> papers;
+    };
+    void draw_over_cells(const render::View& view, const Picture& picture, const Words& words);
     void draw_panel(const render::View& view, const Picture& picture);
     void draw_ray(const render::View& view, const Picture& picture, const Aids& aids);
-    void draw_mark(const render::View& view, const Picture& picture);
-    void draw_pointed(const render::View& view, const Picture& picture,
-                      const interaction::Pointed& pointed);
+    void draw_callout(const render::View& view, const Picture& picture, const Callout& callout,
+                      const CalloutPaper& paper);
     void draw_tools(const render::View& view, const Picture& picture);
     void draw_orientation(const render::View& view, const Picture& picture);
 

@@ -2,6 +2,7 @@
 #include "app/session/cell_supply.h"
 
 #include "app/frame/stop_watch.h"
+#include "interaction/step_track.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,6 +21,24 @@ constexpr double kNearly = 0.6;
 /// Whether a set shows the cells that this frame asks for.
 bool shows(const index::ExtractionPtr& set, const Frame& frame) {
     return set && set->query.of_cells() == frame.report.asked;
+}
+
+/// What playing shows after a step; nothing if it shows only one.
+std::optional<index::StepsAhead> ahead_of(std::uint32_t step, const Frame& frame) {
+    const interaction::PlaybackState& playback = frame.state.playback;
+    const interaction::StepTrack track(std::span(frame.file.info().times).first(frame.steps),
+                                       frame.state.play_range, playback);
+    if (track.places() < 2)
+        return std::nullopt;
+    const std::uint32_t place = track.place_of(step, playback.reverse), last = track.last();
+    const bool turns = playback.ping_pong && place == (playback.reverse ? 0 : last);
+    const bool reverse = playback.reverse != turns;
+    return index::StepsAhead{.next = (place + (reverse ? last : 1)) % track.places(),
+                             .steps = track.places(),
+                             .reverse = reverse,
+                             .to_and_fro = playback.ping_pong,
+                             .first = track.step(0),
+                             .every = track.step(1) - track.step(0)};
 }
 
 } // namespace
@@ -49,12 +68,8 @@ void CellSupply::request(const Frame& frame) {
         frame.plan.detail.most_cells = DetailChoice::kAtFirst;
     query.detail = frame.plan.detail;
     index::Request request{frame.sharing.ask(query, frame.waiting), std::nullopt};
-    const auto steps = static_cast<std::uint32_t>(frame.steps);
-    if (frame.state.playback.playing && steps > 1) {
-        const bool reverse = frame.state.playback.reverse;
-        request.ahead = index::StepsAhead{(request.query.step + (reverse ? steps - 1 : 1)) % steps,
-                                          steps, reverse};
-    }
+    if (frame.state.playback.playing)
+        request.ahead = ahead_of(request.query.step, frame);
     extractor_.request(request);
 }
 

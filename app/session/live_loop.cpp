@@ -24,6 +24,9 @@ bool is_pressed(interaction::Key key, std::span<const interaction::WindowEvent> 
     });
 }
 
+constexpr const char* kNoPlaceForSession =
+    "the session is not saved: there is no folder for it; --session names a file";
+
 bool is_held(const InputState& input) {
     return std::ranges::any_of(input.devices, [](const interaction::DeviceState& device) {
         return device.buttons != 0 ||
@@ -162,8 +165,13 @@ bool LiveLoop::goes_on(const Commands& commands, const InputState& input) const 
 }
 
 void LiveLoop::record(interaction::RecordedFrame frame) {
-    recording_.post([recorder = recorder_, frame = std::move(frame)] {
-        recorder->append(frame);
+    recording_.post([recorder = recorder_, lost = recording_lost_, frame = std::move(frame)] {
+        try {
+            recorder->append(frame);
+        } catch (...) {
+            *lost = true;
+            throw;
+        }
         return std::string();
     });
 }
@@ -180,6 +188,27 @@ bool LiveLoop::closes(const Session& session, Commands& asked) const {
     windows.keep_open();
     asked.leaving = true;
     return false;
+}
+
+/// Saves the session, and gives the clipboard what the user has asked for.
+void LiveLoop::keep(Session& session, const Commands& commands, Seconds now) {
+    if (commands.copy) {
+        const std::string words = session.pointed();
+        if (!words.empty())
+            session.outputs().windows().first().set_clipboard(words);
+        session.show_messages({words.empty() ? "nothing to copy: point at a surface or mark a place"
+                                             : "copied: " + words});
+    }
+    if (!keeper_) {
+        if (commands.save)
+            session.show_messages({kNoPlaceForSession});
+        return;
+    }
+    if (commands.save)
+        keeper_->save_now(session.state(), emulation_.standing(), session.left_arrays());
+    else if (keeper_->is_due(now))
+        keeper_->update(session.state(), emulation_.standing(), now, session.left_arrays());
+    session.show_messages(keeper_->messages());
 }
 
 /// Whether nothing but windows, mouse and keyboard can bring something new.
@@ -261,15 +290,11 @@ void LiveLoop::run(Session& session) {
         interaction::merge(commands, from_panel);
         headset_.feel(commands.haptics);
         const FrameReport& drawn = session.frame(input, commands, Waiting::never, latch);
-        if (recorder_)
+        session.set_recording(records());
+        if (records())
             record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
-        if (keeper_) {
-            if (keeper_->is_due(input.time))
-                keeper_->update(session.state(), emulation_.standing(), input.time,
-                                session.left_arrays());
-            session.show_messages(keeper_->messages());
-        }
+        keep(session, commands, input.time);
         make_movies(session);
         if (options_.standing)
             session.set_standing(options_.standing());

@@ -22,6 +22,7 @@
 #include "interaction/input/composite_input.h"
 #include "interaction/recording/recording.h"
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -68,6 +69,9 @@ class LiveLoop {
     /// @throws interaction::Error when the file cannot be created
     void record(const std::filesystem::path& path, const interaction::RecordingHeader& header);
 
+    /// Whether frames are recorded: no longer once one could not be written.
+    bool records() const { return recorder_ && !recording_lost_->load(); }
+
     /// Shows new steps of the index when they come. @param path of the open index
     void watch(const std::filesystem::path& path, std::shared_ptr<const index::IndexFile> file);
 
@@ -100,6 +104,7 @@ class LiveLoop {
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
     void record(interaction::RecordedFrame frame);
     void take_next_data(Session& session);
+    void keep(Session& session, const interaction::Commands& commands, interaction::Seconds now);
     void open(const std::filesystem::path& data, Session& session);
     void make_movies(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
@@ -134,6 +139,8 @@ class LiveLoop {
     BackgroundWork recording_;
     /// Used only on the thread of `recording_`.
     std::shared_ptr<interaction::RecordingWriter> recorder_;
+    const std::shared_ptr<std::atomic<bool>> recording_lost_ =
+        std::make_shared<std::atomic<bool>>(false);
     std::optional<MovieMaker> movies_;
     std::vector<std::string> last_words_; ///< what became of the last movie when the loop had ended
     const std::function<interaction::Seconds()> clock_; ///< last: its time starts when all is ready

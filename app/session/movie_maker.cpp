@@ -2,7 +2,7 @@
 #include "app/session/movie_maker.h"
 
 #include "app/frame/late_latch.h"
-#include "interaction/playback.h"
+#include "interaction/step_track.h"
 
 #include <fmt/format.h>
 
@@ -235,17 +235,17 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
     const interaction::InputState seen = at_rest(with_heads(view.input, view.latched));
     // A frame's length, and a little, so that no rounding leaves a step out.
     const double least = (1 + 1e-6) / rate;
-    const double round = interaction::period(times);
-    const double seconds = interaction::kRoundSeconds / played.speed;
+    const interaction::StepTrack track(
+        times, view.state.play_range.value_or(interaction::StepRange{}), played);
+    const double per_second = interaction::track_rate(played, times);
     double start = 0;
-    for (std::size_t i = 0; i < times.size(); ++i) {
+    for (std::uint32_t i = 0; i < track.places(); ++i) {
         interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
-        const auto step = played.reverse ? times.size() - 1 - i : i;
+        const std::uint32_t place = played.reverse ? track.last() - i : i;
         frame.input.time = Seconds(start);
-        frame.commands.step = static_cast<std::uint32_t>(step);
-        const double end = step + 1 < times.size() ? times[step + 1] : times.front() + round;
-        const double share = (end - times[step]) / round;
-        start += std::isfinite(share) ? std::max(least, seconds * share) : least;
+        frame.commands.step = track.step(place);
+        const double seconds = (track.start(place + 1) - track.start(place)) / per_second;
+        start += std::isfinite(seconds) ? std::max(least, seconds) : least;
         recording.frames.push_back(std::move(frame));
     }
     if (!recording.frames.empty()) { // the last one lasts, too

@@ -2,6 +2,7 @@
 #include "app/session/picture_maker.h"
 
 #include "app/scene/caption.h"
+#include "app/scene/mark.h"
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/tool_table.h"
@@ -55,11 +56,10 @@ bool PictureMaker::on_desktop(const Audience& audience) const {
            !outputs_.room() && screens.front().screen.fit_aspect;
 }
 
-/// Where mouse and keyboard play the wand, the wand points only while the cursor is over the
-/// window.
+/// The ray of a wand that mouse and keyboard play shows nothing that the cursor does not show.
 Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerState& state) const {
     const bool touched = panel_.in_room().touched();
-    const bool points = !panel_.head_is_emulated() || touched || input.find("pointer") != nullptr;
+    const bool points = !panel_.head_is_emulated();
     const interaction::DeviceState* wand =
         config_.rendering.wand_ray && points ? input.find("wand") : nullptr;
     return {wand ? wand->pose : std::nullopt,
@@ -131,6 +131,14 @@ Picture PictureMaker::first(const ExplorerState& state) const {
 void PictureMaker::show_cells(Picture& picture, const ExplorerState& state) const {
     picture.cells = sets_.shown();
     picture.scale = shown_scale(state);
+}
+
+std::string PictureMaker::words_under_pointer(const interaction::InputState& input,
+                                              const ExplorerState& state) const {
+    const auto pointed = picker_.pointed(input, !panel_.in_room().touched(), state, sets_.shown());
+    if (!pointed && !state.mark.point)
+        return "";
+    return mark_text(pointed ? pointed->point : *state.mark.point, arrays_.shown(state).info());
 }
 
 Picture PictureMaker::kept(const Picture& picture) const {

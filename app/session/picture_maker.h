@@ -35,6 +35,10 @@ class PictureMaker {
     /// What is to be drawn over the last picture, which lacks it.
     const Aids& over() const { return over_; }
 
+    /// Value, place and time under the cursor, or else of the mark; empty if there is neither.
+    std::string words_under_pointer(const interaction::InputState& input,
+                                    const ExplorerState& state) const;
+
     std::optional<ColorScale> scale(const ExplorerState& state) const;
     /// Where the viewers' eyes are.
     std::vector<stereo::ViewerPose> viewers(const interaction::InputState& input,

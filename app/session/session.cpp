@@ -122,11 +122,6 @@ std::optional<interaction::Pose> Session::ray_at(const interaction::MouseMoveEve
     return outputs_.ray_at(cursor, pictures_.viewers(emulated, state_));
 }
 
-void Session::set_headset_period(std::optional<interaction::Seconds> period) {
-    choice_.quality().set_headset_period(period ? std::optional(Milliseconds(*period))
-                                                : std::nullopt);
-}
-
 /// The devices that the views are made from, polled as late as possible.
 interaction::InputState Session::seen(const interaction::InputState& input, const Latch& latch,
                                       FrameReport& report) {

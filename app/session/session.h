@@ -115,7 +115,9 @@ class Session {
     void set_clock(std::function<interaction::Seconds()> clock) { clock_ = std::move(clock); }
 
     /// Sets the time between two pictures of a headset that paces the frames; empty: none does.
-    void set_headset_period(std::optional<interaction::Seconds> period);
+    void set_headset_period(std::optional<interaction::Seconds> period) {
+        choice_.quality().set_headset_period(period);
+    }
 
     /// Sets the function that is called, on any thread, when the next frame may have something new.
     void set_wake(const std::function<void()>& wake);
@@ -143,6 +145,8 @@ class Session {
         note_.data = name;
         note_.recorded_on = recorded_on;
     }
+    /// What is under the pointer in the last frame, or marked, in words; empty: nothing.
+    std::string pointed() const { return pictures_.words_under_pointer(note_.input, state_); }
     /// Note about the last frame.
     PictureNote note() const;
 

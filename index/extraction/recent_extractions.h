@@ -16,17 +16,30 @@ namespace isochron::index {
 /// NaN equals itself; otherwise a repeated query with a NaN would count as a new one.
 bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b);
 
-/// The next steps of a playback, in order.
+/// The next steps of a playback, in order, each once.
 struct StepsAhead {
-    std::uint32_t next = 0;  ///< the first of them
-    std::uint32_t steps = 0; ///< of the series, in which playback loops; 0: `next` only
+    std::uint32_t next = 0;  ///< the first of them, counted among the steps that are played
+    std::uint32_t steps = 0; ///< that are played, in which playback loops; 0: `next` only
     bool reverse = false;
+    bool to_and_fro =
+        false; ///< playback turns at both ends instead; the step before `next` is shown
+    std::uint32_t first = 0, every = 1; ///< of the series, those that are played
     bool operator==(const StepsAhead&) const = default;
 
     std::uint32_t count() const { return steps == 0 ? 1 : steps - 1; }
     /// @param i below `count()`
-    std::uint32_t at(std::uint32_t i) const {
-        return steps == 0 ? next : (next + (reverse ? steps - i : i)) % steps;
+    std::uint32_t at(std::uint32_t i) const { return first + every * place(i); }
+
+  private:
+    std::uint32_t place(std::uint32_t i) const {
+        if (steps == 0)
+            return next;
+        if (!to_and_fro)
+            return (next + (reverse ? steps - i : i)) % steps;
+        const std::uint32_t to_end = reverse ? next + 1 : steps - next;
+        if (i < to_end)
+            return reverse ? next - i : next + i;
+        return reverse ? next + 2 + (i - to_end) : next - 2 - (i - to_end);
     }
 };
 

@@ -1,10 +1,12 @@
 // Turns device states into commands.
 #include "interaction/controls/controls.h"
 
+#include "interaction/controls/key_repeat.h"
 #include "interaction/controls/room_panel.h"
+#include "interaction/controls/time_controls.h"
 #include "interaction/input/actions.h"
+#include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
-#include "interaction/playback.h"
 #include "interaction/tools/clip_tool.h"
 #include "interaction/tools/tool_box.h"
 
@@ -23,29 +25,9 @@ constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full defl
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
 constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
 constexpr float kEyeStep = 0.001f;       ///< [m]
-constexpr Seconds kRepeatDelay{0.4};     ///< a held key repeats after this
-constexpr Seconds kRepeatInterval{0.05}; ///< and then this often
+constexpr Seconds kDoubleClick{0.4};     ///< from one click to the next
 
 } // namespace
-
-/// Presses of one button, counted from its level and the clock.
-struct KeyRepeat {
-    bool was_down = false;
-    Seconds next{0};
-
-    int presses(bool down, Seconds now) {
-        int count = 0;
-        if (down && !was_down) {
-            count = 1;
-            next = now + kRepeatDelay;
-        }
-        for (; down && now >= next && count < 4; next += kRepeatInterval)
-            ++count;
-        next = std::max(next, now);
-        was_down = down;
-        return count;
-    }
-};
 
 bool has_colors(const ControlContext& context) {
     return context.color_arrays.names && !context.color_arrays.names->empty();
@@ -76,13 +58,14 @@ Coloring after(const Coloring& coloring, bool has_second_array) {
 struct Controls::State {
     ButtonLevels before;
     std::optional<Seconds> last_time;
-    KeyRepeat isovalue_up, isovalue_down, step_forward, step_back, eyes_apart, eyes_together;
+    KeyRepeat isovalue_up, isovalue_down, eyes_apart, eyes_together;
     Navigator navigator;
-    Playback playback;
+    TimeControls time_controls;
     ToolBox tools;
     Commands found;                 ///< by tools, not yet taken
     std::vector<std::string> notes; ///< of tools, not yet taken
     int stamps = 0;
+    std::optional<Seconds> clicked; ///< the mouse's last click, if it was not the second one
 
     double isovalue(const Reading& now, const ControlContext& context, Seconds time,
                     double seconds) {
@@ -110,53 +93,9 @@ struct Controls::State {
         return std::clamp(from + change * range, context.series.low, context.series.high);
     }
 
-    /// Sets `step`, `playback` and `follow` if they change.
-    void play(const Reading& now, const ControlContext& context, Seconds time, Seconds elapsed,
-              Commands& commands) {
-        static const std::vector<double> kNone;
-        const std::vector<double>& times = context.series.times ? *context.series.times : kNone;
-        const auto steps = static_cast<std::int64_t>(times.size());
-        PlaybackState state = context.settings.playback;
-        const bool toggle = now.pressed(Action::play) || now.pressed(GamepadButton::a);
-        if (toggle)
-            state.playing = !state.playing;
-        if (now.pressed(Action::reverse) || now.pressed(GamepadButton::b))
-            state.reverse = !state.reverse;
-        if (now.pressed(Action::loop))
-            state.loop = !state.loop;
-        if (now.pressed(Action::faster))
-            state.speed = std::min(state.speed * 2, kFastest);
-        if (now.pressed(Action::slower))
-            state.speed = std::max(state.speed / 2, kSlowest);
-
-        std::int64_t step = context.settings.step;
-        const int forward = step_forward.presses(
-            now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper), time);
-        const int back = step_back.presses(
-            now.key(Action::step_back) || now.pad(GamepadButton::left_bumper), time);
-        if (forward != back && steps > 0) {
-            step += forward - back;
-            step = state.loop ? (step % steps + steps) % steps
-                              : std::clamp<std::int64_t>(step, 0, steps - 1);
-            state.playing = false;
-        }
-        const Playback::Result reached =
-            playback.advance(times, static_cast<std::uint32_t>(step), state, elapsed);
-        state.playing = reached.playing;
-        if (reached.step != context.settings.step)
-            commands.step = reached.step;
-        if (now.pressed(Action::follow)) {
-            commands.follow = !context.settings.follow;
-            if (*commands.follow && steps > 0)
-                commands.step = static_cast<std::uint32_t>(steps - 1);
-        }
-        if (state != context.settings.playback)
-            commands.playback = state;
-    }
-
     /// Saves the volume's place in this frame under the next free name; drops the oldest view if
     /// there are `kMostViews`.
-    static void save_view(const ControlContext& context, Commands& commands) {
+    void save_view(const ControlContext& context, Commands& commands) {
         std::vector<Viewpoint> views = context.settings.views;
         std::size_t number = 1;
         const auto name = [&] { return fmt::format("view-{}", number); };
@@ -166,6 +105,7 @@ struct Controls::State {
             views.erase(views.begin());
         views.push_back(
             {name(), commands.room_from_physical.value_or(context.settings.room_from_physical)});
+        notes.push_back(fmt::format("viewpoint {} saved: N goes there", views.back().name));
         commands.views = std::move(views);
     }
 
@@ -226,6 +166,8 @@ struct Controls::State {
         if (now.pressed(Action::stamp))
             commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
         commands.screenshot = now.pressed(Action::screenshot);
+        commands.copy = now.pressed(Action::copy);
+        commands.save = now.pressed(Action::save_session);
     }
 
     /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
@@ -234,6 +176,8 @@ struct Controls::State {
         const bool asks = now.pressed(Action::quit) && context.settings.tools == Tools{};
         if (now.pressed(Action::pick) && context.settings.leaving != asks)
             commands.quit = true;
+        if (now.pressed(Action::ask_to_quit) && !context.settings.leaving)
+            commands.leaving = true;
         if (!now.pressed(Action::quit))
             return;
         if (context.settings.leaving || asks)
@@ -259,6 +203,8 @@ struct Controls::State {
             commands.tools = tools;
         if (now.pressed(Action::snap_clip))
             commands.clip = snapped_next(context.settings.clip, context.data);
+        if (now.pressed(Action::flip_clip) && context.settings.clip.shown)
+            commands.clip = flipped(context.settings.clip);
         if (now.pressed(Action::remove_made))
             remove_made(context, commands);
     }
@@ -279,6 +225,35 @@ struct Controls::State {
         };
         obey(Action::undo, WandButton::undo, context.ways.undo);
         obey(Action::redo, WandButton::redo, context.ways.redo);
+    }
+
+    /// Two clicks in quick succession bring a place on a surface to the middle of the view, at the
+    /// same distance. It depends on the surfaces that are shown.
+    void focus(const Reading& now, const ControlContext& context, Seconds time,
+               const Similarity& volume) {
+        if (!(Reading::buttons(now.mouse) & ~now.before.mouse & bit(MouseBit::left)))
+            return;
+        const bool twice = clicked && time - *clicked <= kDoubleClick;
+        clicked = twice ? std::nullopt : std::optional(time);
+        const auto eye = Reading::hand(now.pointer);
+        if (!twice || !eye || !context.find_surface ||
+            context.settings.tools.mouse != ToolKind::pick)
+            return;
+        const auto hit = context.find_surface(*eye);
+        if (!hit)
+            return;
+        const Pose head = now.viewer();
+        const glm::dvec3 from(head.position), at = transform(volume, hit->point.position);
+        const glm::dvec3 ahead =
+            glm::normalize(glm::dquat(head.orientation)) * glm::dvec3(0, 0, -1);
+        found.room_from_physical = moved(volume, from + glm::distance(at, from) * ahead - at);
+    }
+
+    /// Says why the wheel does nothing any more.
+    void tell_bounds(const Reading& now, const ControlContext& context, const Similarity& volume) {
+        if (!now.key(Action::control) && Reading::valuator(now.mouse, kMouseWheel) != 0 &&
+            volume == context.settings.room_from_physical)
+            notes.emplace_back("the wheel goes no further: Home shows all data again");
     }
 
     ToolBox::Outcome with_tools(const Reading& now, const ControlContext& context,
@@ -303,10 +278,13 @@ Commands Controls::update(const InputState& input, const ControlContext& context
         s.navigator.update(now, context, seconds, s.tools.takes_drag(now, context));
     if (volume != context.settings.room_from_physical)
         commands.room_from_physical = volume;
+    s.tell_bounds(now, context, volume);
+    s.focus(now, context, input.time, volume);
     const double isovalue = s.isovalue(now, context, input.time, seconds);
     if (isovalue != context.settings.isovalue() && std::isfinite(isovalue))
         commands.isovalue = isovalue;
-    s.play(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)), commands);
+    s.time_controls.update(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)),
+                           commands, s.notes);
     s.switches(now, context, input.time, commands);
     s.leave(now, context, commands);
     s.choose_tools(now, context, commands);

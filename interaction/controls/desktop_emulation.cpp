@@ -292,10 +292,12 @@ InputState DesktopEmulation::poll(Seconds now) {
     const double elapsed = s.last_poll ? (now - *s.last_poll).count() : 0.0;
     s.last_poll = now;
     const bool was_reset = s.shown(reset);
-    std::uint64_t keys = 0;
+    std::uint64_t keys = 0, more_keys = 0;
     for (std::size_t i = 0; i < s.switches.size(); ++i) {
+        const auto action = static_cast<Action>(i);
         s.switches[i].poll();
-        keys |= std::uint64_t{s.switches[i].shown} << i;
+        if (s.switches[i].shown)
+            (is_of_more_keys(action) ? more_keys : keys) |= bit(action);
     }
     s.look();
     s.walk(static_cast<float>(std::clamp(elapsed, 0.0, kLongestStep)));
@@ -316,6 +318,7 @@ InputState DesktopEmulation::poll(Seconds now) {
                              s.mouse_down | s.mouse_tapped,
                              {s.mouse.begin(), s.mouse.end()}});
     input.devices.push_back({"keys", std::nullopt, true, keys, {}});
+    input.devices.push_back({"more_keys", std::nullopt, true, more_keys, {}});
     if (const auto ray = s.pointer())
         input.devices.push_back({"pointer", ray, true, 0, {}});
     if (s.gamepad.present)

@@ -18,7 +18,9 @@ bool below(const Velocity& speeds, const StillnessLimits& limits, double factor)
 }
 
 bool is_pending(const DeviceState& device) {
-    const std::uint64_t quiet = device.name == "keys" ? quiet_actions() : 0;
+    const std::uint64_t quiet = device.name == "keys"        ? quiet_actions()
+                                : device.name == "more_keys" ? quiet_among_more_keys()
+                                                             : 0;
     return (device.buttons & ~quiet) != 0 ||
            std::ranges::any_of(device.valuators, [](float value) { return value != 0.0f; });
 }

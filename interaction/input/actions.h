@@ -11,7 +11,8 @@
 
 namespace isochron::interaction {
 
-/// Bits of the device `keys`: the action, whichever key is bound to it.
+/// Bits of the devices `keys` and, from `kFirstOfMoreKeys` on, `more_keys`: the action, whichever key
+/// is bound to it.
 enum class Action : std::uint8_t {
     walk_forward,
     walk_back,
@@ -77,9 +78,31 @@ enum class Action : std::uint8_t {
     flatten,
     next_array,
     next_color_array,
+    ping_pong,
+    range_first,
+    range_last,
+    range_all,
+    first_step,
+    last_step,
+    skip_more,
+    skip_fewer,
+    speed_unit,
+    save_time,
+    next_time,
+    previous_time,
+    copy,
+    save_session,
+    ask_to_quit,
+    flip_clip,
     count
 };
-static_assert(static_cast<int>(Action::count) <= 64); // recordings keep one bit each of 64
+/// Recordings keep 64 bits of a device. Those of older versions have no `more_keys`.
+inline constexpr int kFirstOfMoreKeys = 64;
+static_assert(static_cast<int>(Action::count) <= 2 * kFirstOfMoreKeys);
+
+constexpr bool is_of_more_keys(Action action) {
+    return static_cast<int>(action) >= kFirstOfMoreKeys;
+}
 
 inline constexpr float kHurry = 3.0f; ///< times as fast while Shift is held
 
@@ -102,7 +125,11 @@ enum class WandButton : std::uint8_t {
     probe,
     next_tool,
     undo,
-    redo
+    redo,
+    save_time,
+    next_time,
+    previous_time,
+    mark_range
 };
 /// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rate of the isovalue, rate of the
 /// scale, speed of flying in the direction of the wand, and snap turns (right positive).
@@ -141,6 +168,11 @@ enum class GamepadAxis : std::uint8_t {
 template <typename Button>
 constexpr std::uint64_t bit(Button button) {
     return std::uint64_t{1} << static_cast<unsigned>(button);
+}
+/// In the buttons of `keys`, or of `more_keys` if the action is one of those.
+template <>
+constexpr std::uint64_t bit(Action action) {
+    return std::uint64_t{1} << static_cast<unsigned>(action) % kFirstOfMoreKeys;
 }
 
 /// The modifiers with which a key is bound: none (Shift may be held all the same), Ctrl, or Ctrl
@@ -189,7 +221,13 @@ constexpr std::uint64_t quiet_actions() {
            bit(Action::save_view) | bit(Action::bounding_box) | bit(Action::next_surface) |
            bit(Action::room_panel) | bit(Action::pick) | bit(Action::probe) | bit(Action::undo) |
            bit(Action::redo) | bit(Action::first_tools) | bit(Action::clip_tool) |
-           bit(Action::ruler_tool) | bit(Action::snap_clip) | bit(Action::remove_made);
+           bit(Action::ruler_tool) | bit(Action::snap_clip) | bit(Action::remove_made) |
+           bit(Action::ping_pong);
+}
+/// The same among `more_keys`: all but those that show another step.
+constexpr std::uint64_t quiet_among_more_keys() {
+    return ~(bit(Action::first_step) | bit(Action::last_step) | bit(Action::next_time) |
+             bit(Action::previous_time));
 }
 
 } // namespace isochron::interaction

@@ -12,6 +12,8 @@ constexpr double kHigher = 1.25;          ///< factor of one press
 constexpr double kOrbit = 3.14159265;     ///< [rad per window height dragged]
 constexpr double kViewHeight = 0.966;     ///< window height at distance 1, for a view of 0.9 rad
 constexpr double kNotch = 1.1;            ///< scale per notch of the wheel
+constexpr double kWheelSmallest = 20;     ///< times smaller than at home, and no further
+constexpr double kWheelLargest = 100;     ///< times larger
 constexpr double kFlySpeed = 1.0;         ///< [m/s]
 constexpr double kTurnSpeed = 1.2;        ///< [rad/s]
 constexpr double kTurnStep = 0.523598776; ///< [rad] of a snap turn: 30 degrees
@@ -71,6 +73,21 @@ Similarity flown(const Reading& now, Similarity volume, double seconds) {
     return volume;
 }
 
+/// The room point about which the wheel makes the volume larger: under the cursor, as far away as the
+/// data's center; without a cursor that center.
+glm::dvec3 zoomed_about(const Reading& now, const glm::dvec3& center) {
+    constexpr double kBeside = 0.1; // cosine to the way ahead, below which rays lead nowhere
+    const auto eye = Reading::hand(now.pointer);
+    if (!eye || !can_see(now))
+        return center;
+    const auto ahead_of = [](const Pose& pose) {
+        return glm::normalize(glm::dquat(pose.orientation)) * glm::dvec3(0, 0, -1);
+    };
+    const glm::dvec3 ahead = ahead_of(now.viewer()), way = ahead_of(*eye), from(eye->position);
+    const double depth = glm::dot(center - from, ahead), rate = glm::dot(way, ahead);
+    return depth > 0 && rate > kBeside ? from + depth / rate * way : center;
+}
+
 Similarity resized(const Reading& now, const ControlContext& context, const Similarity& volume,
                    double seconds) {
     const double notches =
@@ -78,9 +95,15 @@ Similarity resized(const Reading& now, const ControlContext& context, const Simi
     const double rate = now.wand_rate(WandValuator::scale);
     if (notches == 0 && rate == 0)
         return volume;
-    const double factor = std::pow(kNotch, notches) * std::pow(kGrowth, rate * seconds);
-    return scaled(volume, transform(volume, context.series.pivot), factor,
-                  context.series.home.scale / kScaleRange, context.series.home.scale * kScaleRange);
+    const glm::dvec3 center = transform(volume, context.series.pivot);
+    const double home = context.series.home.scale;
+    if (rate != 0)
+        return scaled(volume, center, std::pow(kNotch, notches) * std::pow(kGrowth, rate * seconds),
+                      home / kScaleRange, home * kScaleRange);
+    // A volume that was made larger or smaller still by other means stays so.
+    return scaled(volume, zoomed_about(now, center), std::pow(kNotch, notches),
+                  std::min(home / kWheelSmallest, volume.scale),
+                  std::max(home * kWheelLargest, volume.scale));
 }
 
 /// `home` moved and turned so that it lies to the viewer's present place and heading as it lies to

@@ -14,6 +14,7 @@ namespace {
 
 constexpr glm::vec4 kClipColor(1.0f, 0.62f, 0.32f, 0.95f);
 constexpr double kBeside = 0.05; ///< of the box: the mouse can pull the plane this far outside it
+constexpr double kFaces = 0.12;  ///< the same below which a plane faces the user: 20 degrees
 constexpr double kAlong = 0.02;  ///< squared sine below which a ray runs along the normal
 
 glm::dvec3 ahead_of(const Pose& ray) {
@@ -50,6 +51,23 @@ std::optional<double> nearest_along(const glm::dvec3& at, const glm::dvec3& dire
     return (glm::dot(between, direction) - cosine * glm::dot(between, way)) / sine2;
 }
 
+/// The same where the ray runs along the line, as of a plane that faces the user: dragging up moves
+/// the plane away, as far as the cursor moves on it. @param before the ray that met `at`
+double moved_along(const glm::dvec3& at, const glm::dvec3& direction, const Pose& before,
+                   const Pose& ray) {
+    const glm::dvec3 way = ahead_of(before);
+    const glm::dvec3 above =
+        glm::abs(way.y) < 0.99
+            ? glm::dvec3(0, 1, 0)
+            : glm::normalize(glm::dquat(before.orientation)) * glm::dvec3(0, 1, 0);
+    const glm::dvec3 up = glm::normalize(above - glm::dot(above, way) * way);
+    const double away = glm::dot(at - glm::dvec3(before.position), way);
+    const glm::dvec3 now = ahead_of(ray);
+    const glm::dvec3 there = glm::dvec3(ray.position) + away / glm::dot(now, way) * now;
+    const double pushed = glm::dot(there - at, up);
+    return glm::dot(direction, way) > 0 ? pushed : -pushed;
+}
+
 /// Unit normal of the faces at the two ends of one axis of the box.
 glm::dvec3 across(int axis, const DataFrame& data) {
     const glm::dmat4& box = data.physical_from_box;
@@ -83,11 +101,14 @@ void ClipTool::pull_with(const ToolHand& hand, const ToolContext& now, Commands&
         const auto at = met(*hand.ray, shown, now);
         pulled_.reset();
         if (at)
-            pulled_ = Pulled{shown, *at, normal_in_room(room, shown.normal)};
+            pulled_ = Pulled{shown, *hand.ray, *at, normal_in_room(room, shown.normal)};
     }
     if (!pulled_)
         return;
-    const auto along = nearest_along(pulled_->at, pulled_->normal, *hand.ray);
+    const double cosine = glm::dot(pulled_->normal, ahead_of(pulled_->ray));
+    const auto along = 1 - cosine * cosine < kFaces
+                           ? moved_along(pulled_->at, pulled_->normal, pulled_->ray, *hand.ray)
+                           : nearest_along(pulled_->at, pulled_->normal, *hand.ray);
     if (!along)
         return;
     ClipPlane plane = pulled_->plane;
@@ -144,6 +165,11 @@ ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data) {
         if (plane.shown && std::abs(glm::dot(plane.normal, across(axis, data))) > 1 - 1e-9)
             next = (axis + 1) % 3;
     return snapped(plane, next, data);
+}
+
+ClipPlane flipped(ClipPlane plane) {
+    plane.normal = -plane.normal;
+    return plane;
 }
 
 std::vector<glm::dvec3> outline(const ClipPlane& plane, const DataFrame& data) {

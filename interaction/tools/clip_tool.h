@@ -8,7 +8,7 @@ namespace isochron::interaction {
 /// While no plane is shown, choosing a place on a surface lays a plane through it, across the ray;
 /// the side towards the hand is cut away. While one is shown, a hand whose button is down holds it:
 /// the plane moves and turns with the hand. The mouse pulls the plane along its normal, at the
-/// point where the mouse's ray hit it.
+/// point where the mouse's ray hit it; a plane that faces the user moves away as the mouse moves up.
 class ClipTool final : public Tool {
   public:
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
@@ -22,6 +22,7 @@ class ClipTool final : public Tool {
     /// The plane as it was when the mouse's button went down, and where the ray hit it.
     struct Pulled {
         ClipPlane plane;
+        Pose ray;
         glm::dvec3 at, normal; ///< the point that was hit and the plane's normal, in the room
     };
     void move_with(const ToolHand& hand, const ToolContext& now, Commands& commands);
@@ -38,6 +39,9 @@ ClipPlane snapped(const ClipPlane& plane, int axis, const DataFrame& data);
 
 /// `snapped` across the axis after the plane's current one; across the first if it has none.
 ClipPlane snapped_next(const ClipPlane& plane, const DataFrame& data);
+
+/// The plane that cuts away the other side.
+ClipPlane flipped(ClipPlane plane);
 
 /// Its outline on the data's box.
 ToolDrawing draw_clip(const Settings& settings, const DataFrame& data);

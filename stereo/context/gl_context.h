@@ -62,6 +62,8 @@ class GlContext {
     virtual void wait(const Wake& wake, interaction::Seconds longest);
     /// Whether the window system has lost what the window showed since the last call.
     virtual bool take_damage() { return false; }
+    /// Gives a text to the window system's clipboard; without a window, to nobody.
+    virtual void set_clipboard(const std::string&) {}
     /// Files that were dropped onto the window since the last call.
     virtual std::vector<std::filesystem::path> take_dropped() { return {}; }
     /// The window system's handles of the context.

@@ -263,6 +263,9 @@ class GlfwContext final : public GlContext {
         }
     }
     bool take_damage() override { return std::exchange(damaged_, false); }
+    void set_clipboard(const std::string& text) override {
+        glfwSetClipboardString(window_, text.c_str());
+    }
     std::vector<std::filesystem::path> take_dropped() override {
         return std::exchange(dropped_, {});
     }

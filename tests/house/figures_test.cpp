@@ -27,6 +27,7 @@ struct KnownConstant {
 
 const std::vector<KnownConstant>& known_constants() {
     static const std::vector<KnownConstant> constants{
+        {"docs/guide/exploring.md", "10 s", "interaction/step_track.h", "kRoundSeconds = 10.0"},
         {"docs/guide/exploring.md", "1 %", "interaction/controls/controls.cpp", "kCoarse = 0.01"},
         {"docs/guide/headsets.md", "100 ms", "app/quality/frame_quality.h", "kStillAfter{0.1}"},
         {"docs/guide/limits.md", "90 Hz", "tests/bench/pages/results_page.cpp",

@@ -267,6 +267,32 @@ void VirtualDisplay::drop_file(const std::string& title, const std::string& path
         throw std::runtime_error(title + " does not take what is dropped");
 }
 
+std::string VirtualDisplay::clipboard() const {
+    const Connection& x = *connection_;
+    const Window asks =
+        XCreateSimpleWindow(x.display, DefaultRootWindow(x.display), 0, 0, 1, 1, 0, 0, 0);
+    const Atom text = x.atom("UTF8_STRING"), clipboard = x.atom("CLIPBOARD");
+    XConvertSelection(x.display, clipboard, text, text, asks, CurrentTime);
+    XEvent answer;
+    const bool answered = eventually(
+        [&] { return XCheckTypedWindowEvent(x.display, asks, SelectionNotify, &answer) == True; });
+    std::string words;
+    if (answered && answer.xselection.property != None) {
+        Atom type = None;
+        int format = 0;
+        unsigned long size = 0, left = 0;
+        unsigned char* bytes = nullptr;
+        XGetWindowProperty(x.display, asks, text, 0, 1 << 16, False, AnyPropertyType, &type,
+                           &format, &size, &left, &bytes);
+        if (bytes)
+            words.assign(reinterpret_cast<const char*>(bytes), size);
+        XFree(bytes);
+    }
+    XDestroyWindow(x.display, asks);
+    XSync(x.display, False);
+    return words;
+}
+
 void VirtualDisplay::set_dots_per_inch(int dots) const {
     Display* display = connection_->display;
     const std::string resources = "Xft.dpi:\t" + std::to_string(dots) + "\n";

@@ -29,6 +29,8 @@ class VirtualDisplay {
     /// Drags a file from another program and drops it onto the window, by the XDND protocol that
     /// desktops' file managers speak. Waits until the window has taken it.
     void drop_file(const std::string& title, const std::string& path) const;
+    /// The text that a program has given to the clipboard; empty: there is none.
+    std::string clipboard() const;
     /// The server is killed, and the connections of all programs to it are cut.
     void die();
     /// Sets the resolution that programs which start from now on are told (Xft.dpi).

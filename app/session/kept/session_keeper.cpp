@@ -45,6 +45,15 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
     });
 }
 
+void SessionKeeper::save_now(const ExplorerState& state, const interaction::StandingPlace& head,
+                             const Arrays& arrays) {
+    keep(state, head, arrays);
+    writing_.post([path = path_, session = kept_, moves = std::exchange(moves_earlier_, false)] {
+        save(path, session, moves);
+        return "session saved: " + path.string();
+    });
+}
+
 void SessionKeeper::finish(const ExplorerState& state, const interaction::StandingPlace& head,
                            const Arrays& arrays) {
     writing_.finish();

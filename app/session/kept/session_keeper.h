@@ -33,6 +33,9 @@ class SessionKeeper {
     /// Saves the session if a save is due and it has changed. Called once a frame.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
                 interaction::Seconds now, const Arrays& arrays = {});
+    /// Saves the session now, and says where.
+    void save_now(const ExplorerState& state, const interaction::StandingPlace& head,
+                  const Arrays& arrays = {});
     /// Saves the session if it has changed since. @throws index::Error when it cannot be written
     void finish(const ExplorerState& state, const interaction::StandingPlace& head,
                 const Arrays& arrays = {});

@@ -120,6 +120,25 @@ TEST_F(ArraysCommand, AllThatThereAreAreTakenWithTheMagnitudeOfVectors) {
     EXPECT_EQ(found("heat", 0.15, 3), active_of_negative(3, 0.15));
 }
 
+TEST_F(ArraysCommand, WhereNoneIsNamedTheCommandForEachIsToldAndWorks) {
+    const ChildResult told = isochron(build({}));
+    EXPECT_EQ(told.status, 1);
+    EXPECT_THAT(told.err, HasSubstr("several arrays"));
+    std::istringstream lines(told.err);
+    std::size_t commands = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("isochron build 't?.vtk' -o a.isochron --"))
+            continue;
+        ++commands;
+        std::vector<std::string> more;
+        std::istringstream words(line.substr(line.find(" --") + 1));
+        for (std::string word; words >> word;)
+            more.push_back(word);
+        EXPECT_EQ(isochron(build(more)).status, 0) << line;
+    }
+    EXPECT_EQ(commands, 4u) << told.err; // rho, heat, the magnitude of wind, and all
+}
+
 TEST_F(ArraysCommand, WhatIsComputedMayBeAmongThem) {
     const ChildResult made = isochron(build({"--array", "rho", "--array", "rho.gradient", "--array",
                                              "wind.vorticity", "--array", "wind.q-criterion"}));

@@ -46,6 +46,22 @@ TEST_F(ExploreTest, MakesAnIndexOfFilesOfValuesAndKeepsIt) {
         1);
 }
 
+TEST_F(ExploreTest, OfSeveralArraysItShowsOneAndHasTheOthers) {
+    std::string text = "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET STRUCTURED_POINTS\n"
+                       "DIMENSIONS 4 4 4\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 64\n";
+    for (const char* array : {"rho", "heat"}) {
+        text += fmt::format("SCALARS {} float 1\nLOOKUP_TABLE default\n", array);
+        for (int i = 0; i < 64; ++i)
+            text += fmt::format("{}\n", i);
+    }
+    folder_.write("two.vtk", text);
+    ASSERT_EQ(Program({"explore", file("two.vtk"), "--size", "320", "240", "--seconds", "0.2",
+                       "--record", file("walk.jsonl")})
+                  .exit_status(),
+              0);
+    EXPECT_EQ(index::IndexFile::open(read_recording(file("walk.jsonl")).header.data)->arrays(), 2u);
+}
+
 TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {
     const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel"});
     screen_.xdotool({"key", "space", "Up", "Up", "2", "v", "m"});

@@ -4,7 +4,9 @@
 
 #include "app/session/kept/recording_file.h"
 #include "app/session/kept/user_memory.h"
+#include "stereo/image_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -46,6 +48,86 @@ TEST_F(ExploreWindow, WithoutADisplayItSaysSo) {
     unsetenv("DISPLAY");
     EXPECT_EQ(Program({"explore", file("sphere.isochron")}).exit_status(), 1);
     EXPECT_EQ(Program({"explore"}).exit_status(), 1);
+}
+
+TEST_F(ExploreWindow, CopiesTheValueUnderTheCursorAndSavesTheSession) {
+    const auto program = explore({"--record", file("walk.jsonl"), "--isovalue", "8", "--no-panel",
+                                  "--session", file("kept.isochron-session")});
+    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "240"});
+    std::string copied;
+    EXPECT_TRUE(test_support::eventually([&] { // the surface is there after some frames
+        screen_.xdotool({"key", "ctrl+c"});
+        await_frame();
+        copied = screen_.clipboard();
+        return copied.find(" mm: 8 at 0 s") != copied.npos;
+    })) << copied;
+    screen_.xdotool({"key", "ctrl+s"});
+    await_frame();
+    EXPECT_TRUE(comes("kept.isochron-session", "\"isovalue\": 8"));
+    screen_.xdotool({"key", "ctrl+q"});
+    await_frame();
+    screen_.xdotool({"key", "Return"});
+    EXPECT_EQ(program->exit_status(), 0);
+    const auto recording = read_recording(file("walk.jsonl"));
+    const auto any = [&](auto claim) {
+        return std::ranges::any_of(recording.frames,
+                                   [&](const auto& frame) { return claim(frame.commands); });
+    };
+    EXPECT_TRUE(any([](const auto& c) { return c.copy; }));
+    EXPECT_TRUE(any([](const auto& c) { return c.save; }));
+    EXPECT_TRUE(any([](const auto& c) { return c.leaving == true; }));
+}
+
+TEST_F(ExploreWindow, WritesThePictureThatIsSeenBesideThePanel) {
+    const Program program({"explore", file("sphere.isochron"), "--isovalue", "8", "--screenshots",
+                           folder_.path().string(), "--size", "1000", "600"});
+    wait_for_window("Isochron");
+    screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window", "%1",
+                     "700", "300"});
+    await_frame();
+    screen_.xdotool({"key", "p"});
+    EXPECT_TRUE(test_support::eventually([&] {
+        await_frame();
+        return std::filesystem::exists(folder_.path() / "isochron_0001.png");
+    }));
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
+    const render::Image seen = stereo::read_image(folder_.path() / "isochron_0001.png");
+    EXPECT_EQ(seen.height, 600);
+    EXPECT_LT(seen.width, 1000) << "without the panel's part";
+    EXPECT_GT(seen.width, 400);
+    EXPECT_EQ(Program({"reproduce", file("isochron_0001.png"), "--data", file("sphere.isochron")})
+                  .exit_status(),
+              0);
+}
+
+TEST_F(ExploreWindow, SaysAtOnceThatASessionCannotBeKept) {
+    folder_.write("none", "a file where a folder should be");
+    setenv("XDG_STATE_HOME", file("none").c_str(), 1);
+    EXPECT_EQ(
+        Program({"explore", file("sphere.isochron"), "--size", "320", "240", "--seconds", "0.2"})
+            .exit_status(),
+        0);
+}
+
+TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {
+    const auto size_of = [&] {
+        const Program program({"explore", file("sphere.isochron"), "--record", file("walk.jsonl"),
+                               "--force", "--seconds", "0.2"});
+        EXPECT_EQ(program.exit_status(), 0);
+        return read_recording(file("walk.jsonl")).header.window;
+    };
+    EXPECT_EQ(size_of()[1], 720) << "as configured";
+    {
+        const Program program({"explore", file("sphere.isochron"), "--seconds", "300"});
+        wait_for_window("Isochron");
+        await_frame();
+        screen_.resize_window(title("sphere.isochron"), 700, 500);
+        await_frame();
+        program.signal(SIGTERM);
+        EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
+    }
+    EXPECT_EQ(size_of(), (std::array{700, 500}));
 }
 
 TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {

@@ -57,6 +57,28 @@ TEST(ExplorerState, RefusesWhatItCannotHold) {
         EXPECT_TRUE(refused(commands));
 }
 
+TEST(ExplorerState, RefusesTimesThatTheSeriesLacks) {
+    constexpr std::size_t kHeld = 5;
+    const auto refused = [](const auto& set) {
+        ExplorerState state;
+        const ExplorerState before = state;
+        Commands commands;
+        set(commands);
+        return !state.apply(commands, kHeld) && state == before;
+    };
+    using interaction::StepRange;
+    for (const StepRange& range : {StepRange{5, {}}, StepRange{{}, 5}, StepRange{3, 2}})
+        EXPECT_TRUE(refused([&](Commands& commands) { commands.play_range = range; }));
+    for (const StepRange& range : {StepRange{4, {}}, StepRange{2, 2}, StepRange{}})
+        EXPECT_FALSE(refused([&](Commands& commands) { commands.play_range = range; }));
+    EXPECT_TRUE(refused([](Commands& commands) { commands.bookmarks = {{"late", 5}}; }));
+    EXPECT_FALSE(refused([](Commands& commands) { commands.bookmarks = {{"last", 4}}; }));
+    for (const auto& playback :
+         {interaction::PlaybackState{.every = 0}, interaction::PlaybackState{.every = 1001},
+          interaction::PlaybackState{.rate = 0}})
+        EXPECT_TRUE(refused([&](Commands& commands) { commands.playback = playback; }));
+}
+
 TEST(ExplorerState, WhatEarlierVersionsKeptIsDrawnWithoutOcclusion) {
     ExplorerState kept;
     kept.look = {interaction::Background::light, interaction::Material::metal, 0.25f};

@@ -53,6 +53,16 @@ TEST_P(LegendTest, ShowsTheMapFromLowToHigh) {
     EXPECT_EQ(low->low.x, high->low.x);
 }
 
+TEST_P(LegendTest, HasNoBoxOnALightBackground) {
+    Legend legend = of_temperature();
+    legend.ink = ink_on(interaction::Background::light);
+    const auto quads = legend_quads(legend, text_, {1000, 1000});
+    ASSERT_FALSE(quads.empty());
+    EXPECT_EQ(glm::vec3(quads.front().color), kPaperWhite) << "as the background";
+    EXPECT_TRUE(std::ranges::any_of(
+        quads, [](const ScreenQuad& quad) { return glm::vec3(quad.color) == kDarkInk; }));
+}
+
 TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {
     const std::vector<interaction::Isosurface> one(1), two{{1, {1, 0, 0}, 1}, {2, {0, 1, 0}, 1}};
     EXPECT_TRUE(legend_quads({one, "K", {}}, text_, {1000, 1000}).empty());

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <sys/resource.h>
 #include <utility>
 
 namespace isochron::app {
@@ -125,6 +126,35 @@ TEST_F(IdleLoop, WaitsForGoodOnceThePictureIsFinalAndPresentsNothingUntilSomethi
     run({nothing, nothing, nothing});
     EXPECT_EQ(since_wait_.frames, 1 + IdleWait::kFramesAfter) << "of which one ends the wait";
     EXPECT_EQ(since_wait_.presents, 0);
+}
+
+TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
+    const LiveLoop* loop = nullptr;
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, SIG_IGN);
+    prepare_ = [&](LiveLoop& live) {
+        loop = &live;
+        live.record(folder_.path() / "walk.jsonl", {});
+        EXPECT_TRUE(live.records());
+        rlimit small = before;
+        small.rlim_cur = 4096; // as if the disk were full then
+        EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    };
+    start_ = [](ExplorerState state) {
+        state.playback.playing = true; // so that there are frames all the time
+        return state;
+    };
+    constexpr int kMany = 100'000;
+    bool stopped = false;
+    each_frame_ = [&] {
+        stopped = !loop->records();
+        return stopped || frames_ > kMany;
+    };
+    EXPECT_ANY_THROW(run({})) << "the end says it, too";
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, SIG_DFL);
+    EXPECT_TRUE(stopped);
 }
 
 TEST_F(IdleLoop, AKeyBringsFramesUntilTheNewPictureIsFinal) {

@@ -84,7 +84,7 @@ class RandomUser : public SessionTest {
         }
         device.pose_valid = device.pose && any(4) != 0;
         device.pose_lost = !device.pose_valid && any(2) == 0;
-        device.buttons = any(3) == 0 ? random_() % 4096 : 0;
+        device.buttons = any(3) == 0 ? random_() % 32768 : 0;
         for (unsigned i = any(7); i > 0; --i)
             device.valuators.push_back(from(-1, 1));
         return device;

@@ -77,6 +77,25 @@ TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{2, 3, 4, 5, 6}));
 }
 
+TEST(Prefetch, ComesInTheOrderInWhichStepsAreShown) {
+    const auto order = [](const StepsAhead& ahead) {
+        std::vector<std::uint32_t> steps;
+        for (std::uint32_t i = 0; i < ahead.count(); ++i)
+            steps.push_back(ahead.at(i));
+        return steps;
+    };
+    using Steps = std::vector<std::uint32_t>;
+    EXPECT_EQ(order({.next = 1, .steps = 4, .first = 10, .every = 5}), (Steps{15, 20, 25}));
+    EXPECT_EQ(order({.next = 1, .steps = 4, .reverse = true, .first = 10, .every = 5}),
+              (Steps{15, 10, 25}));
+    EXPECT_EQ(order({.next = 3, .steps = 5, .to_and_fro = true}), (Steps{3, 4, 1, 0})) << "from 2";
+    EXPECT_EQ(order({.next = 3, .steps = 5, .reverse = true, .to_and_fro = true}),
+              (Steps{3, 2, 1, 0}))
+        << "from the end";
+    EXPECT_EQ(order({.next = 1, .steps = 5, .to_and_fro = true}), (Steps{1, 2, 3, 4}));
+    EXPECT_EQ(order({.next = 1, .steps = 2, .to_and_fro = true}), Steps{1});
+}
+
 TEST(Prefetch, WhatHasAMeshAnswersWhoNeedsNoneAndNotTheOtherWayRound) {
     SizedExtraction made(1000);
     Extractor extractor(made.extract());

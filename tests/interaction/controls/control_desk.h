@@ -43,6 +43,23 @@ class Desk {
         merge(commands, frame({head_at(kStanding), keys_down(0)}));
         return commands;
     }
+    Commands tap(Action action) {
+        const char* device = is_of_more_keys(action) ? "more_keys" : "keys";
+        Commands commands =
+            frame({head_at(kStanding), {device, std::nullopt, true, bit(action), {}}});
+        merge(commands, frame({head_at(kStanding)}));
+        return commands;
+    }
+    std::vector<std::string> notes() { return controls_.take_notes(); }
+    /// The wheel, with the eye's ray through the cursor.
+    Commands wheel(float notches, const std::optional<Pose>& ray = {}) {
+        std::vector<float> valuators(kMouseValuators, 0.0f);
+        valuators[kMouseWheel] = notches;
+        std::vector<DeviceState> devices{head_at(kStanding), mouse_dragged(std::move(valuators))};
+        if (ray)
+            devices.push_back({"pointer", ray, true, 0, {}});
+        return frame(std::move(devices));
+    }
     const Similarity& volume() const { return settings.room_from_physical; }
     glm::dvec3 center() const { return transform(volume(), context.series.pivot); }
 

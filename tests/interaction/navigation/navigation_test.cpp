@@ -2,6 +2,8 @@
 #include "interaction/navigation/axis_views.h"
 #include "tests/interaction/controls/control_desk.h"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <limits>
 #include <set>
@@ -172,6 +174,41 @@ TEST(Controls, ResetLeadsBackToTheStartInEverything) {
     EXPECT_EQ(commands.orthographic, false);
     EXPECT_TRUE(commands.clip);
     EXPECT_FALSE(desk.frame({head_at(kStanding), keys_down(0)}).isovalue);
+}
+
+TEST(Navigator, TheWheelKeepsThePlaceUnderTheCursor) {
+    Desk desk;
+    const Pose ray{
+        kStanding.position,
+        glm::quatLookAt(glm::normalize(glm::vec3(0.2f, -0.3f, -1.0f)), glm::vec3(0, 1, 0))};
+    const double depth = kStanding.position.z - desk.center().z;
+    const glm::dvec3 there = glm::dvec3(kStanding.position) + depth * glm::dvec3(0.2, -0.3, -1.0);
+    const glm::dvec3 before = physical(desk.volume(), there);
+    for (const float notches : {3.0f, -5.0f, 2.0f}) {
+        const double scale = desk.volume().scale;
+        desk.wheel(notches, ray);
+        EXPECT_NEAR(desk.volume().scale / scale, std::pow(1.1, notches), 1e-6);
+        expect_near(physical(desk.volume(), there), before, 1e-3);
+    }
+    Desk without;
+    const glm::dvec3 center = without.center();
+    without.wheel(4.0f);
+    expect_near(without.center(), center, 1e-9);
+}
+
+TEST(Navigator, TheWheelStopsAtItsBoundsAndSaysSo) {
+    for (const float way : {20.0f, -20.0f}) {
+        Desk desk;
+        const double home = desk.context.series.home.scale;
+        for (int i = 0; i < 20; ++i)
+            desk.wheel(way);
+        EXPECT_NEAR(desk.volume().scale, way > 0 ? home * 100 : home / 20, 1e-9 * home * 100);
+        EXPECT_THAT(desk.notes(),
+                    testing::Contains("the wheel goes no further: Home shows all data "
+                                      "again"));
+        desk.tap(bit(Action::reset));
+        EXPECT_EQ(desk.volume(), desk.context.series.home);
+    }
 }
 
 TEST(Navigator, AxisViewsShowEachAxisTowardsTheEyeInTheMiddle) {

@@ -91,6 +91,27 @@ TEST(Tools, AHandThatHoldsAnotherToolDoesNotMoveTheVolume) {
     EXPECT_TRUE(desk.frame({wand_at(hand, kHold)}).room_from_physical);
 }
 
+TEST(Tools, ADoubleClickBringsThePlaceToTheMiddleOfTheView) {
+    ToolDesk desk;
+    const glm::dvec3 at(10, 40, 30);
+    const double away = glm::distance(transform(desk.volume(), at), glm::dvec3(kStanding.position));
+    const Similarity before = desk.volume();
+    desk.click(desk.in_room(at));
+    EXPECT_EQ(desk.volume(), before) << "one click does not";
+    desk.click(desk.in_room(at));
+    expect_near(transform(desk.volume(), at),
+                glm::dvec3(kStanding.position) + away * glm::dvec3(0, 0, -1), 1e-4);
+    EXPECT_EQ(desk.volume().scale, before.scale);
+    const Similarity focused = desk.volume();
+    for (int frame = 0; frame < 60; ++frame)
+        desk.frame({head_at(kStanding)});
+    desk.click(desk.in_room({20, 20, 30}));
+    for (int frame = 0; frame < 60; ++frame)
+        desk.frame({head_at(kStanding)});
+    desk.click(desk.in_room({20, 20, 30}));
+    EXPECT_EQ(desk.volume(), focused) << "nor do two that are far apart";
+}
+
 TEST(Tools, TheRulerMeasuresInTheDataUnitsAndBeginsAnew) {
     ToolDesk desk;
     desk.tap(bit(Action::ruler_tool));
@@ -146,6 +167,37 @@ TEST(Tools, TheMousePullsTheClipPlaneUnderItsRayAndTurnsNothing) {
     ASSERT_TRUE(pulled.clip);
     EXPECT_NEAR(glm::dot(pulled.clip->point - glm::dvec3(30, 25, 30), normal), 8.0, 1e-3);
     EXPECT_EQ(pulled.clip->normal, normal);
+}
+
+TEST(Tools, AClipPlaneThatFacesTheUserMovesAwayAsTheMouseMovesUp) {
+    for (const double side : {1.0, -1.0}) {
+        ToolDesk desk;
+        desk.settings.tools.mouse = ToolKind::clip;
+        const glm::dvec3 at(30, 25, 30);
+        const glm::dvec3 eye = in_physical(desk.volume(), glm::dvec3(kStanding.position));
+        const glm::dvec3 away = glm::normalize(at - eye);
+        desk.settings.clip = {true, at, side * away};
+        desk.mouse(desk.in_room(at), bit(MouseBit::left));
+        const glm::dvec3 up(0, 6, 0);
+        const Commands pulled = desk.mouse(desk.in_room(at + up), bit(MouseBit::left), 0.1f);
+        EXPECT_FALSE(pulled.room_from_physical) << "the drag is the plane's";
+        ASSERT_TRUE(pulled.clip);
+        const double moved = glm::dot(pulled.clip->point - at, away);
+        EXPECT_GT(moved, 4);
+        EXPECT_LT(moved, 8);
+        expect_near(pulled.clip->point, at + moved * away, 1e-4);
+        expect_near(pulled.clip->normal, side * away);
+        const Commands back = desk.mouse(desk.in_room(at), bit(MouseBit::left), 0.1f);
+        ASSERT_TRUE(back.clip);
+        expect_near(back.clip->point, at, 1e-3);
+    }
+}
+
+TEST(Tools, AClipPlaneIsTurnedToCutAwayTheOtherSide) {
+    ToolDesk desk;
+    EXPECT_TRUE(desk.tap(Action::flip_clip).empty()) << "there is none";
+    desk.settings.clip = {true, {30, 25, 30}, {0, 0.6, 0.8}};
+    EXPECT_EQ(desk.tap(Action::flip_clip).clip, (ClipPlane{true, {30, 25, 30}, {0, -0.6, -0.8}}));
 }
 
 TEST(Tools, AClipPlaneIsUnderTheMouseWhereHeightsAreExaggerated) {

@@ -1,4 +1,6 @@
 // A resumed session is the same as the saved one, pixel by pixel.
+#include "app/explore/kept_session.h"
+#include "app/session/kept/session_claim.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/kept/session_keeper.h"
 #include "tests/interaction/recording/random_commands.h"
@@ -107,12 +109,48 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
             << "that alone has changed";
     }
     std::filesystem::remove(path.string());
+    {
+        SessionKeeper keeper(path, kept_of(state), true);
+        keeper.save_now(state, head);
+        keeper.finish(state, head);
+        EXPECT_TRUE(back_from(path).grid) << "asked for, though nothing has changed";
+        EXPECT_THAT(keeper.messages(), testing::ElementsAre("session saved: " + path.string()));
+    }
+    std::filesystem::remove(path.string());
     save_session(path, kept_of(state));
     state.step = 3;
     SessionKeeper second(path, start, false);
     second.finish(state, head);
     EXPECT_EQ(back_from(path).step, 3u);
     EXPECT_EQ(back_from(path.string() + ".before").step, 0u);
+}
+
+TEST(KeptSession, WhereItCannotBeKeptIsSaidWithTheReason) {
+    TestFolder folder;
+    EXPECT_THAT(why_not_kept(std::nullopt), testing::HasSubstr("neither HOME nor XDG_STATE_HOME"));
+    const auto file = folder.write("none", "a file where a folder should be");
+    EXPECT_THAT(why_not_kept(std::filesystem::path(file) / "isochron" / "a.isochron-session"),
+                testing::AllOf(testing::HasSubstr("this session is not saved"),
+                               testing::HasSubstr("none/isochron")));
+    EXPECT_EQ(why_not_kept(folder.path() / "new" / "a.isochron-session"), "");
+    EXPECT_EQ(why_not_kept("a.isochron-session"), "");
+}
+
+TEST(SessionClaim, TwoProgramsHaveAFileEachUntilTheyEnd) {
+    TestFolder folder;
+    const auto wanted = folder.path() / "deep" / "sphere-00.isochron-session";
+    {
+        const SessionClaim first(wanted);
+        EXPECT_EQ(first.path(), wanted);
+        {
+            const SessionClaim second(wanted), third(wanted);
+            EXPECT_EQ(second.path().filename(), "sphere-00-2.isochron-session");
+            EXPECT_EQ(third.path().filename(), "sphere-00-3.isochron-session");
+        }
+        EXPECT_EQ(SessionClaim(wanted).path().filename(), "sphere-00-2.isochron-session");
+    }
+    EXPECT_EQ(SessionClaim(wanted).path(), wanted);
+    EXPECT_TRUE(std::filesystem::is_empty(wanted.parent_path())) << "no locks are left";
 }
 
 TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {

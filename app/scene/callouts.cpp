@@ -1,0 +1,191 @@
+// Words beside places in the data, and room for them.
+#include "app/scene/callouts.h"
+
+#include "app/scene/legend.h"
+#include "app/scene/mark.h"
+#include "interaction/navigation/navigation.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace isochron::app {
+namespace {
+
+// In heights of the text.
+constexpr float kOff = 0.5f;               ///< words, from the place beside which they stand
+constexpr float kPad = 0.4f, kRow = 1.15f; ///< around them; from line to line
+constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///< of the signs
+constexpr float kBetween = 0.15f; ///< from one callout to another one
+
+constexpr glm::vec4 kMarkColor(1.0f, 0.45f, 0.85f, 1.0f), kCalloutInk(0.95f, 0.96f, 0.98f, 1.0f),
+    kCalloutPaper(0.05f, 0.06f, 0.07f, 0.78f);
+
+float reach_of(CalloutSign sign) {
+    switch (sign) {
+    case CalloutSign::none: break;
+    case CalloutSign::cross: return kArm + kRim;
+    case CalloutSign::dot: return kDot + kRim;
+    }
+    return 0.0f;
+}
+
+glm::vec2 size_of(const Callout& callout, const render::GlyphAtlas& atlas) {
+    float width = 0.0f;
+    for (const std::string& line : callout.lines)
+        width = std::max(width, render::text_width(atlas, line));
+    return {width + 2 * kPad, kRow * static_cast<float>(callout.lines.size()) + 2 * kPad};
+}
+
+/// Lower left corners of the words, the best first.
+std::vector<glm::vec2> choices_for(const Callout& callout, const glm::vec2& size) {
+    constexpr int kRows = 4; // of callouts, over and below
+    std::vector<glm::vec2> choices;
+    for (int row = 0; row < kRows; ++row) {
+        const float away = static_cast<float>(row) * (size.y + kBetween);
+        if (callout.sign == CalloutSign::none) {
+            choices.emplace_back(-0.5f * size.x, away - 0.5f * size.y);
+            choices.emplace_back(-0.5f * size.x, -away - 0.5f * size.y);
+        } else {
+            for (const float y : {kOff + away, -kOff - away - size.y})
+                for (const float x : {kOff, -kOff - size.x})
+                    choices.emplace_back(x, y);
+        }
+    }
+    return choices;
+}
+
+struct Area {
+    glm::vec2 low{0.0f}, high{0.0f}; ///< [pixel]
+
+    bool meets(const Area& other, float apart) const {
+        return low.x < other.high.x + apart && other.low.x < high.x + apart &&
+               low.y < other.high.y + apart && other.low.y < high.y + apart;
+    }
+};
+/// One area in each view; none where the place is behind the eye.
+using Areas = std::vector<std::optional<Area>>;
+
+Areas areas_of(const glm::vec3& at, const CalloutPaper& paper,
+               std::span<const render::View> views) {
+    Areas areas;
+    for (const render::View& view : views) {
+        const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(at, 1.0f);
+        const glm::vec2 pixel = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(view.size);
+        const float height = text_height(view.size);
+        if (clip.w > 0.0f)
+            areas.push_back(Area{pixel + height * paper.low, pixel + height * paper.high});
+        else
+            areas.emplace_back();
+    }
+    return areas;
+}
+
+bool meet(const Areas& a, const Areas& b, std::span<const render::View> views) {
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (a[i] && b[i] && a[i]->meets(*b[i], kBetween * text_height(views[i].size)))
+            return true;
+    return false;
+}
+
+bool are_inside(const Areas& areas, std::span<const render::View> views) {
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (areas[i] && (glm::any(glm::lessThan(areas[i]->low, glm::vec2(0.0f))) ||
+                         glm::any(glm::greaterThan(areas[i]->high, glm::vec2(views[i].size)))))
+            return false;
+    return true;
+}
+
+void add_sign(const Callout& callout, float height, const render::TextPass& text,
+              std::vector<render::ScreenQuad>& quads) {
+    const auto fill = [&](const glm::vec2& reach, const glm::vec4& color) {
+        text.fill(callout.at, -height * reach, height * reach, color, quads);
+    };
+    for (const float rim : {kRim, 0.0f}) {
+        const glm::vec4 paper = kCalloutPaper;
+        if (callout.sign == CalloutSign::dot)
+            fill(glm::vec2(kDot + rim), rim > 0 ? paper : kCalloutInk);
+        if (callout.sign == CalloutSign::cross)
+            for (const bool upright : {false, true}) {
+                const glm::vec2 arm(kArm + rim, kHalfWidth + rim);
+                fill(upright ? glm::vec2(arm.y, arm.x) : arm, rim > 0 ? paper : kMarkColor);
+            }
+    }
+}
+
+} // namespace
+
+std::vector<Callout> callouts_of(const Picture& picture,
+                                 const std::optional<interaction::Pointed>& pointed,
+                                 const index::SeriesInfo& info) {
+    const auto in_room = [&](const glm::dvec3& place) {
+        return glm::vec3(interaction::transform(picture.room_from_physical, place));
+    };
+    std::vector<Callout> callouts;
+    if (const auto& mark = picture.mark.point)
+        callouts.push_back(
+            {in_room(mark->position), mark_lines(*mark, info), kMarkColor, CalloutSign::cross});
+    for (const interaction::ToolLabel& label : picture.tools.labels)
+        callouts.push_back({in_room(label.at), {label.text}, kCalloutInk, CalloutSign::none});
+    if (pointed && pointed->surface < picture.isosurfaces.size())
+        callouts.push_back({in_room(pointed->point.position),
+                            pointed_lines(*pointed, picture.isosurfaces.size(), info),
+                            glm::vec4(picture.isosurfaces[pointed->surface].color, 1.0f),
+                            CalloutSign::dot});
+    return callouts;
+}
+
+std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
+                                    const render::GlyphAtlas& atlas,
+                                    std::span<const render::View> views) {
+    std::vector<Areas> signs, taken;
+    for (const Callout& callout : callouts) {
+        const glm::vec2 reach(reach_of(callout.sign));
+        signs.push_back(areas_of(callout.at, {-reach, reach}, views));
+    }
+    std::vector<CalloutPaper> papers;
+    for (std::size_t i = 0; i < callouts.size(); ++i) {
+        const glm::vec2 size = size_of(callouts[i], atlas);
+        const auto choices = choices_for(callouts[i], size);
+        std::optional<CalloutPaper> free, inside;
+        for (const glm::vec2& low : choices) {
+            const CalloutPaper paper{low, low + size};
+            const Areas areas = areas_of(callouts[i].at, paper, views);
+            bool covers = std::ranges::any_of(
+                taken, [&](const Areas& other) { return meet(areas, other, views); });
+            for (std::size_t other = 0; other < callouts.size(); ++other)
+                covers = covers || (other != i && callouts[other].sign != CalloutSign::none &&
+                                    meet(areas, signs[other], views));
+            if (covers)
+                continue;
+            if (!free)
+                free = paper;
+            if (!inside && are_inside(areas, views))
+                inside = paper;
+        }
+        const CalloutPaper usual{choices.front(), choices.front() + size};
+        papers.push_back(inside ? *inside : free.value_or(usual));
+        taken.push_back(areas_of(callouts[i].at, papers.back(), views));
+    }
+    return papers;
+}
+
+std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
+                                              const render::TextPass& text,
+                                              const glm::ivec2& picture) {
+    const float height = text_height(picture);
+    std::vector<render::ScreenQuad> quads;
+    add_sign(callout, height, text, quads);
+    text.fill(callout.at, height * paper.low, height * paper.high, kCalloutPaper, quads);
+    for (std::size_t i = 0; i < callout.lines.size(); ++i)
+        text.set(
+            {.text = callout.lines[i],
+             .at = callout.at,
+             .anchor = {0.0f, 0.0f},
+             .offset = {paper.low.x + kPad, paper.high.y - kPad - kRow * static_cast<float>(i + 1)},
+             .color = i == 0 ? callout.color : kCalloutInk},
+            height, quads);
+    return quads;
+}
+
+} // namespace isochron::app

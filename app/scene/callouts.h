@@ -1,0 +1,55 @@
+// Words beside places in the data: of the mark, of tools, and of the cursor. They make room for each
+// other.
+#pragma once
+
+#include "app/scene/picture.h"
+#include "index/volume/volume_series.h"
+#include "render/gl/view.h"
+#include "render/passes/text_pass.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// What is drawn at the place itself.
+enum class CalloutSign : std::uint8_t { none, cross, dot };
+
+struct Callout {
+    glm::vec3 at{0.0f};             ///< in the room
+    std::vector<std::string> lines; ///< one at least
+    glm::vec4 color{1.0f};          ///< of the first line
+    /// Words without a sign stand on their place, those of a sign beside it.
+    CalloutSign sign = CalloutSign::none;
+};
+
+/// Of the mark, of tools, and of the place under the cursor, in the order in which they get room.
+std::vector<Callout> callouts_of(const Picture& picture,
+                                 const std::optional<interaction::Pointed>& pointed,
+                                 const index::SeriesInfo& info);
+
+/// The background of a callout's words, from its place, in heights of the text, up positive.
+struct CalloutPaper {
+    glm::vec2 low{0.0f}, high{0.0f};
+};
+
+/// Where the words of each callout stand: the same in all views, so that both eyes see one callout;
+/// in none of them over the words or the sign of another callout, nor outside the picture, as long
+/// as there is room.
+std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
+                                    const render::GlyphAtlas& atlas,
+                                    std::span<const render::View> views);
+
+/// To be drawn over the surface on which the place lies, at the place's depth.
+std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
+                                              const render::TextPass& text,
+                                              const glm::ivec2& picture);
+
+} // namespace isochron::app

@@ -1,0 +1,100 @@
+// Words beside places in the data make room for each other, in both eyes.
+#include "app/scene/callouts.h"
+
+#include "app/scene/font.h"
+#include "app/scene/legend.h"
+#include "tests/support/test_seed.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+namespace isochron::app {
+namespace {
+
+constexpr glm::ivec2 kSize(1280, 960);
+
+std::vector<render::View> both_eyes() {
+    std::vector<render::View> views;
+    for (const float side : {0.5f, -0.5f})
+        views.push_back(
+            {.clip_from_eye = glm::perspective(glm::radians(50.0f), 4.0f / 3, 0.05f, 50.0f),
+             .eye_from_room = glm::translate(glm::mat4(1.0f), glm::vec3(side * 0.063f, 0, 0)),
+             .size = kSize});
+    return views;
+}
+
+using Box = std::array<float, 4>;
+
+Box box_of(const Callout& callout, const CalloutPaper& paper, const render::View& view) {
+    const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(callout.at, 1.0f);
+    const glm::vec2 at = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(view.size);
+    const float height = text_height(view.size);
+    return {at.x + height * paper.low.x, at.y + height * paper.low.y, at.x + height * paper.high.x,
+            at.y + height * paper.high.y};
+}
+bool overlap(const Box& a, const Box& b) {
+    return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+Callout mark_at(const glm::vec3& at) {
+    return {at, {"9.446 1/s", "3.42, 4.41, 5.60 m", "at 2.908 s"}, {}, CalloutSign::cross};
+}
+Callout length_at(const glm::vec3& at) {
+    return {at, {"1.25 m"}, {}, CalloutSign::none};
+}
+Callout pointed_at(const glm::vec3& at) {
+    return {at, {"9.446 1/s", "3.42, 4.41, 5.60 m"}, {}, CalloutSign::dot};
+}
+
+TEST(Callouts, NeverCoverEachOtherInEitherEye) {
+    const render::GlyphAtlas atlas = room_font(32);
+    const auto views = both_eyes();
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<float> share(-1.0f, 1.0f);
+    for (int round = 0; round < 300; ++round) {
+        const glm::vec3 about(0.5f * share(random), 0.4f * share(random), -2.0f);
+        const auto near = [&] {
+            return about + 0.1f * glm::vec3(share(random), share(random), share(random));
+        };
+        const std::vector<Callout> callouts{mark_at(near()), length_at(near()), pointed_at(near())};
+        const auto papers = papers_of(callouts, atlas, views);
+        for (const render::View& view : views)
+            for (std::size_t a = 0; a < callouts.size(); ++a) {
+                const Box box = box_of(callouts[a], papers[a], view);
+                EXPECT_GE(box[0], 0);
+                EXPECT_LE(box[3], kSize.y);
+                for (std::size_t b = 0; b < callouts.size(); ++b) {
+                    if (a == b)
+                        continue;
+                    ASSERT_FALSE(overlap(box, box_of(callouts[b], papers[b], view)))
+                        << a << " and " << b << " in round " << round;
+                    const glm::vec2 reach(callouts[b].sign == CalloutSign::cross ? 0.6f : 0.0f);
+                    EXPECT_FALSE(overlap(box, box_of(callouts[b], {-reach, reach}, view)) &&
+                                 callouts[b].sign != CalloutSign::none)
+                        << a << " lies over the sign of " << b << " in round " << round;
+                }
+            }
+    }
+}
+
+TEST(Callouts, AloneStandAtTheRightAboveTheirPlaceAndInsideThePicture) {
+    const render::GlyphAtlas atlas = room_font(32);
+    const auto views = both_eyes();
+    const CalloutPaper middle =
+        papers_of(std::vector{pointed_at({0, 0, -2})}, atlas, views).front();
+    EXPECT_GT(middle.low.x, 0);
+    EXPECT_GT(middle.low.y, 0);
+    const auto corner = std::vector{pointed_at({1.15f, 0.85f, -2})};
+    const Box box = box_of(corner.front(), papers_of(corner, atlas, views).front(), views.front());
+    EXPECT_LE(box[2], kSize.x);
+    EXPECT_LE(box[3], kSize.y);
+    const auto length = std::vector{length_at({0, 0, -2})};
+    const CalloutPaper over = papers_of(length, atlas, views).front();
+    EXPECT_NEAR(over.low.x, -over.high.x, 1e-5) << "a length stands on its line";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -1,0 +1,122 @@
+// Keys, wand and gamepad set the range that plays, how it plays, and bookmarks of times.
+#include "tests/interaction/controls/control_desk.h"
+
+#include <gmock/gmock.h>
+
+namespace isochron::interaction {
+namespace {
+
+DeviceState pad_down(GamepadButton button) {
+    return {"gamepad", std::nullopt, true, bit(button), {}};
+}
+
+TEST(TimeControls, ActionsBeyondThoseOfOldRecordingsHaveADeviceOfTheirOwn) {
+    Desk desk;
+    desk.settings.step = 2;
+    desk.frame({keys_down(bit(Action::range_first))}); // the same bit of the device of others
+    EXPECT_EQ(desk.settings.play_range, StepRange{});
+    desk.tap(Action::range_first);
+    EXPECT_EQ(desk.settings.play_range, (StepRange{2, {}}));
+}
+
+TEST(TimeControls, KeysSetTheRangeAndGoToItsEnds) {
+    Desk desk;
+    desk.settings.step = 1;
+    desk.tap(Action::range_first);
+    desk.settings.step = 3;
+    EXPECT_EQ(desk.tap(Action::range_last).play_range, (StepRange{1, 3}));
+    EXPECT_EQ(desk.tap(Action::first_step).step, 1u);
+    EXPECT_EQ(desk.tap(Action::last_step).step, 3u);
+    EXPECT_TRUE(desk.tap(Action::last_step).empty());
+    desk.tap(Action::range_last);
+    EXPECT_EQ(desk.settings.play_range, (StepRange{1, {}}));
+    EXPECT_EQ(desk.tap(Action::range_all).play_range, StepRange{});
+    EXPECT_EQ(desk.tap(Action::last_step).step, 4u);
+    EXPECT_EQ(desk.tap(Action::first_step).step, 0u);
+}
+
+TEST(TimeControls, PlayingGoesToAndFroInTheRange) {
+    Desk desk;
+    desk.settings.play_range = {1, 3};
+    desk.settings.step = 1;
+    desk.tap(Action::ping_pong);
+    desk.tap(bit(Action::play));
+    std::vector<std::uint32_t> steps{1};
+    for (int frame = 0; frame < 1200 && steps.size() < 6; ++frame) {
+        desk.frame({head_at(kStanding)});
+        if (desk.settings.step != steps.back())
+            steps.push_back(desk.settings.step);
+    }
+    EXPECT_THAT(steps, testing::ElementsAre(1, 2, 3, 2, 1, 2));
+    EXPECT_TRUE(desk.settings.playback.playing);
+}
+
+TEST(TimeControls, KeysLeaveOutStepsAndShiftDoesNot) {
+    Desk desk;
+    desk.tap(Action::skip_more);
+    EXPECT_EQ(desk.settings.playback.every, 2u);
+    EXPECT_EQ(desk.tap(bit(Action::step_forward)).step, 2u);
+    EXPECT_EQ(desk.tap(bit(Action::step_forward) | bit(Action::shift)).step, 3u);
+    for (int i = 0; i < 3; ++i)
+        desk.tap(Action::skip_fewer);
+    EXPECT_EQ(desk.settings.playback.every, 1u);
+}
+
+TEST(TimeControls, SpeedCountsInThreeUnits) {
+    Desk desk;
+    const std::size_t units = kNames<SpeedUnit>.size();
+    for (std::size_t i = 1; i <= units; ++i) {
+        desk.tap(Action::speed_unit);
+        EXPECT_EQ(desk.settings.playback.unit, static_cast<SpeedUnit>(i % units));
+    }
+    EXPECT_NEAR(desk.settings.playback.speed, 1, 1e-9);
+    desk.tap(Action::speed_unit);
+    const double rate = desk.settings.playback.rate;
+    desk.tap(bit(Action::faster));
+    EXPECT_NEAR(desk.settings.playback.rate, 2 * rate, 1e-9);
+}
+
+TEST(TimeControls, TimesAreBookmarkedAndVisited) {
+    Desk desk;
+    desk.settings.step = 3;
+    desk.tap(Action::save_time);
+    desk.settings.step = 1;
+    desk.tap(Action::save_time);
+    EXPECT_THAT(desk.settings.bookmarks,
+                testing::ElementsAre(Bookmark{"step 2", 1}, Bookmark{"step 4", 3}));
+    desk.settings.playback.playing = true;
+    EXPECT_EQ(desk.tap(Action::next_time).step, 3u);
+    EXPECT_FALSE(desk.settings.playback.playing) << "it stays there";
+    EXPECT_EQ(desk.tap(Action::next_time).step, 1u);
+    EXPECT_EQ(desk.tap(Action::previous_time).step, 3u);
+    desk.tap(Action::save_time);
+    EXPECT_THAT(desk.settings.bookmarks, testing::ElementsAre(Bookmark{"step 2", 1}));
+}
+
+TEST(TimeControls, WandAndGamepadReachBookmarksAndTheRange) {
+    Desk desk;
+    desk.settings.step = 2;
+    desk.frame({wand_at(kStanding, bit(WandButton::save_time))});
+    desk.frame({pad_down(GamepadButton::down)});
+    EXPECT_EQ(desk.settings.play_range, (StepRange{2, {}}));
+    desk.settings.step = 4;
+    desk.frame({pad_down(GamepadButton::up)});
+    desk.frame({wand_at(kStanding, bit(WandButton::mark_range))});
+    EXPECT_EQ(desk.settings.play_range, (StepRange{2, 4}));
+    EXPECT_EQ(desk.settings.bookmarks.size(), 2u);
+    EXPECT_EQ(desk.frame({wand_at(kStanding, bit(WandButton::next_time))}).step, 2u);
+    EXPECT_EQ(desk.frame({pad_down(GamepadButton::left)}).step, 4u);
+    EXPECT_EQ(desk.frame({pad_down(GamepadButton::right)}).step, 2u);
+    EXPECT_EQ(desk.frame({wand_at(kStanding, bit(WandButton::previous_time))}).step, 4u);
+}
+
+TEST(TimeControls, NoStepsAreNoTrouble) {
+    Desk desk;
+    desk.times.clear();
+    for (const Action action : {Action::first_step, Action::last_step, Action::next_time,
+                                Action::ping_pong, Action::speed_unit, Action::skip_more})
+        EXPECT_EQ(desk.tap(action).step, std::nullopt);
+}
+
+} // namespace
+} // namespace isochron::interaction

@@ -48,7 +48,8 @@ def open(path: str | _os.PathLike[str]) -> Run:
 
 def _expanded(patterns: Iterable[str | _os.PathLike[str]]) -> list[str]:
     files: list[str] = []
-    for pattern in map(_os.fspath, patterns):
+    for each in patterns:
+        pattern = _os.fspath(each)
         # A file may have brackets in its name: an existing file is a name, not a pattern.
         if _os.path.exists(pattern) or not any(sign in pattern for sign in "*?["):
             files.append(pattern)

@@ -34,7 +34,7 @@ class Run:
         self._path = os.fspath(path)
         self._native: _native.OpenRun | None = _native.OpenRun(self._path)
         self._names = tuple(self._native.names())
-        self._about: dict[str, Any] = self._native.array(None).description()
+        self._about = self._native.array(None).description()
         lost = self._native.lost()
         if lost is not None:
             warnings.warn(lost, RuntimeWarning, stacklevel=3)

@@ -64,13 +64,15 @@ class Step:
 
     def cells(self, isovalue: float, *, array: str | None = None) -> NDArray[np.uint32]:
         """As Run.cells."""
-        return self._ask("cells", isovalue=isovalue, array=array)
+        cells: NDArray[np.uint32] = self._ask("cells", isovalue=isovalue, array=array)
+        return cells
 
     def mesh(
         self, isovalue: float, *, array: str | None = None, dtype: DTypeLike = np.float32
     ) -> tuple[NDArray[Any], NDArray[np.uint32]]:
         """As Run.mesh."""
-        return self._ask("mesh", isovalue=isovalue, array=array, dtype=dtype)
+        mesh: tuple[NDArray[Any], NDArray[np.uint32]] = self._ask("mesh", isovalue=isovalue, array=array, dtype=dtype)
+        return mesh
 
     def values(
         self,
@@ -81,7 +83,8 @@ class Step:
         array: str | None = None,
     ) -> NDArray[Any]:
         """As Run.values."""
-        return self._ask("values", z=z, y=y, x=x, array=array)
+        values: NDArray[Any] = self._ask("values", z=z, y=y, x=x, array=array)
+        return values
 
     def __repr__(self) -> str:
         return f"<isochron.Step {self._number} of {self._run.path}>"

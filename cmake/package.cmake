@@ -52,7 +52,7 @@ if(TARGET isochron_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "Isochron's index of time-varying volumes for Python: active cells, surfaces
-and values at any step as arrays of NumPy, and an xarray Dataset.")
+and values at any step as arrays of NumPy, an xarray Dataset, and pictures.")
   # What the interpreter compiles beside the module goes with it.
   file(WRITE ${CMAKE_BINARY_DIR}/python_package/prerm
     "#!/bin/sh\nset -e\nrm -rf \"$DPKG_ROOT/usr/${ISOCHRON_PYTHON_FOLDER}/isochron/__pycache__\"\n")

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterable
 
 from . import _native
 from ._native import Error
+from ._place import program_folder as _program_folder
 from ._run import Run
 from ._steps import Step
 
@@ -24,15 +25,6 @@ __version__: str = _native.__version__
 
 Error.__module__ = "isochron"
 Error.__doc__ = "Bad input or a failed file operation: what, where, expected and got, in one line."
-
-
-def _program_folder() -> str:
-    """The folder of the program that the package was installed or built with: its readers are found from there."""
-    here = _os.path.dirname(_os.path.abspath(_native.__file__))
-    installed = _os.path.normpath(_os.path.join(here, _native.FROM_INSTALLED))
-    if _os.path.isdir(_os.path.join(_os.path.dirname(installed), "libexec", "isochron")):
-        return installed
-    return _os.path.normpath(_os.path.join(here, _native.FROM_BUILT))
 
 
 _native.set_program_folder(_program_folder())

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import operator
 import os
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,7 @@ class Run:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self._path = os.fspath(path)
+        self._place = os.path.abspath(self._path)
         self._native: _native.OpenRun | None = _native.OpenRun(self._path)
         self._names = tuple(self._native.names())
         self._about = self._native.array(None).description()
@@ -179,6 +181,23 @@ class Run:
         from ._xarray import dataset
 
         return dataset(self)
+
+    def render(
+        self, state: Mapping[str, Any] | str | os.PathLike[str] | None = None, *, size: tuple[int, int] = (1280, 720)
+    ) -> NDArray[np.uint8]:
+        """A picture (height, width, 3) in sRGB, which the program draws without a window.
+
+        state: what differs from a new session, by the keys of a recording's `start`: {"step": 7, "isovalue": 0.5,
+            "look": {"background": "light", "material": "satin", "occlusion": 0.6}}; or the name of a file in which the
+            program saved a session.
+        """
+        from ._render import render
+
+        self._array(None)
+        if isinstance(state, (str, os.PathLike)):
+            with open(state, encoding="utf-8") as file:
+                state = json.load(file)["state"]
+        return render(self._place, {} if state is None else state, size)
 
     def close(self) -> None:
         """Closes the index; arrays that it gave stay valid."""

@@ -166,10 +166,11 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
         EXPECT_TRUE(fs::exists(folder.path() / "root/usr" / file)) << file;
     EXPECT_THAT(shell("root/usr/bin/isochron --version"), HasSubstr("isochron "));
     const bool python = fs::exists(folder.path() / "root/usr/lib/python3/dist-packages/isochron");
-    if (python) // compiles what it imports, beside it
+    if (python) { // compiles what it imports, beside it
         EXPECT_EQ(shell("PYTHONPATH=root/usr/lib/python3/dist-packages /usr/bin/python3 -c "
                         "'import isochron; print(isochron.__name__)'"),
                   "isochron\n");
+    }
     shell(dpkg + "--purge isochron libisochron-dev " + (python ? "python3-isochron" : "") +
           " >log 2>&1 || (cat log; exit 1)");
     EXPECT_EQ(files_below(folder.path() / "root" / "usr"), before);

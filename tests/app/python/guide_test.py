@@ -62,6 +62,8 @@ class Guide(unittest.TestCase):
                     if "cells" in names:
                         self.assertGreater(names["cells"].size, 0)
                         self.assertEqual(names["part"].shape[0], 10)
+                    if "pixels" in names:
+                        self.assertEqual(names["pixels"].shape, (360, 640, 3))
                     if "surface" in names:
                         self.assertEqual(names["surface"].GetNumberOfPolys(), len(names["faces"]))
             finally:

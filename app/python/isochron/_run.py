@@ -194,10 +194,13 @@ class Run:
         from ._render import render
 
         self._array(None)
+        shown: Mapping[str, Any] = {}
         if isinstance(state, (str, os.PathLike)):
             with open(state, encoding="utf-8") as file:
-                state = json.load(file)["state"]
-        return render(self._place, {} if state is None else state, size)
+                shown = json.load(file)["state"]
+        elif state is not None:
+            shown = state
+        return render(self._place, shown, size)
 
     def close(self) -> None:
         """Closes the index; arrays that it gave stay valid."""

@@ -133,6 +133,12 @@ class Values(SeriesTest):
                     found = self.run_.values(2, *cut, array=array)
                     np.testing.assert_array_equal(found, self.data[2][array][cut])
 
+    def test_of_an_index_that_refers_to_its_files(self):
+        ran = program("build", "t0.vti", "t1.vti", "--array", "depth", "--refer", "-o", "refers.isochron")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        cut = (slice(3, 18), slice(30, None), 5)
+        np.testing.assert_array_equal(isochron.open("refers.isochron").values(1, *cut), self.data[1]["depth"][cut])
+
     def test_a_vertex_that_is_not_there(self):
         with self.assertRaisesRegex(IndexError, "y: vertex 37, expected -37 to 36"):
             self.run_.values(0, 0, 37)
@@ -182,6 +188,20 @@ class Meshes(SeriesTest):
         center = np.array(ORIGIN) + (np.array(SHAPE[::-1]) - 1) / 2 * SPACING  # where values are lowest
         outward = np.einsum("ij,ij->i", np.cross(b - a, c - a), (a + b + c) / 3 - center)
         self.assertLess((outward > 0).mean(), 0.01)
+
+    def test_turn_their_front_to_lower_values_on_a_mirrored_grid_too(self):
+        for last in ("0,0,1", "0,0,-1"):
+            write_nrrd("turned.nrrd", self.data[0]["depth"], "space dimension: 3\n"
+                       f"space directions: (1,0,0) (0,1,0) ({last})\nspace origin: (0,0,0)\n")
+            if os.path.exists("turned.isochron"):
+                os.remove("turned.isochron")
+            run = isochron.build("turned.nrrd", "turned.isochron")
+            handed = np.linalg.det(run.direction)
+            points, faces = run.mesh(0.5, dtype=np.float64)
+            corners = points[faces]
+            volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+            self.assertAlmostEqual(handed, 1 if last == "0,0,1" else -1)
+            self.assertLess(volume, -100)  # a closed surface whose front is inside, where values are lower
 
     def test_are_those_of_vtk(self):
         import vtk

@@ -5,6 +5,7 @@
 #include "index/file/index_states.h"
 #include "index/file/named_index.h"
 #include "index/indexing/index_build.h"
+#include "index/system/parallel.h"
 
 #include <glm/matrix.hpp>
 
@@ -162,7 +163,9 @@ std::vector<std::byte> RunArray::values(std::int64_t step, const Box& box) const
     const index::ChunkStore& store = file_->chunks();
     const index::ChunkGrid& grid = store.grid();
     const std::vector<std::uint32_t> places = places_of(grid, box);
-    for (std::uint32_t layer = box[0][0] / kEdge; layer * kEdge < box[0][1]; ++layer) {
+    const std::uint32_t first = box[0][0] / kEdge, end = (box[0][1] + kEdge - 1) / kEdge;
+    const auto copy_of_layer = [&](std::size_t number, unsigned) {
+        const std::uint32_t layer = first + static_cast<std::uint32_t>(number);
         store.fetch(at, layer, places, {});
         const std::vector<index::ChunkPtr> chunks = store.chunks(at, layer, places);
         for (std::size_t i = 0; i < places.size(); ++i) {
@@ -171,7 +174,8 @@ std::vector<std::byte> RunArray::values(std::int64_t step, const Box& box) const
             copy_shared(chunks[i]->values, {layer * kEdge, y * kEdge, x * kEdge},
                         {size[2], size[1], size[0]}, box, value_bytes, result);
         }
-    }
+    };
+    index::parallel_for(end - first, index::thread_count(0), copy_of_layer, {});
     return result;
 }
 

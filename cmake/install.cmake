@@ -14,6 +14,13 @@ foreach(part IN LISTS readers ITEMS isochron-generate isochron-reader-image isoc
   endif()
 endforeach()
 
+# The Python module finds the program's readers from its own place, too.
+if(TARGET isochron_python)
+  install(TARGETS isochron_python LIBRARY DESTINATION ${ISOCHRON_PYTHON_FOLDER}/isochron COMPONENT python)
+  install(DIRECTORY app/python/isochron DESTINATION ${ISOCHRON_PYTHON_FOLDER} COMPONENT python
+    PATTERN __pycache__ EXCLUDE)
+endif()
+
 # Manual pages and completions are what the program says of itself.
 set(help_files ${CMAKE_BINARY_DIR}/help)
 add_custom_command(OUTPUT ${help_files}/made

@@ -30,15 +30,6 @@ struct ChangeArguments {
     bool json = false, force = false;
 };
 
-index::Query checked(const ChangeArguments& arguments, const index::IndexFile& file,
-                     std::int64_t step, double isovalue) {
-    const auto steps = static_cast<std::int64_t>(file.info().steps());
-    if (step < 0 || step >= steps)
-        throw index::Error(
-            fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(), step, steps - 1));
-    return {static_cast<std::uint32_t>(step), isovalue};
-}
-
 /// The cells that only one of two sets has, ascending.
 struct Difference {
     std::vector<index::CellId> added, removed;
@@ -66,17 +57,15 @@ void run_change(const ChangeArguments& arguments) {
     if (!arguments.to_step && !arguments.to_isovalue)
         throw UsageError("--to-step or --to-isovalue is missing");
     const auto file = array_called(open_index(arguments.file), arguments.array);
-    if (const index::Grid& grid = file->info().grid; index::has_wide_ids(grid))
-        throw index::Error(fmt::format("{}: {} cells, expected fewer than 2^32 to compare",
-                                       arguments.file.string(), grid.cell_count()));
+    index::expect_narrow_ids(*file);
     std::vector<Output> outputs;
     for (const auto& out : {arguments.added, arguments.removed})
         if (!out.empty())
             outputs.push_back({out, OutputKind::ids, file->info().grid.cell_count()});
     guard_outputs(outputs, {{arguments.file}, file.get()}, arguments.force);
-    const index::Query from = checked(arguments, *file, arguments.step, arguments.isovalue);
-    const index::Query to = checked(arguments, *file, arguments.to_step.value_or(arguments.step),
-                                    arguments.to_isovalue.value_or(arguments.isovalue));
+    const index::Query from{index::step_named(*file, arguments.step), arguments.isovalue};
+    const index::Query to{index::step_named(*file, arguments.to_step.value_or(arguments.step)),
+                          arguments.to_isovalue.value_or(arguments.isovalue)};
     warn_beyond(from.isovalue, *file);
     if (to.isovalue != from.isovalue)
         warn_beyond(to.isovalue, *file);

@@ -177,10 +177,7 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
 
 void run_query(const QueryArguments& arguments) {
     const auto file = array_called(open_index(arguments.file), arguments.array);
-    const auto steps = static_cast<std::int64_t>(file->info().steps());
-    if (arguments.step < 0 || arguments.step >= steps)
-        throw index::Error(fmt::format("{}: step {}, expected 0 to {}", arguments.file.string(),
-                                       arguments.step, steps - 1));
+    const std::uint32_t step = index::step_named(*file, arguments.step);
     warn_beyond(arguments.isovalue, *file);
     if (arguments.level >= file->detail_levels())
         throw index::Error(fmt::format("{}: level {}, expected 0 to {}", arguments.file.string(),
@@ -190,9 +187,8 @@ void run_query(const QueryArguments& arguments) {
     if (!arguments.ids.empty())
         guard_outputs({{arguments.ids, OutputKind::ids, file->info().grid.cell_count()}},
                       {{arguments.file}, file.get()}, arguments.force);
-    const Measured result =
-        measure(file, {static_cast<std::uint32_t>(arguments.step), arguments.isovalue},
-                method_of(arguments, *file), arguments.level, arguments.repeats);
+    const Measured result = measure(file, {step, arguments.isovalue}, method_of(arguments, *file),
+                                    arguments.level, arguments.repeats);
     if (!arguments.ids.empty())
         write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
     if (arguments.json)

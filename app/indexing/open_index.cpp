@@ -7,27 +7,16 @@
 #include "index/file/index_states.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace isochron::app {
 
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes, LostState lost) {
-    try {
-        auto file = index::IndexFile::open(path, cache_bytes);
-        const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
-        if (line)
-            fmt::print(stderr, "isochron: {}\n", one_line(*line));
-        return file;
-    } catch (const index::Error& error) {
-        std::error_code ignored;
-        if (path.extension() == ".isochron" || !std::filesystem::is_regular_file(path, ignored))
-            throw;
-        std::filesystem::path made = path;
-        made.replace_extension(".isochron");
-        throw index::Error(fmt::format("{}; `isochron build {} -o {}` makes an index of data",
-                                       error.what(), path.string(), made.string()));
-    }
+    auto file = index::open_named_index(path, cache_bytes);
+    const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
+    if (line)
+        fmt::print(stderr, "isochron: {}\n", one_line(*line));
+    return file;
 }
 
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
@@ -45,25 +34,10 @@ void check_can_be_shown(const index::Grid& grid, const std::string& name) {
                                        name, grid.vertex_count()));
 }
 
-std::vector<std::string> array_names(const index::IndexFile& file) {
-    std::vector<std::string> names;
-    for (std::size_t number = 0; number < file.arrays(); ++number)
-        names.push_back(file.array(number).info().array);
-    return names;
-}
-
 std::shared_ptr<const index::IndexFile>
 array_called(const std::shared_ptr<const index::IndexFile>& file,
              const std::optional<std::string>& name) {
     return name ? index::array_of(file, array_number(*file, *name)) : file;
-}
-
-std::size_t array_number(const index::IndexFile& file, const std::string& name) {
-    const auto number = file.array_called(name);
-    if (!number)
-        throw index::Error(fmt::format("{}: no array {}, expected {}", file.name(), name,
-                                       fmt::join(array_names(file), ", ")));
-    return *number;
 }
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {

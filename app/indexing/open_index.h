@@ -2,13 +2,13 @@
 #pragma once
 
 #include "index/file/index_file.h"
+#include "index/file/named_index.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace isochron::app {
 
@@ -16,8 +16,7 @@ namespace isochron::app {
 enum class LostState : std::uint8_t { is_said, is_for_the_caller };
 
 /// @param cache_bytes as IndexFile::open
-/// @throws index::Error as IndexFile::open; if the file exists but is no .isochron, the message
-/// says how to build an index of it
+/// @throws index::Error as index::open_named_index
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes = 0,
                                                    LostState lost = LostState::is_said);
@@ -36,12 +35,6 @@ void check_can_be_shown(const index::Grid& grid, const std::string& name);
 std::shared_ptr<const index::IndexFile>
 array_called(const std::shared_ptr<const index::IndexFile>& file,
              const std::optional<std::string>& name);
-
-/// The number of an array. @throws index::Error as `array_called`
-std::size_t array_number(const index::IndexFile& file, const std::string& name);
-
-/// The names of its arrays.
-std::vector<std::string> array_names(const index::IndexFile& file);
 
 /// Warns on stderr if an isovalue lies outside the range of the data, where no surface is.
 void warn_beyond(double isovalue, const index::IndexFile& file);

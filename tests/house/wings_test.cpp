@@ -29,7 +29,7 @@ const std::map<std::string, Steps> kOrder{
       {"quality"},
       {"frame"},
       {"config", "command_line"},
-      {"text", "version"}}},
+      {"text", "version", "python"}}},
     {"index",
      {{"extraction", "indexing", "decoders", "export"},
       {"detail"},
@@ -50,6 +50,8 @@ const std::map<std::string, Steps> kOrder{
 const std::map<std::string, std::set<std::string>> kApart{
     // A program of its own makes demo series; the main program has their options.
     {"app/generate", {"app/commands/command_generate"}},
+    // The Python module: the interpreter loads it.
+    {"app/python", {}},
     // What is asked on the command line is obeyed elsewhere.
     {"app/command_line",
      {"app/main", "app/commands", "app/explore", "app/indexing", "app/generate"}},

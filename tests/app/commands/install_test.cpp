@@ -70,6 +70,28 @@ TEST_F(Installed, WithoutOpenImageIOOneLineNamesThePackage) {
     EXPECT_THAT(result.err, HasSubstr("libMissingImIO"));
 }
 
+/// The interpreter has none of the program's files; what the module needs lies where it was installed.
+TEST_F(Installed, PythonFindsReadersFromThePlaceOfItsModule) {
+    if (!fs::exists(fs::path(test_support::binary_root()) / "python/isochron"))
+        GTEST_SKIP() << "built without pybind11";
+    install("first", "program");
+    install("first", "python");
+    fs::rename(folder.path() / "first", folder.path() / "moved to");
+    folder.write("isochron-reader-vtk", "no reader");
+    shell("'moved to/bin/isochron' generate sphere --out sphere >/dev/null");
+    const std::string python =
+        "PYTHONPATH='moved to/lib/python3/dist-packages' /usr/bin/python3 -B -c ";
+    EXPECT_EQ(shell(python + "'import isochron; "
+                             "run = isochron.build(\"sphere/*.vti\", \"sphere.isochron\"); "
+                             "print(run.cells(0.5).size > 0)'"),
+              "True\n");
+    fs::rename(folder.path() / "moved to/libexec", folder.path() / "gone");
+    EXPECT_THAT(shell(python + "'import isochron\n"
+                               "try: isochron.build(\"sphere/*.vti\", \"sphere.isochron\")\n"
+                               "except isochron.Error as error: print(error)'"),
+                HasSubstr("isochron-reader-vtk: not found beside the program in "));
+}
+
 TEST_F(Installed, HasAManualPageAndCompletionsForEachCommand) {
     install("tree", "program");
     const fs::path share = folder.path() / "tree" / "share";
@@ -128,7 +150,8 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
     EXPECT_THAT(shell("dpkg-deb -f packages/isochron_*.deb Depends"),
                 testing::AllOf(HasSubstr("libegl1"), testing::Not(HasSubstr("libopenimageio"))));
     const std::string dpkg =
-        "dpkg --root=$PWD/root --force-not-root --force-depends --log=$PWD/dpkg.log ";
+        "dpkg --root=$PWD/root --force-not-root --force-depends --force-script-chrootless "
+        "--log=$PWD/dpkg.log ";
     shell("mkdir -p root/var/lib/dpkg/info root/var/lib/dpkg/updates root/bin root/usr/bin && "
           "touch root/var/lib/dpkg/status root/var/lib/dpkg/available");
     const std::vector<std::string> before = files_below(folder.path() / "root" / "usr");
@@ -142,7 +165,14 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
           "share/doc/isochron/third-party/libcli11-dev", "lib/cmake/Isochron/IsochronConfig.cmake"})
         EXPECT_TRUE(fs::exists(folder.path() / "root/usr" / file)) << file;
     EXPECT_THAT(shell("root/usr/bin/isochron --version"), HasSubstr("isochron "));
-    shell(dpkg + "--purge isochron libisochron-dev >log 2>&1 || (cat log; exit 1)");
+    const bool python = fs::exists(folder.path() / "root/usr/lib/python3/dist-packages/isochron");
+    if (python) { // compiles what it imports, beside it
+        EXPECT_EQ(shell("PYTHONPATH=root/usr/lib/python3/dist-packages /usr/bin/python3 -c "
+                        "'import isochron; print(isochron.__name__)'"),
+                  "isochron\n");
+    }
+    shell(dpkg + "--purge isochron libisochron-dev " + (python ? "python3-isochron" : "") +
+          " >log 2>&1 || (cat log; exit 1)");
     EXPECT_EQ(files_below(folder.path() / "root" / "usr"), before);
 }
 

@@ -1,0 +1,219 @@
+// Searches, meshes and values of an open index for several threads at once.
+#include "app/python/runs.h"
+
+#include "index/error.h"
+#include "index/file/index_states.h"
+#include "index/file/named_index.h"
+#include "index/indexing/index_build.h"
+#include "index/system/parallel.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+namespace isochron::app {
+namespace {
+
+/// Copies what a block of planes of values and a box share.
+/// @param first of the block, along z, y and x @param size of the block
+void copy_shared(std::span<const std::byte> from, const std::array<std::uint32_t, 3>& first,
+                 const std::array<std::uint32_t, 3>& size, const Box& box, std::size_t value_bytes,
+                 std::vector<std::byte>& to) {
+    Box shared;
+    for (int axis = 0; axis < 3; ++axis)
+        shared[axis] = {std::max(first[axis], box[axis][0]),
+                        std::min(first[axis] + size[axis], box[axis][1])};
+    if (shared[2][0] >= shared[2][1])
+        return;
+    const std::size_t row = (shared[2][1] - shared[2][0]) * value_bytes;
+    const std::size_t rows = box[1][1] - box[1][0], columns = box[2][1] - box[2][0];
+    for (std::uint32_t z = shared[0][0]; z < shared[0][1]; ++z)
+        for (std::uint32_t y = shared[1][0]; y < shared[1][1]; ++y) {
+            const std::size_t source =
+                (std::size_t{z - first[0]} * size[1] + (y - first[1])) * size[2] +
+                (shared[2][0] - first[2]);
+            const std::size_t target =
+                ((z - box[0][0]) * rows + (y - box[1][0])) * columns + (shared[2][0] - box[2][0]);
+            std::memcpy(to.data() + target * value_bytes, from.data() + source * value_bytes, row);
+        }
+}
+
+/// The places, ascending, of a layer's chunks in which a box lies.
+std::vector<std::uint32_t> places_of(const index::ChunkGrid& grid, const Box& box) {
+    constexpr std::uint32_t kEdge = index::kChunkEdge;
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t y = box[1][0] / kEdge; y * kEdge < box[1][1]; ++y)
+        for (std::uint32_t x = box[2][0] / kEdge; x * kEdge < box[2][1]; ++x)
+            places.push_back(grid.place(x, y));
+    std::ranges::sort(places);
+    return places;
+}
+
+std::vector<std::uint32_t> sorted(std::span<const index::CellId> cells) {
+    std::vector<std::uint32_t> found(cells.begin(), cells.end());
+    std::ranges::sort(found);
+    return found;
+}
+
+template <class Number>
+Triangles<Number> unpacked(const index::CellMesh& mesh, const index::Grid& grid,
+                           const glm::dvec3& origin) {
+    Triangles<Number> result;
+    result.points.reserve(3 * mesh.vertices.size());
+    for (const index::MeshVertex& vertex : mesh.vertices) {
+        const glm::dvec3 at = grid.physical(position_of(vertex)) - origin;
+        for (int axis = 0; axis < 3; ++axis)
+            result.points.push_back(static_cast<Number>(at[axis]));
+    }
+    result.faces = mesh.triangles;
+    if (glm::determinant(grid.direction) < 0)
+        for (std::size_t i = 0; i + 2 < result.faces.size(); i += 3)
+            std::swap(result.faces[i + 1], result.faces[i + 2]);
+    return result;
+}
+
+} // namespace
+
+index::Query RunArray::query(std::int64_t step, double isovalue) const {
+    return {index::step_named(*file_, step), isovalue};
+}
+
+CellNumbers RunArray::cells(std::int64_t step, double isovalue) {
+    const index::Query asked = query(step, isovalue);
+    const index::Grid& grid = file_->info().grid;
+    CellNumbers result;
+    result.are_wide = index::has_wide_ids(grid);
+    const auto make = [&] {
+        // Cells with wide numbers have their places in their points alone.
+        return std::make_unique<index::SearchInto>(index::search_into(
+            file_, std::nullopt, result.are_wide ? index::Shading::cells : index::Shading::none));
+    };
+    index::CellSet set = searches_.with(make, [&](index::SearchInto& search) {
+        index::CellSet found;
+        search(index::step_of_query(*file_, asked.step), isovalue, {}, found);
+        return found;
+    });
+    if (result.are_wide) {
+        result.wide.reserve(set.points.size());
+        for (const index::CellPoint& point : set.points)
+            result.wide.push_back(index::wide_id(grid, point.x, point.y, point.z));
+    } else {
+        result.narrow = std::move(set.ids);
+    }
+    return result;
+}
+
+CellDifference RunArray::change(std::int64_t step, double isovalue, std::int64_t to_step,
+                                double to_isovalue) {
+    const index::Query from = query(step, isovalue), to = query(to_step, to_isovalue);
+    index::expect_narrow_ids(*file_);
+    const auto make = [this] { return std::make_unique<index::ChangeSearch>(file_); };
+    bool whole = false;
+    CellDifference result = changes_.with(make, [&](index::ChangeSearch& search) {
+        const index::CellChange change = search(from, to);
+        whole = change.whole;
+        return whole ? CellDifference{}
+                     : CellDifference{sorted(change.added), sorted(change.removed)};
+    });
+    if (whole) {
+        const std::vector<std::uint32_t> before = cells(step, isovalue).narrow,
+                                         after = cells(to_step, to_isovalue).narrow;
+        std::ranges::set_difference(after, before, std::back_inserter(result.added));
+        std::ranges::set_difference(before, after, std::back_inserter(result.removed));
+    }
+    return result;
+}
+
+index::CellMesh RunArray::packed_mesh(std::int64_t step, double isovalue) {
+    const index::Query asked = query(step, isovalue);
+    const auto make = [this] { return std::make_unique<index::SurfaceMeshes>(file_); };
+    return meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
+        return *meshes.make_packed(asked); // which nobody stops
+    });
+}
+
+Triangles<float> RunArray::mesh_from_origin(std::int64_t step, double isovalue) {
+    const index::Grid& grid = file_->info().grid;
+    return unpacked<float>(packed_mesh(step, isovalue), grid, grid.origin);
+}
+
+Triangles<double> RunArray::mesh(std::int64_t step, double isovalue) {
+    return unpacked<double>(packed_mesh(step, isovalue), file_->info().grid, glm::dvec3(0.0));
+}
+
+std::vector<std::byte> RunArray::values(std::int64_t step, const Box& box) const {
+    const std::uint32_t at = index::step_named(*file_, step);
+    const index::SeriesInfo& info = file_->info();
+    const std::size_t value_bytes = index::size_of(info.type);
+    std::size_t count = 1;
+    for (const auto& [first, end] : box)
+        count *= end - first;
+    std::vector<std::byte> result(count * value_bytes);
+    if (count == 0)
+        return result;
+    if (file_->referral()) {
+        const auto& n = info.grid.vertices;
+        const index::LoadedStep whole = file_->load(at);
+        copy_shared(whole.values.step_bytes(at), {}, {n[2], n[1], n[0]}, box, value_bytes, result);
+        return result;
+    }
+    constexpr std::uint32_t kEdge = index::kChunkEdge;
+    const index::ChunkStore& store = file_->chunks();
+    const index::ChunkGrid& grid = store.grid();
+    const std::vector<std::uint32_t> places = places_of(grid, box);
+    const std::uint32_t first = box[0][0] / kEdge, end = (box[0][1] + kEdge - 1) / kEdge;
+    const auto copy_of_layer = [&](std::size_t number, unsigned) {
+        const std::uint32_t layer = first + static_cast<std::uint32_t>(number);
+        store.fetch(at, layer, places, {});
+        const std::vector<index::ChunkPtr> chunks = store.chunks(at, layer, places);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const auto [x, y] = grid.at(places[i]);
+            const auto& size = chunks[i]->size;
+            copy_shared(chunks[i]->values, {layer * kEdge, y * kEdge, x * kEdge},
+                        {size[2], size[1], size[0]}, box, value_bytes, result);
+        }
+    };
+    index::parallel_for(end - first, index::thread_count(0), copy_of_layer, {});
+    return result;
+}
+
+OpenRun::OpenRun(const std::filesystem::path& path) {
+    const auto file = index::open_named_index(path);
+    for (std::size_t number = 0; number < file->arrays(); ++number)
+        arrays_.push_back(std::make_unique<RunArray>(index::array_of(file, number)));
+}
+
+RunArray& OpenRun::array(const std::optional<std::string>& name) const {
+    return *arrays_[name ? index::array_number(file(), *name) : 0];
+}
+
+std::optional<std::string> OpenRun::lost() const {
+    return index::lost_state(file());
+}
+
+void build_run(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out,
+               const std::vector<std::string>& arrays, const std::optional<std::string>& component,
+               const index::Progress& progress) {
+    index::ReadOptions reading;
+    reading.component = component;
+    index::BuildOptions options;
+    options.component = component;
+    if (arrays.empty()) {
+        const auto series = index::open_series(files, reading);
+        index::build_index(*series, out, options, progress);
+        return;
+    }
+    std::vector<std::unique_ptr<index::VolumeSeries>> series;
+    for (const std::string& name : arrays) {
+        reading.array = name;
+        series.push_back(index::open_series(files, reading));
+    }
+    options.array = arrays.front();
+    for (std::size_t i = 1; i < arrays.size(); ++i)
+        options.further.push_back({series[i].get(), arrays[i], component});
+    index::build_index(*series.front(), out, options, progress);
+}
+
+} // namespace isochron::app

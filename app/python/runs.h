@@ -1,0 +1,120 @@
+// An open index as the Python module asks it: by several threads at once, with answers in plain
+// vectors.
+#pragma once
+
+#include "index/file/index_file.h"
+#include "index/progress.h"
+#include "index/search/cell_change.h"
+#include "index/search/index_search.h"
+#include "index/search/surface_mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace isochron::app {
+
+/// Work spaces, each for one thread at a time: one that is given back serves the next who asks.
+template <class Work>
+class WorkSpaces {
+  public:
+    /// Calls `use(work)` with a work space that nobody else has. @param make a new one
+    template <class Make, class Use>
+    auto with(Make&& make, Use&& use) {
+        std::unique_ptr<Work> work;
+        if (const std::lock_guard lock(mutex_); !idle_.empty()) {
+            work = std::move(idle_.back());
+            idle_.pop_back();
+        }
+        if (!work)
+            work = make();
+        auto result = use(*work); // a work space of failed work is not used again
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(work));
+        return result;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Work>> idle_;
+};
+
+/// Cell numbers: `wide` where the grid has so many cells that their numbers take 64 bits.
+struct CellNumbers {
+    std::vector<std::uint32_t> narrow;
+    std::vector<std::uint64_t> wide;
+    bool are_wide = false;
+};
+
+/// The cells that only one of two queries has, ascending.
+struct CellDifference {
+    std::vector<std::uint32_t> added, removed;
+};
+
+template <class Number>
+struct Triangles {
+    std::vector<Number> points; ///< x, y, z, less the grid's origin or not
+    /// Counter-clockwise in physical space as seen from the side of lower values.
+    std::vector<std::uint32_t> faces;
+};
+
+/// A range of vertices along z, y and x: the first, and the one after the last.
+using Box = std::array<std::array<std::uint32_t, 2>, 3>;
+
+/// One array of an open index. Thread-safe.
+class RunArray {
+  public:
+    explicit RunArray(std::shared_ptr<const index::IndexFile> file) : file_(std::move(file)) {}
+
+    const index::IndexFile& file() const { return *file_; }
+    /// Each of these throws index::Error: there is no such step, or the file is damaged.
+    CellNumbers cells(std::int64_t step, double isovalue);
+    CellDifference change(std::int64_t step, double isovalue, std::int64_t to_step,
+                          double to_isovalue);
+    /// Coordinates less the grid's origin, as floats.
+    Triangles<float> mesh_from_origin(std::int64_t step, double isovalue);
+    Triangles<double> mesh(std::int64_t step, double isovalue);
+    /// Stored values, x fastest. Reads the chunks in which the box lies, and no others, unless the
+    /// index refers to its sources.
+    std::vector<std::byte> values(std::int64_t step, const Box& box) const;
+
+  private:
+    index::Query query(std::int64_t step, double isovalue) const;
+    index::CellMesh packed_mesh(std::int64_t step, double isovalue);
+
+    std::shared_ptr<const index::IndexFile> file_;
+    WorkSpaces<index::SearchInto> searches_;
+    WorkSpaces<index::ChangeSearch> changes_;
+    WorkSpaces<index::SurfaceMeshes> meshes_;
+};
+
+/// An open index. Thread-safe.
+class OpenRun {
+  public:
+    /// @throws index::Error as `index::open_named_index`
+    explicit OpenRun(const std::filesystem::path& path);
+
+    const index::IndexFile& file() const { return arrays_.front()->file(); }
+    /// @param name none: the first @throws index::Error naming the arrays if there is no such array
+    RunArray& array(const std::optional<std::string>& name) const;
+    /// What a damaged index has lost, if anything.
+    std::optional<std::string> lost() const;
+
+  private:
+    std::vector<std::unique_ptr<RunArray>> arrays_;
+};
+
+/// Indexes files. @param arrays none: the files' only one
+/// @throws index::Error as reading the files does; what `progress` throws
+void build_run(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out,
+               const std::vector<std::string>& arrays, const std::optional<std::string>& component,
+               const index::Progress& progress);
+
+} // namespace isochron::app

@@ -1,0 +1,52 @@
+// Opens the index that a user names, and finds in it what is named.
+#include "index/file/named_index.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace isochron::index {
+
+std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& path,
+                                                  std::uint64_t cache_bytes) {
+    try {
+        return IndexFile::open(path, cache_bytes);
+    } catch (const Error& error) {
+        std::error_code ignored;
+        if (path.extension() == ".isochron" || !std::filesystem::is_regular_file(path, ignored))
+            throw;
+        std::filesystem::path made = path;
+        made.replace_extension(".isochron");
+        throw Error(fmt::format("{}; `isochron build {} -o {}` makes an index of data",
+                                error.what(), path.string(), made.string()));
+    }
+}
+
+std::vector<std::string> array_names(const IndexFile& file) {
+    std::vector<std::string> names;
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        names.push_back(file.array(number).info().array);
+    return names;
+}
+
+std::size_t array_number(const IndexFile& file, const std::string& name) {
+    const auto number = file.array_called(name);
+    if (!number)
+        throw Error(fmt::format("{}: no array {}, expected {}", file.name(), name,
+                                fmt::join(array_names(file), ", ")));
+    return *number;
+}
+
+std::uint32_t step_named(const IndexFile& file, std::int64_t step) {
+    const auto steps = static_cast<std::int64_t>(file.info().steps());
+    if (step < 0 || step >= steps)
+        throw Error(fmt::format("{}: step {}, expected 0 to {}", file.name(), step, steps - 1));
+    return static_cast<std::uint32_t>(step);
+}
+
+void expect_narrow_ids(const IndexFile& file) {
+    if (const Grid& grid = file.info().grid; has_wide_ids(grid))
+        throw Error(fmt::format("{}: {} cells, expected fewer than 2^32 to compare", file.name(),
+                                grid.cell_count()));
+}
+
+} // namespace isochron::index

@@ -1,0 +1,31 @@
+// What a user names, an index, its arrays and its steps, and one line for each that is not there.
+#pragma once
+
+#include "index/file/index_file.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// @throws Error as IndexFile::open; if the file exists but is no .isochron, the message says how to
+///         build an index of it
+std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& path,
+                                                  std::uint64_t cache_bytes = 0);
+
+/// The names of its arrays.
+std::vector<std::string> array_names(const IndexFile& file);
+/// The number of an array. @throws Error naming the arrays when there is no such array
+std::size_t array_number(const IndexFile& file, const std::string& name);
+
+/// @throws Error when there is no such step
+std::uint32_t step_named(const IndexFile& file, std::int64_t step);
+
+/// @throws Error when the cells of two queries cannot be compared, as their numbers take 64 bits
+void expect_narrow_ids(const IndexFile& file);
+
+} // namespace isochron::index

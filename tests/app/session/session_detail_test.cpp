@@ -105,7 +105,7 @@ TEST_P(SessionDetail, MeshesThatComeAtRestDropNoPicture) {
     FrameReport report = first_frame(session, true);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        return report.coarsest == 0 && report.final;
+        return report.cells > 0 && report.coarsest == 0 && report.final;
     }));
     ASSERT_EQ(report.footprint, render::Footprint::surface);
     std::uint64_t sent = 0;

@@ -32,6 +32,8 @@ struct FrameDrawing {
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
     std::size_t resolution = 0;           ///< of the cells, by number: see `kCellResolutions`
+    std::size_t mesh_level = 0;           ///< of a mesh: see index/extraction/simplified_meshes.h
+    std::size_t triangles = 0;            ///< that are drawn of it, if it is known
     std::optional<render::Footprint> in_parts; ///< of the picture at rest in parts, if any
     bool redrawn = true;                       ///< false: nothing that the eyes see had changed
 };

@@ -161,9 +161,13 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
         swayed_since_ = report.time;
     input.in_parts = in_the_end;
     const bool parts = still && in_the_end;
+    QualityInput resting_input = input;
     if (parts) {
         input.settled.reset();
-        if (resting_ && resting_->input == input && resting_->possible == possible) {
+        resting_input.settled.reset();
+        // Meshes that come at rest are for later motion: what is shown stays.
+        resting_input.available.remove(render::Footprint::mesh);
+        if (resting_ && resting_->input == resting_input) {
             report.budget = steady_.budget();
             report.expected = resting_->cost;
             report.better = steady_.expected(*input.in_parts, input.load);
@@ -200,7 +204,7 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     resting_.reset();
     const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
     if (parts && measured && choice.footprint != *input.in_parts) {
-        resting_ = {input, possible, plan, choice.cost};
+        resting_ = {resting_input, plan, choice.cost};
         resting_->plan.in_parts = input.in_parts;
         resting_->plan.measure = false;
     }
@@ -265,14 +269,45 @@ std::optional<double> FrameQuality::cells_that_fit(interaction::Pace pace) const
     return std::max(0.0, (room - costs->fixed) / costs->of_cell);
 }
 
+namespace {
+
+/// Quads are drawn of cells; triangles count as many cells as have so many in the mesh of all.
+constexpr double kTrianglesOfCell = 2;
+
+} // namespace
+
+std::optional<Milliseconds> FrameQuality::expected_mesh(std::size_t triangles) const {
+    constexpr double kQuadsOfTriangle =
+        1.5; // that take as long as one of a simplified mesh, at most
+    const double cells = static_cast<double>(triangles) * charged_.cells;
+    const auto known =
+        steady_.expected(render::Footprint::mesh, {cells / kTrianglesOfCell, charged_.pixels});
+    return known ? known
+                 : steady_.expected(render::Footprint::quad,
+                                    {kQuadsOfTriangle * cells, charged_.pixels});
+}
+
+std::optional<std::size_t>
+FrameQuality::choose_mesh(const std::array<std::size_t, index::kMeshLevels>& triangles,
+                          double quads, interaction::Seconds now) {
+    return mesh_levels_.choose(
+        {.triangles = triangles,
+         .quads = quads,
+         .budget = steady_.budget(),
+         .expected = [this](std::size_t count) { return expected_mesh(count); },
+         .now = now});
+}
+
 void FrameQuality::begin(std::uint64_t frame) {
     meter_.begin(frame);
 }
 
 void FrameQuality::end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor) {
     view_ = of_cell;
-    meter_.end(report.footprint, {static_cast<double>(report.cells) * view_.cells, view_.pixels},
-               processor, report.resolution);
+    const double cells = report.triangles > 0
+                             ? static_cast<double>(report.triangles) / kTrianglesOfCell
+                             : static_cast<double>(report.cells);
+    meter_.end(report.footprint, {cells * view_.cells, view_.pixels}, processor, report.resolution);
 }
 
 unsigned FrameQuality::missed(interaction::Seconds between) const {

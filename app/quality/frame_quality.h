@@ -17,6 +17,7 @@
 #include "app/quality/cell_resolution.h"
 #include "app/quality/draw_meter.h"
 #include "app/quality/frame_plan.h"
+#include "app/quality/mesh_level_choice.h"
 #include "app/quality/motion_promise.h"
 #include "app/quality/quality_controller.h"
 
@@ -78,6 +79,18 @@ class FrameQuality {
     /// Whether a moving picture of so many cells, as quads, is expected to keep the promise.
     /// @param moves it is drawn so already: then a little more is no reason to leave it
     bool fits_in_motion(std::uint64_t cells, bool moves) const;
+    /// Level of the mesh that takes the place of quads while the picture moves, if one does. It is
+    /// also chosen at rest, so that it is there in the first frame that moves.
+    /// @param triangles of the meshes of all cells, by level; 0 where there is none
+    /// @param quads share of all cells that is drawn where no mesh is
+    std::optional<std::size_t>
+    choose_mesh(const std::array<std::size_t, index::kMeshLevels>& triangles, double quads,
+                interaction::Seconds now);
+    bool moves_as_mesh() const { return mesh_levels_.level().has_value(); } ///< by the last choice
+    /// Expected time of drawing a mesh; as long as no mesh was measured, of quads that take about as
+    /// long. Empty: not known.
+    std::optional<Milliseconds> expected_mesh(std::size_t triangles) const;
+
     /// Adds what presenting a picture took besides drawing it: nothing of a frame's time can be won
     /// there by drawing less.
     void presented(Milliseconds time) { beside_ += kNewest * (time - beside_); }
@@ -113,7 +126,6 @@ class FrameQuality {
     /// A choice at rest, and what it depends on.
     struct Resting {
         QualityInput input;
-        render::FootprintSet possible;
         FramePlan plan;
         std::optional<Milliseconds> cost; ///< expected
     };
@@ -132,6 +144,7 @@ class FrameQuality {
     Milliseconds period_;                             ///< of frames now
     MotionPromise promise_;
     CellResolution resolution_;
+    MeshLevelChoice mesh_levels_;
     bool begun_ = false;                     ///< a picture without cells was measured
     std::optional<std::uint64_t> all_cells_; ///< of level 0, as last counted, or guessed
     bool counted_ = false;

@@ -85,10 +85,19 @@ render::FootprintSet CellSets::footprints() const {
     return footprints;
 }
 
-std::array<std::size_t, index::kMeshLevels> CellSets::triangles() const {
+render::Footprint CellSets::footprint_for(const Picture& picture) const {
+    if (picture.footprint != render::Footprint::mesh || picture.mesh_level == 0)
+        return footprints().best(picture.footprint);
+    return drawn().has_mesh(picture.mesh_level) ? render::Footprint::mesh : render::Footprint::quad;
+}
+
+std::array<std::size_t, index::kMeshLevels> CellSets::triangles(Use use) const {
     std::array<std::size_t, index::kMeshLevels> triangles{};
-    for (std::size_t level = 0; level < triangles.size(); ++level)
-        triangles[level] = drawn().has_mesh(level) ? drawn().mesh(level).triangles() : 0;
+    const render::CellBuffers* buffers = use == Use::always ? &cells_
+                                         : resting_         ? &*resting_
+                                                            : nullptr;
+    for (std::size_t level = 0; buffers && level < triangles.size(); ++level)
+        triangles[level] = buffers->has_mesh(level) ? buffers->mesh(level).triangles() : 0;
     return triangles;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "app/config/config.h"
+#include "app/scene/picture.h"
 #include "index/extraction/extraction.h"
 #include "index/volume/volume_series.h"
 #include "render/cells/cell_buffers.h"
@@ -70,10 +71,13 @@ class CellSets {
     /// The footprints that the shown cells can be drawn with: a very large set has no room for its
     /// surface, and on a GPU cells have no mesh.
     render::FootprintSet footprints() const;
+    /// How a picture's footprint is drawn: another process may have chosen one that the shown cells do
+    /// not have here yet.
+    render::Footprint footprint_for(const Picture& picture) const;
     /// The same, and `mesh` if the cells could be drawn so after asking for them with a mesh.
     render::FootprintSet possible_footprints() const;
-    /// Triangles of the drawn set's meshes, by mesh level; 0 where it has none on the GPU.
-    std::array<std::size_t, index::kMeshLevels> triangles() const;
+    /// Triangles of the meshes of the set for a use, by mesh level; 0 where it has none on the GPU.
+    std::array<std::size_t, index::kMeshLevels> triangles(Use use) const;
     std::size_t surface_limit() const { return cells_.corner_limit(); } ///< cells
     bool may_have_meshes() const { return mesh_room_ > 0; }
     bool has_fences() const { return cells_.has_fences(); } ///< as render::CellBuffers

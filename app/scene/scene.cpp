@@ -171,9 +171,7 @@ render::CellAppearance Scene::appearance_of(const Picture& picture) {
     }
     set_look(appearance, configured_, picture.look);
     appearance.cut = cut_of(picture);
-    // Rank 0 may have chosen a mesh that is not here yet.
-    if (cells_.drawn().has_mesh(picture.mesh_level))
-        appearance.mesh_level = picture.mesh_level;
+    appearance.mesh_level = picture.mesh_level;
     return appearance;
 }
 
@@ -185,8 +183,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
                         const ScenePart& part) {
     info_.value_unit = picture.value_unit;
     const render::Placement placement = placement_of(picture);
-    // Rank 0 may have chosen a footprint that these cells do not have here yet.
-    const render::Footprint footprint = cells_.footprints().best(picture.footprint);
+    const render::Footprint footprint = cells_.footprint_for(picture);
     const bool is_whole = part.begins && part.ends && part.cells == render::DrawPart{};
     const bool again = is_whole && kept_.draw_again(picture, views);
     const auto background = background_of(picture.look);
@@ -246,15 +243,15 @@ void Scene::warm_up(const Picture& picture, std::span<const render::View> views)
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {
-    return cell_pass_.work(views, cells_.drawn(), cells_.footprints().best(picture.footprint),
+    return cell_pass_.work(views, cells_.drawn(), cells_.footprint_for(picture),
                            appearance_of(picture));
 }
 
 std::size_t Scene::prepare_parts(const Picture& picture, std::size_t most) {
     // Computing the corners of so many cells takes about as long as drawing one cell.
     constexpr std::size_t kCorners = 8;
-    if (!render::CellPass::needs_corners(
-            cells_.drawn(), cells_.footprints().best(picture.footprint), appearance_of(picture)))
+    if (!render::CellPass::needs_corners(cells_.drawn(), cells_.footprint_for(picture),
+                                         appearance_of(picture)))
         return 0;
     const std::size_t cells = cells_.compute_corners(kCorners * most);
     return (cells + kCorners - 1) / kCorners;

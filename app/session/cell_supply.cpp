@@ -61,16 +61,38 @@ std::vector<std::string> CellSupply::take_messages() {
 
 void CellSupply::request(const Frame& frame) {
     index::SurfacesQuery query = frame.report.asked;
-    query.mesh_room = frame.plan.mesh ? config_.memory.mesh_room() : 0;
+    const bool meshes = frame.is_live() && sets_.may_have_meshes() &&
+                        frame.state.quality == interaction::QualityMode::automatic;
     // Nothing is chosen before the first frame, which does not ask for all cells of a large volume.
     if (frame.is_live() && config_.rendering.level_of_detail && !details_.small() &&
         frame.plan.detail.most_cells == 0)
         frame.plan.detail.most_cells = DetailChoice::kAtFirst;
     query.detail = frame.plan.detail;
+    query.mesh_room =
+        frame.plan.mesh && !(meshes && is_there(query)) ? config_.memory.mesh_room() : 0;
     index::Request request{frame.sharing.ask(query, frame.waiting), std::nullopt};
+    // While the picture at rest is made, drawing has the processors, unless it may use the meshes.
+    const auto finest = finest_in_motion(frame);
+    const bool whole = frame.plan.final || (frame.plan.in_parts && frame.drawn &&
+                                            frame.drawn->footprint == *frame.plan.in_parts);
+    const bool now = whole || frame.plan.mesh || frame.report.pace == interaction::Pace::moving;
+    if (meshes && finest && now) {
+        request.meshes_of = sets_.held(*finest);
+        request.later_room = config_.memory.mesh_room();
+    }
     if (frame.state.playback.playing)
         request.ahead = ahead_of(request.query.step, frame);
     extractor_.request(request);
+}
+
+/// Whether what is asked for is there already: then its mesh comes later, and the set stays.
+bool CellSupply::is_there(const index::SurfacesQuery& query) const {
+    const index::ExtractionPtr newest = extractor_.newest();
+    if (!newest)
+        return false;
+    index::SurfacesQuery same = newest->query;
+    same.mesh_room = query.mesh_room;
+    return same == query;
 }
 
 void CellSupply::take_newest(const Frame& frame) {
@@ -207,6 +229,7 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
         same.cells = frame.drawn->cells;
         same.footprint = frame.drawn->footprint;
         same.resolution = frame.drawn->resolution;
+        same.mesh_level = frame.drawn->mesh_level;
         same.scale = frame.drawn->scale;
     }
     const bool stays = frame.drawn && same_cells(same, *frame.drawn);
@@ -250,6 +273,23 @@ bool CellSupply::moves_finest(const Frame& frame) {
     return frame.is_live() && frame.plan.moves_finest;
 }
 
+std::optional<CellSets::Use> CellSupply::finest_in_motion(const Frame& frame) const {
+    for (const CellSets::Use use : {CellSets::Use::at_rest, CellSets::Use::always})
+        if (const index::ExtractionPtr& set = sets_.held(use); shows(set, frame) && !set->coarse())
+            return use;
+    return std::nullopt;
+}
+
+double CellSupply::share_of_quads(const Frame& frame, CellSets::Use finest,
+                                  const FrameQuality& quality) const {
+    const std::uint64_t all = sets_.held(finest)->cells();
+    if (finest == CellSets::Use::always || quality.fits_in_motion(all, false))
+        return 1;
+    const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
+    return shows(moving, frame) ? static_cast<double>(moving->cells()) / static_cast<double>(all)
+                                : 0;
+}
+
 bool CellSupply::may_move_finest(const Frame& frame, const FrameQuality& quality) const {
     const index::ExtractionPtr& resting = sets_.held(CellSets::Use::at_rest);
     if (!frame.is_live() || !shows(resting, frame))
@@ -258,7 +298,8 @@ bool CellSupply::may_move_finest(const Frame& frame, const FrameQuality& quality
     const bool lacks =
         !moving || !shows(moving, frame) ||
         static_cast<double>(moving->cells()) < kNearly * static_cast<double>(quality.least_cells());
-    return quality.fits_in_motion(resting->cells(), frame.plan.moves_finest) ||
+    const bool as_mesh = quality.moves_as_mesh() && !resting->coarse();
+    return as_mesh || quality.fits_in_motion(resting->cells(), frame.plan.moves_finest) ||
            (lacks && quality.may_be_shown_in_motion(resting->cells()));
 }
 

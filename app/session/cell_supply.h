@@ -53,6 +53,11 @@ class CellSupply {
     /// Whether a set that was asked for is not on the GPU yet.
     bool set_comes() const;
 
+    /// The set that has all cells of what is asked for, if it is there.
+    std::optional<CellSets::Use> finest_in_motion(const Frame& frame) const;
+    /// The share of these cells that moving pictures have as quads where they have no mesh.
+    double share_of_quads(const Frame& frame, CellSets::Use finest,
+                          const FrameQuality& quality) const;
     /// Whether the set for pictures at rest may be drawn while the picture moves.
     bool may_move_finest(const Frame& frame, const FrameQuality& quality) const;
     /// The detail of the sets that are asked for next.
@@ -64,6 +69,7 @@ class CellSupply {
     }
 
   private:
+    bool is_there(const index::SurfacesQuery& query) const;
     void report_cells(FrameReport& report) const;
     static bool moves_finest(const Frame& frame);
     static bool wants_all(const Frame& frame);

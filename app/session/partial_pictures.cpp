@@ -10,6 +10,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
                                              const Outputs::Overlay& overlay) {
     Picture wanted = now;
     wanted.footprint = *frame.plan.in_parts;
+    wanted.mesh_level = 0;
     if (!parts_ || !same_cells(parts_->picture, wanted))
         parts_.emplace(wanted);
     // What lies over the cells is drawn last. Where it is drawn already, the next frame draws it anew.
@@ -32,7 +33,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
 
 void PartialPictures::give_up_others(const Picture& drawn) {
     Picture same = drawn;
-    same.resolution = 0;
+    same.resolution = same.mesh_level = 0;
     if (parts_)
         same.footprint = parts_->picture.footprint;
     if (parts_ && !same_cells(parts_->picture, same))

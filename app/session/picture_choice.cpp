@@ -45,14 +45,39 @@ PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) 
 FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
     FramePlan plan = quality_.choose(frame.state, options.changed, frame.choosing(),
                                      options.available, options.possible, frame.report);
+    choose_mesh(frame, plan);
     // Pace says when work begins, not what is shown: what is there stays until something changes.
     if (frame.is_live() && !options.changed && !plan.in_parts &&
         plan.reason == QualityReason::moving && frame.drawn->footprint > plan.footprint &&
         options.available.has(frame.drawn->footprint)) {
         plan.footprint = frame.drawn->footprint;
         plan.resolution = frame.drawn->resolution;
+        plan.mesh_level = frame.drawn->mesh_level;
     }
     return plan;
+}
+
+/// A mesh takes the place of quads where it fits while the picture moves, until the picture
+/// at rest is made.
+void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
+    if (!frame.is_live() || frame.state.quality != interaction::QualityMode::automatic ||
+        !sets_.may_have_meshes())
+        return;
+    const auto use = supply_.finest_in_motion(frame);
+    std::array<std::size_t, index::kMeshLevels> triangles{};
+    if (use)
+        triangles = sets_.triangles(*use);
+    const double quads = use ? supply_.share_of_quads(frame, *use, quality_) : 1;
+    const auto level = quality_.choose_mesh(triangles, quads, frame.report.time);
+    const bool passes = frame.report.pace == interaction::Pace::moving || plan.holds_finer;
+    if (!level || !passes || plan.footprint >= render::Footprint::mesh ||
+        sets_.shown() != sets_.held(*use))
+        return;
+    plan.footprint = render::Footprint::mesh;
+    plan.mesh_level = *level;
+    plan.resolution = 0;
+    plan.measure = plan.final = false;
+    frame.report.expected = quality_.expected_mesh(triangles[*level]);
 }
 
 /// Takes over rank 0's plan.
@@ -71,6 +96,10 @@ void PictureChoice::agree(const Frame& frame, FramePlan plan) {
     report.in_parts = frame.plan.in_parts;
     report.footprint = frame.plan.footprint;
     report.resolution = frame.plan.resolution;
+    report.mesh_level = frame.plan.mesh_level;
+    const auto use = supply_.finest_in_motion(frame);
+    const bool is_mesh = report.footprint == render::Footprint::mesh && use;
+    report.triangles = is_mesh ? sets_.triangles(*use)[report.mesh_level] : 0;
     report.reason = frame.plan.reason;
     report.final = frame.plan.final;
 }
@@ -104,7 +133,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     }
     now.footprint = report.footprint;
     now.resolution = report.resolution;
-    now.mesh_level = frame.plan.mesh_level;
+    now.mesh_level = report.mesh_level;
     rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
     // While a headset wants no picture, there is nothing to draw or to measure.
@@ -118,10 +147,14 @@ void PictureChoice::rest_in_parts(const Frame& frame, Picture& now) const {
     if (!report.in_parts || !frame.drawn)
         return;
     now.footprint = *report.in_parts;
+    now.mesh_level = 0;
     const bool shown = same_cells(now, *frame.drawn);
-    if (!shown)
+    if (!shown) {
         now.footprint = report.footprint;
+        now.mesh_level = report.mesh_level;
+    }
     report.footprint = now.footprint;
+    report.mesh_level = now.mesh_level;
     report.reason = QualityReason::in_parts;
     report.final = shown && supply_.is_finest(frame);
     if (shown)

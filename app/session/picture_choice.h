@@ -34,6 +34,7 @@ class PictureChoice {
     bool only_gets_finer(const Frame& frame, const Picture& now) const;
     Options options(const Frame& frame, bool changed) const;
     FramePlan wanted(const Frame& frame, const Options& options);
+    void choose_mesh(const Frame& frame, FramePlan& plan);
     void agree(const Frame& frame, FramePlan plan);
     void rest_in_parts(const Frame& frame, Picture& now) const;
 

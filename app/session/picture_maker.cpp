@@ -107,6 +107,7 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .bounding_box = state.bounding_box,
         .orientation = false,
         .caption = {},
+        .mesh_level = frame.drawn ? frame.drawn->mesh_level : 0,
         .layout = {.windows = outputs_.window_sizes(),
                    .free = panel_.covered(state),
                    .aside = panel_.stands_beside(interaction::Reading(seen).viewer(), state)

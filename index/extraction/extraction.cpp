@@ -212,14 +212,14 @@ bool Extraction::meshed() const {
     });
 }
 std::vector<CellMeshPtr> Extraction::meshes(std::size_t level) const {
-    if (level > 0) {
+    if (level > 0 || !meshed()) {
         const SimplifiedMeshesPtr made = later->get();
-        return made ? made->levels[level - 1] : std::vector<CellMeshPtr>();
+        return made ? made->levels[level] : std::vector<CellMeshPtr>();
     }
     std::vector<CellMeshPtr> own;
     for (const CellSet& surface : surfaces)
         own.push_back(surface.mesh);
-    return meshed() ? own : std::vector<CellMeshPtr>();
+    return own;
 }
 std::size_t Extraction::triangles(std::size_t level) const {
     std::size_t count = 0;

@@ -17,7 +17,7 @@
 
 namespace isochron::index {
 
-/// Constant once published, but for the simplified meshes. Showing it needs nothing more of the file.
+/// Constant once published, but for the meshes that come later. Showing it needs nothing more of the file.
 struct Extraction {
     SurfacesQuery query;
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows if asked for
@@ -38,13 +38,13 @@ struct Extraction {
     /// Number of active cells of the volume itself; empty while it is not known.
     std::optional<std::uint64_t> volume_cells;
     std::chrono::nanoseconds gather_time{0};
-    /// Of a meshed extraction; the worker puts them there later if they were asked for.
+    /// The worker puts them there if they were asked for.
     std::shared_ptr<LaterMeshes> later = std::make_shared<LaterMeshes>();
 
     std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice
     bool coarse() const { return !detail.empty(); } ///< whether some cells are of coarser levels
     bool shaded() const; ///< whether every cell has its point, with its normal
-    bool meshed() const; ///< whether every surface that has cells has a mesh
+    bool meshed() const; ///< whether it came with a mesh of every surface that has cells
     /// The meshes of a mesh level, by surface, null where there are no cells; empty while it has none.
     std::vector<CellMeshPtr> meshes(std::size_t level) const;
     /// Triangles of these meshes; 0 while it has none.

@@ -22,7 +22,7 @@ struct Extractor::State {
     struct Job {
         SurfacesQuery query;
         bool prefetch;
-        bool simplified; ///< of its meshes
+        ExtractionPtr meshes_of; ///< the job makes meshes of it; null: it extracts
         std::uint64_t times_forgotten;
         std::stop_source stop;
     };
@@ -44,18 +44,18 @@ struct Extractor::State {
         query.step = *step;
         return query;
     }
-    /// What is shown, if its meshes are still to be simplified; else null.
-    ExtractionPtr simplified_wanted() const {
-        const bool wants = wanted && wanted->simplified && answered && shown &&
-                           shown != not_simplified && shown->meshed() && shown->cells() > 0;
-        return wants && !shown->later->get() ? shown : nullptr;
+    /// What meshes are still to be made of; null: nothing.
+    ExtractionPtr meshes_wanted() const {
+        const ExtractionPtr set = wanted && answered && !in_flux ? wanted->meshes_of : nullptr;
+        const bool may_have = set && set != not_meshed && !set->coarse() && set->cells() > 0;
+        return may_have && !set->later->get() ? set : nullptr;
     }
-    bool has_work() const {
-        return (wanted && !answered) || simplified_wanted() || prefetch_wanted();
-    }
+    bool has_work() const { return (wanted && !answered) || meshes_wanted() || prefetch_wanted(); }
 
     void work(const std::stop_token& stop);
-    void simplify(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock);
+    void add_meshes(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock);
+    SimplifiedMeshesPtr meshes_of(const ExtractionPtr& set, std::uint64_t room,
+                                  const std::stop_token& stop) const;
     Outcome run(const Job& job);
     void finish(const Job& job, const Outcome& outcome);
     void tell(std::unique_lock<std::mutex>& lock) const;
@@ -71,7 +71,7 @@ struct Extractor::State {
     std::uint64_t times_forgotten = 0;
     std::optional<Job> running;
     RecentExtractions recent;
-    ExtractionPtr shown, not_simplified; ///< the second: there was no memory for it
+    ExtractionPtr shown, not_meshed; ///< the second: it cannot have meshes
     std::optional<std::string> failure;
     std::function<void()> wake; ///< may be null
     std::jthread worker; ///< last, so that it starts after and ends before everything it uses
@@ -82,8 +82,8 @@ void Extractor::State::work(const std::stop_token& stop) {
     while (changed.wait(lock, stop, [this] { return has_work(); })) {
         if (stop.stop_requested())
             return;
-        if (const ExtractionPtr set = simplified_wanted()) {
-            simplify(set, lock);
+        if (const ExtractionPtr set = meshes_wanted()) {
+            add_meshes(set, lock);
             continue;
         }
         const bool prefetch = answered;
@@ -99,7 +99,7 @@ void Extractor::State::work(const std::stop_token& stop) {
             lock.lock();
             continue;
         }
-        running = Job{query, prefetch, prefetch && wanted->simplified, times_forgotten, {}};
+        running = Job{query, prefetch, nullptr, times_forgotten, {}};
         const Job job = *running;
         lock.unlock();
         finish(job, run(job));
@@ -108,24 +108,53 @@ void Extractor::State::work(const std::stop_token& stop) {
 }
 
 /// Like work that is done ahead, it ends when another query comes.
-void Extractor::State::simplify(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock) {
-    running = Job{set->query, true, true, times_forgotten, {}};
-    const std::stop_token stop = running->stop.get_token();
+void Extractor::State::add_meshes(const ExtractionPtr& set, std::unique_lock<std::mutex>& lock) {
+    running = Job{set->query, true, set, times_forgotten, {}};
+    const Job job = *running;
+    const std::uint64_t room = wanted->later_room;
     lock.unlock();
-    bool failed = false;
+    SimplifiedMeshesPtr made;
     try {
-        if (SimplifiedMeshesPtr made = index::simplified(set->surfaces, stop))
-            set->later->put(std::move(made));
-    } catch (const std::bad_alloc&) {
-        failed = true;
+        made = meshes_of(set, room, job.stop.get_token());
+    } catch (const std::exception&) { // the picture goes on without them
     }
     lock.lock();
     running.reset();
-    if (failed)
-        not_simplified = set;
+    RecentExtractions::Dropped dropped; // freed without the lock
+    if (made && job.times_forgotten == times_forgotten) {
+        set->later->put(std::move(made));
+        dropped = recent.count_again(set, wanted->ahead);
+    } else if (!job.stop.stop_requested()) {
+        not_meshed = set;
+    }
     changed.notify_all();
     tell(lock);
+    dropped.clear();
     lock.lock();
+}
+
+/// The same cells are extracted anew with a mesh where they came without one: most of what the search
+/// and the reading need is still there.
+/// @return null: stopped, or there are none
+SimplifiedMeshesPtr Extractor::State::meshes_of(const ExtractionPtr& set, std::uint64_t room,
+                                                const std::stop_token& stop) const {
+    constexpr std::uint64_t kMeanwhile = 4; // so many times the room may be taken
+    ExtractionPtr meshed = set;
+    if (!set->meshed()) {
+        SurfacesQuery query = set->query;
+        query.mesh_room = kMeanwhile * room;
+        meshed = extract(query, stop);
+        if (!meshed || !meshed->meshed() || meshed->cells() != set->cells())
+            return nullptr;
+    }
+    const SimplifiedMeshesPtr simplified = index::simplified(meshed->surfaces, stop);
+    if (!simplified)
+        return nullptr;
+    auto made = std::make_shared<SimplifiedMeshes>(*simplified);
+    if (meshed != set)
+        made->levels[0] = meshed->meshes(0);
+    made->fit(room);
+    return made;
 }
 
 /// Gives up the lock and wakes who waits for a picture.
@@ -141,8 +170,6 @@ Extractor::State::Outcome Extractor::State::run(const Job& job) {
         ExtractionPtr extraction = extract(job.query, job.stop.get_token());
         if (!extraction && !job.stop.stop_requested())
             return {nullptr, "the extraction gave no result"};
-        if (job.simplified && extraction && extraction->meshed() && !extraction->later->get())
-            extraction->later->put(index::simplified(extraction->surfaces, job.stop.get_token()));
         return {std::move(extraction), {}};
     } catch (const std::exception& error) {
         return {nullptr, error.what()};
@@ -224,7 +251,8 @@ void Extractor::request(const Request& request) {
         const bool was_in_flux = std::exchange(
             s.in_flux, s.wanted && !same_but_for_step(s.wanted->query, request.query));
         if (same_query && s.wanted->ahead == request.ahead &&
-            s.wanted->simplified == request.simplified && !was_in_flux)
+            s.wanted->meshes_of == request.meshes_of &&
+            s.wanted->later_room == request.later_room && !was_in_flux)
             return;
         s.wanted = request;
         s.prefetch_done = false;
@@ -235,9 +263,12 @@ void Extractor::request(const Request& request) {
                 s.failure.reset();
                 s.shown.swap(known);
             }
-            // If this request is answered at once, a running prefetch for its surfaces goes on.
-            const bool going_on = s.answered && s.running && s.running->prefetch &&
-                                  same_but_for_step(s.running->query, request.query);
+            // If this request is answered at once, a running prefetch for its surfaces goes on, and so
+            // do meshes that are still wanted.
+            const bool going_on =
+                s.answered && s.running && s.running->prefetch &&
+                (s.running->meshes_of ? s.running->meshes_of == request.meshes_of
+                                      : same_but_for_step(s.running->query, request.query));
             const bool obsolete =
                 s.running && !going_on && !answers(s.running->query, request.query);
             if (obsolete && (s.running->prefetch || !s.abandoned))
@@ -289,9 +320,8 @@ bool Extractor::busy() const {
 
 void Extractor::wait() const {
     std::unique_lock lock(state_->mutex);
-    state_->changed.wait(lock, [this] {
-        return !state_->wanted || (state_->answered && !state_->simplified_wanted());
-    });
+    state_->changed.wait(
+        lock, [this] { return !state_->wanted || (state_->answered && !state_->meshes_wanted()); });
 }
 
 } // namespace isochron::index

@@ -24,9 +24,10 @@ struct Request {
     /// Steps to prefetch once the query is answered (during playback), as many as there is room
     /// for. Leave it empty while isovalues are dragged: the next query will have others.
     std::optional<StepsAhead> ahead;
-    /// Whether meshes are also simplified (Extraction::later): of the newest extraction once the
-    /// query is answered, and of the steps ahead.
-    bool simplified = false;
+    /// Once the query is answered, meshes of all levels that fit into this room [bytes] are made of
+    /// this extraction (Extraction::later), unless it has them; null: none are.
+    ExtractionPtr meshes_of = nullptr;
+    std::uint64_t later_room = 0;
 };
 
 /// Requests may come faster than searches finish. So after one abandoned search the next one is
@@ -61,8 +62,7 @@ class Extractor {
     /// True until the newest request has been answered or has failed.
     bool busy() const;
 
-    /// Blocks until not busy, and until the meshes of the answer are simplified if they are to be: for fixed-step replay, captures and tests only, never in the live
-    /// loop.
+    /// Blocks until not busy, and until the meshes are made that come later: for fixed-step replay, captures and tests only, never in the live loop.
     void wait() const;
 
   private:

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kFewest = 3; ///< shown, prefetched, and one for stepping back
 constexpr std::size_t kMostKept = 1024;
-constexpr std::uint64_t kOfSimplified = 3; ///< simplified meshes take at most a third of the mesh
 
 template <class T>
 std::uint64_t bytes_of(const std::vector<T>& values) {
@@ -25,7 +24,9 @@ std::uint64_t bytes_of(const Extraction& extraction) {
                           bytes_of(extraction.surroundings.shares);
     for (const CellSet& set : extraction.surfaces)
         bytes += bytes_of(set.ids) + bytes_of(set.points) + bytes_of(set.rows) +
-                 (set.mesh ? bytes_of(*set.mesh) + bytes_of(*set.mesh) / kOfSimplified : 0);
+                 (set.mesh ? bytes_of(*set.mesh) : 0);
+    if (const SimplifiedMeshesPtr later = extraction.later->get())
+        bytes += later->bytes();
     return bytes;
 }
 
@@ -132,9 +133,26 @@ RecentExtractions::Dropped RecentExtractions::add(ExtractionPtr extraction,
     bytes_ += bytes;
     kept_.push_front({std::move(extraction), bytes});
     by_step_[kept_.front().extraction->query.step] = kept_.begin();
+    drop_to_fit(ahead, dropped);
+    return dropped;
+}
+
+RecentExtractions::Dropped RecentExtractions::count_again(const ExtractionPtr& extraction,
+                                                          const std::optional<StepsAhead>& ahead) {
+    Dropped dropped;
+    for (Kept& kept : kept_)
+        if (kept.extraction == extraction) {
+            bytes_ -= kept.bytes;
+            kept.bytes = bytes_of(*extraction);
+            bytes_ += kept.bytes;
+        }
+    drop_to_fit(ahead, dropped);
+    return dropped;
+}
+
+void RecentExtractions::drop_to_fit(const std::optional<StepsAhead>& ahead, Dropped& dropped) {
     while (kept_.size() > kFewest && (bytes_ > budget_ || kept_.size() > kMostKept))
         drop(victim(ahead), dropped);
-    return dropped;
 }
 
 RecentExtractions::Dropped RecentExtractions::take_all() {

@@ -60,6 +60,8 @@ class RecentExtractions {
     /// Adds an extraction and drops others to fit the budget. @param ahead steps to drop last
     /// @return the dropped extractions, which the caller should free where nobody waits
     Dropped add(ExtractionPtr extraction, const std::optional<StepsAhead>& ahead);
+    /// Meshes of a kept extraction have come later: counts them, too.
+    Dropped count_again(const ExtractionPtr& extraction, const std::optional<StepsAhead>& ahead);
     Dropped take_all();
 
   private:
@@ -71,6 +73,7 @@ class RecentExtractions {
 
     Place victim(const std::optional<StepsAhead>& ahead);
     void drop(Place place, Dropped& dropped);
+    void drop_to_fit(const std::optional<StepsAhead>& ahead, Dropped& dropped);
 
     std::uint64_t budget_, bytes_ = 0;
     std::uint64_t largest_ = 0; ///< [bytes] of extractions for the newest one's surfaces

@@ -13,14 +13,20 @@ std::uint64_t SimplifiedMeshes::bytes() const {
     return all;
 }
 
+void SimplifiedMeshes::fit(std::uint64_t room) {
+    for (std::vector<CellMeshPtr>& surfaces : levels)
+        if (bytes() > room)
+            surfaces.clear();
+}
+
 SimplifiedMeshesPtr simplified(std::span<const CellSet> surfaces, const std::stop_token& stop) {
     auto made = std::make_shared<SimplifiedMeshes>();
-    for (std::size_t level = 0; level < kClusterEdges.size(); ++level)
+    for (std::size_t level = 1; level < kMeshLevels; ++level)
         for (const CellSet& surface : surfaces) {
             CellMeshPtr& mesh = made->levels[level].emplace_back();
             if (surface.mesh)
                 mesh = std::make_shared<const CellMesh>(
-                    clustered(*surface.mesh, kClusterEdges[level], stop));
+                    clustered(*surface.mesh, kClusterEdges[level - 1], stop));
             if (stop.stop_requested())
                 return nullptr;
         }

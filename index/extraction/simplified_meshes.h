@@ -1,4 +1,4 @@
-// Meshes with fewer triangles of an extraction's surfaces, which come after the rest of it.
+// Meshes of an extraction's surfaces, also with fewer triangles, which come after the rest of it.
 #pragma once
 
 #include "index/surface/cell_set.h"
@@ -21,9 +21,12 @@ constexpr std::array<std::uint32_t, 3> kClusterEdges{2, 4, 8};
 constexpr std::size_t kMeshLevels = 1 + kClusterEdges.size();
 
 struct SimplifiedMeshes {
-    /// By mesh level - 1, then by surface; null for a surface without cells.
-    std::array<std::vector<CellMeshPtr>, kClusterEdges.size()> levels;
+    /// By mesh level, then by surface; null for a surface without cells. Level 0 only if the extraction
+    /// came without it. Empty: there was no room for a level, or for those that are finer.
+    std::array<std::vector<CellMeshPtr>, kMeshLevels> levels;
     std::uint64_t bytes() const;
+    /// Drops levels, the finest first, until they fit.
+    void fit(std::uint64_t room);
 };
 using SimplifiedMeshesPtr = std::shared_ptr<const SimplifiedMeshes>;
 

@@ -96,7 +96,7 @@ bool CellBuffers::upload(const index::ExtractionPtr& newest, std::size_t byte_bu
             show();
             changed = true;
         }
-        send_simplified(budget);
+        send_later_meshes(budget);
     } catch (const OutOfMemory& why) {
         give_up(pending() ? arriving_.set() : volume_of_shown ? nullptr : newest, why);
     }
@@ -269,9 +269,10 @@ bool CellBuffers::send_mesh(std::size_t level, SendBudget& budget) {
     return mesh.complete();
 }
 
-/// The simplified meshes of the shown set, once they are made, the smallest first.
-void CellBuffers::send_simplified(SendBudget& budget) {
-    for (std::size_t level = meshes_.size(); shown_ && !pending() && --level > 0;) {
+/// The meshes of the shown set that come later, once they are made, the smallest first.
+void CellBuffers::send_later_meshes(SendBudget& budget) {
+    for (std::size_t level = meshes_.size();
+         shown_ && shown_->shaded() && !pending() && level-- > 0;) {
         KeptMeshes& kept = meshes_[level];
         if (kept.version == version_)
             continue;

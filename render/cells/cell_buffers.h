@@ -162,7 +162,7 @@ class CellBuffers {
     struct KeptMeshes {
         MeshBuffers buffers;
         std::uint64_t version = 0; ///< of the set whose meshes they are
-        bool sending = false;      ///< of the arriving set, or simplified ones of the shown set
+        bool sending = false;      ///< of the arriving set, or later ones of the shown set
     };
     struct Refusal {
         index::ExtractionPtr set; ///< null: none
@@ -176,7 +176,7 @@ class CellBuffers {
     bool make_room_for(const index::VolumeBlocks& blocks);
     bool send_on(SendBudget& budget);
     bool send_mesh(std::size_t level, SendBudget& budget);
-    void send_simplified(SendBudget& budget);
+    void send_later_meshes(SendBudget& budget);
     bool send_blocks(SendBudget& budget);
     bool send_colors(const index::Extraction& set, const Slots& slots, bool ranked,
                      SendBudget& budget);

@@ -98,6 +98,27 @@ TEST_P(SessionDetail, AllCellsMoveFromTheFirstFrameOnWhereTheyFit) {
     }
 }
 
+TEST_P(SessionDetail, MeshesThatComeAtRestDropNoPicture) {
+    const bool have_meshes =
+        render::CellBuffers::wanted_shading(render::Gl(context_->loader())) != index::Shading::none;
+    Session session(config_with(1e-6), large_, *context_);
+    FrameReport report = first_frame(session, true);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        return report.cells > 0 && report.coarsest == 0 && report.final;
+    }));
+    ASSERT_EQ(report.footprint, render::Footprint::surface);
+    std::uint64_t sent = 0;
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = frame(session, false);
+        EXPECT_FALSE(report.redrawn);
+        EXPECT_TRUE(report.final);
+        EXPECT_EQ(report.footprint, render::Footprint::surface);
+        sent += report.uploaded.mesh_bytes;
+        return !have_meshes || (sent > 0 && report.uploaded.mesh_bytes == 0);
+    }));
+}
+
 TEST_P(SessionDetail, WhatMovesCanBeRecognizedHoweverSmallTheBudget) {
     for (const double longest_ms : {0.0, 1000.0}) {
         SCOPED_TRACE(longest_ms);

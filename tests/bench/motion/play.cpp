@@ -57,6 +57,8 @@ struct CountedMotion {
         processor += report.processor.count();
         total += ms;
         std::string name(render::name_of(report.footprint));
+        if (report.mesh_level > 0)
+            name += fmt::format(" of {}", index::kClusterEdges[report.mesh_level - 1]);
         if (report.coarsest > 0)
             name += fmt::format(" {}-{}", report.finest, report.coarsest);
         ++drawn[name];

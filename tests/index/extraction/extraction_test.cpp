@@ -272,7 +272,8 @@ TEST(Extraction, MeshesAreSimplifiedOnceTheQueryIsAnsweredWhereAskedFor) {
     ASSERT_TRUE(set->meshed());
     EXPECT_FALSE(set->later->get()) << "nobody has asked";
     EXPECT_EQ(set->triangles(1), 0u);
-    extractor.request({.query = query, .ahead = {}, .simplified = true});
+    constexpr std::uint64_t kRoom = 1 << 30;
+    extractor.request({.query = query, .ahead = {}, .meshes_of = set, .later_room = kRoom});
     extractor.wait();
     EXPECT_EQ(extractor.newest(), set) << "it stays";
     for (std::size_t level = 1; level < kMeshLevels; ++level) {
@@ -283,14 +284,38 @@ TEST(Extraction, MeshesAreSimplifiedOnceTheQueryIsAnsweredWhereAskedFor) {
                   clustered(*set->surfaces[0].mesh, kClusterEdges[level - 1]));
         EXPECT_FALSE(set->meshes(level)[1]) << "without cells";
     }
-    // Steps ahead have theirs when they are asked for.
-    extractor.request({.query = query, .ahead = StepsAhead{1}, .simplified = true});
-    ASSERT_TRUE(test_support::eventually([&] { return extractor.at_hand().size() == 2; }));
-    SurfacesQuery next = query;
-    next.step = 1;
-    extractor.request({.query = next, .ahead = {}, .simplified = true});
-    EXPECT_FALSE(extractor.busy());
-    EXPECT_GT(extractor.newest()->triangles(2), 0u);
+}
+
+TEST(Extraction, ThatCameWithoutMeshesGetsThoseOfAllLevelsThatFit) {
+    const TestFolder folder;
+    const TestField field({40, 40, 40}, 1, ValueType::f32, moving_sphere);
+    const auto file = indexed(folder, field.view());
+    const SurfacesQuery query{.step = 0, .isovalues = {30.0, 1e9}, .mesh_room = 0};
+    SurfacesQuery with_mesh = query;
+    with_mesh.mesh_room = 1 << 30;
+    const ExtractionPtr meshed =
+        extract_from(file, std::nullopt, Shading::cells)(with_mesh, std::stop_token());
+    const auto made = [&](std::uint64_t room) {
+        Extractor extractor(extract_from(file, std::nullopt, Shading::cells), 1 << 30);
+        extractor.request({.query = query, .ahead = {}});
+        extractor.wait();
+        ExtractionPtr set = extractor.newest();
+        extractor.request({.query = query, .ahead = {}, .meshes_of = set, .later_room = room});
+        extractor.wait();
+        EXPECT_EQ(extractor.newest(), set) << "it stays";
+        return set;
+    };
+    const ExtractionPtr all = made(1 << 30);
+    EXPECT_FALSE(all->meshed()) << "it came without one";
+    ASSERT_EQ(all->meshes(0).size(), 2u);
+    EXPECT_EQ(*all->meshes(0)[0], *meshed->surfaces[0].mesh);
+    EXPECT_EQ(*all->meshes(1)[0], clustered(*meshed->surfaces[0].mesh, kClusterEdges[0]));
+    // Where there is less room, the finest are left out.
+    const ExtractionPtr some = made(all->later->get()->bytes() - 1);
+    EXPECT_TRUE(some->meshes(0).empty());
+    EXPECT_EQ(*some->meshes(1)[0], *all->meshes(1)[0]);
+    const ExtractionPtr none = made(1);
+    EXPECT_TRUE(none->meshes(kMeshLevels - 1).empty());
 }
 
 TEST(Extraction, WithoutActiveCellsThereIsNothingToSend) {

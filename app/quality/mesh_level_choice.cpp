@@ -1,0 +1,33 @@
+// Goes through the meshes from the finest on.
+#include "app/quality/mesh_level_choice.h"
+
+namespace isochron::app {
+
+std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) const {
+    constexpr double kFinerFits = 0.65, kSameFits = 0.9; // of the budget
+    /// By level: the share of the cells as quads that is as much like the surface.
+    constexpr std::array<double, index::kMeshLevels> kLikeQuads{2, 2, 0.5, 1.0 / 6};
+    for (std::size_t level = 0; level < meshes.triangles.size(); ++level) {
+        if (meshes.quads > kLikeQuads[level])
+            return std::nullopt;
+        if (meshes.triangles[level] == 0)
+            continue;
+        const auto time = meshes.expected(meshes.triangles[level]);
+        const bool finer = !level_ || level < *level_;
+        if (time && *time <= (finer ? kFinerFits : kSameFits) * meshes.budget)
+            return level;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::size_t> MeshLevelChoice::choose(const MeshesAtHand& meshes) {
+    constexpr interaction::Seconds kBetweenChanges{0.5};
+    const std::optional<std::size_t> level = wanted(meshes);
+    const bool gone = level_ && meshes.triangles[*level_] == 0;
+    if (level == level_ || (!gone && changed_ && meshes.now - *changed_ < kBetweenChanges))
+        return level_;
+    changed_ = meshes.now;
+    return level_ = level;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,42 @@
+// Chooses which of a set's meshes is drawn while the picture moves.
+#pragma once
+
+#include "app/frame/milliseconds.h"
+#include "index/extraction/simplified_meshes.h"
+#include "interaction/input/tracked_input.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+
+namespace isochron::app {
+
+/// What the choice is made from.
+struct MeshesAtHand {
+    /// By mesh level; 0 where there is no mesh.
+    std::array<std::size_t, index::kMeshLevels> triangles{};
+    double quads = 1; ///< share of all cells that is drawn as quads where no mesh is
+    Milliseconds budget{0};
+    /// Time of drawing so many triangles; empty: not known.
+    std::function<std::optional<Milliseconds>(std::size_t triangles)> expected;
+    interaction::Seconds now{0}; ///< session time
+};
+
+/// The finest mesh that is expected to fit. A finer one than before has to fit with room to
+/// spare, and half a second passes between two changes, so that the choice does not go to and fro.
+class MeshLevelChoice {
+  public:
+    /// @return its level; empty: none fits, there is none, or quads of all cells are more like the
+    /// surface
+    std::optional<std::size_t> choose(const MeshesAtHand& meshes);
+    const std::optional<std::size_t>& level() const { return level_; }
+
+  private:
+    std::optional<std::size_t> wanted(const MeshesAtHand& meshes) const;
+
+    std::optional<std::size_t> level_;
+    std::optional<interaction::Seconds> changed_;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,81 @@
+// The finest mesh that fits is drawn, and the choice does not go to and fro.
+#include "app/quality/mesh_level_choice.h"
+
+#include <gtest/gtest.h>
+
+namespace isochron::app {
+namespace {
+
+constexpr std::array<std::size_t, index::kMeshLevels> kAllLevels{100'000, 30'000, 12'000, 5'000};
+constexpr interaction::Seconds kLater{10};
+
+/// Drawing all triangles takes so long; a frame may take 10 ms.
+MeshesAtHand taking(double ms, interaction::Seconds now = kLater) {
+    return {.triangles = kAllLevels,
+            .quads = 0.1,
+            .budget = Milliseconds(10),
+            .expected =
+                [ms](std::size_t triangles) {
+                    return std::optional(Milliseconds(ms * static_cast<double>(triangles) /
+                                                      static_cast<double>(kAllLevels[0])));
+                },
+            .now = now};
+}
+
+TEST(MeshLevelChoice, IsTheFinestThatFits) {
+    EXPECT_EQ(MeshLevelChoice().choose(taking(5)), 0u);
+    EXPECT_EQ(MeshLevelChoice().choose(taking(15)), 1u);
+    EXPECT_EQ(MeshLevelChoice().choose(taking(40)), 2u);
+    EXPECT_EQ(MeshLevelChoice().choose(taking(100)), 3u);
+    EXPECT_EQ(MeshLevelChoice().choose(taking(1000)), std::nullopt);
+}
+
+TEST(MeshLevelChoice, IsNoneWhereNothingIsKnownOrThereIsNone) {
+    MeshesAtHand meshes = taking(1);
+    meshes.expected = [](std::size_t) { return std::optional<Milliseconds>(); };
+    EXPECT_EQ(MeshLevelChoice().choose(meshes), std::nullopt);
+    meshes = taking(1);
+    meshes.triangles = {};
+    EXPECT_EQ(MeshLevelChoice().choose(meshes), std::nullopt);
+    meshes.triangles = {0, 0, 12'000, 0};
+    EXPECT_EQ(MeshLevelChoice().choose(meshes), 2u) << "of those that are there";
+}
+
+TEST(MeshLevelChoice, GivesWayToQuadsOfSoManyCellsThatTheyAreMoreLikeTheSurface) {
+    const auto beside = [](double quads, double all_ms) {
+        MeshesAtHand meshes = taking(all_ms);
+        meshes.quads = quads;
+        return MeshLevelChoice().choose(meshes);
+    };
+    EXPECT_EQ(beside(1, 15), 1u) << "thin things are thinner as a mesh";
+    EXPECT_EQ(beside(1, 40), std::nullopt);
+    EXPECT_EQ(beside(0.25, 40), 2u);
+    EXPECT_EQ(beside(0.25, 100), std::nullopt);
+    EXPECT_EQ(beside(0.1, 100), 3u);
+}
+
+TEST(MeshLevelChoice, StaysWhereTimesScatterAboutALimitAndFollowsThemTwiceASecondAtMost) {
+    MeshLevelChoice choice;
+    interaction::Seconds now{0};
+    EXPECT_EQ(choice.choose(taking(20, now)), 1u);
+    for (int i = 0; i < 400; ++i, now += interaction::Seconds(0.01))
+        EXPECT_EQ(choice.choose(taking(i % 2 ? 18 : 29, now)), 1u) << i;
+    // It follows where times really change.
+    int changes = 0;
+    std::optional<std::size_t> last = choice.level();
+    for (int i = 0; i < 400; ++i, now += interaction::Seconds(0.01)) {
+        const auto level = choice.choose(taking(i % 2 ? 10 : 90, now));
+        changes += level != last;
+        last = level;
+    }
+    EXPECT_GT(changes, 0);
+    EXPECT_LE(changes, 8) << "in four seconds";
+    // What is gone is left at once.
+    EXPECT_TRUE(choice.choose(taking(10, now += interaction::Seconds(1))));
+    MeshesAtHand none = taking(10, now);
+    none.triangles = {};
+    EXPECT_EQ(choice.choose(none), std::nullopt);
+}
+
+} // namespace
+} // namespace isochron::app

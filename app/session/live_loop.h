@@ -107,6 +107,7 @@ class LiveLoop {
     void keep(Session& session, const interaction::Commands& commands, interaction::Seconds now);
     void open(const std::filesystem::path& data, Session& session);
     void make_movies(Session& session);
+    void begin_or_end_recording(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
     bool closes(const Session& session, interaction::Commands& asked) const;
     std::function<void()> waker() const;

@@ -71,6 +71,9 @@ class Session {
     /// @throws index::Error when the index has no such array
     void expect_array(const std::string& name) const { arrays_.expect(name); }
     const ExplorerState& home() const { return home_; }
+    /// Lets the data fill the window, seen from a corner, if the configuration asks for that: so
+    /// the session begins, and Home returns there.
+    void fill_window();
     /// Continues with the same data that have more steps. The command `steps` makes them visible.
     void grow(std::shared_ptr<const index::IndexFile> file);
     const History& history() const { return history_; }
@@ -183,7 +186,7 @@ class Session {
     Config config_;
     Outputs outputs_;
     ExplorerState state_;
-    const ExplorerState home_;
+    ExplorerState home_;
     ShownArrays arrays_;
     std::vector<double> times_; ///< of the known steps
     interaction::Controls controls_;

@@ -4,6 +4,8 @@
 #include "interaction/controls/room_panel.h"
 #include "interaction/navigation/navigation.h"
 
+#include <glm/common.hpp>
+
 #include <utility>
 
 namespace isochron::app {
@@ -92,10 +94,15 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
     add(over_.draw_alone(models(facts), time));
 }
 
-int SessionPanel::covered(const ExplorerState& state) const {
-    return is_flat(state)
-               ? over_.covered(outputs_.windows()[0].framebuffer_size().x / places(state).x)
-               : 0;
+stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
+    return is_flat(state) ? over_.covered(outputs_.windows()[0].framebuffer_size() / places(state))
+                          : stereo::Margins{};
+}
+
+glm::ivec2 SessionPanel::free_picture(const ExplorerState& state) const {
+    const stereo::Margins margins = covered(state);
+    const glm::ivec2 size = outputs_.windows()[0].framebuffer_size() / places(state);
+    return glm::max(size - glm::ivec2(margins.left, margins.top + margins.bottom), 1);
 }
 
 bool SessionPanel::head_is_emulated() const {

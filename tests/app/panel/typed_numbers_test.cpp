@@ -1,52 +1,22 @@
 // Numbers that are typed into the panel of a window, event by event.
-#include "app/panel/panel_layer.h"
-#include "stereo/context/gl_context.h"
+#include "tests/app/panel/layer_fixture.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace isochron::app {
 namespace {
 
 using interaction::Commands;
 using interaction::Key;
-using interaction::KeyEvent;
-using interaction::WindowEvent;
 
-class TypedNumbers : public testing::Test {
+class TypedNumbers : public LayerTest {
   protected:
-    TypedNumbers() {
-        for (int step = 0; step < 2000; ++step)
-            info_.times.push_back(step);
-        stats_.low = 0;
-        stats_.high = 100;
-        stats_.histogram.assign(256, 1);
-        asked_.panel = true;
-    }
-
-    Commands frame(const std::vector<WindowEvent>& events) {
-        layer_.feed(events, true);
-        time_ += interaction::Seconds(0.1);
-        return layer_.lay_out(kSize,
-                              {.info = info_,
-                               .stats = stats_,
-                               .asked = asked_,
-                               .frame = report_,
-                               .controls = controls_},
-                              time_);
-    }
-    /// Ctrl + click at a height of the window, and text that is typed then and entered.
-    Commands typed_at(float y, const std::string& text) {
-        frame({interaction::MouseMoveEvent{0.1f, y, kSize.x, kSize.y}});
-        frame({KeyEvent{Key::left_control, true},
-               interaction::MouseButtonEvent{interaction::MouseButton::left, true}});
-        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, false},
-               KeyEvent{Key::left_control, false}});
-        frame({});
+    /// A click at a place of the window, and text that is typed then and entered.
+    Commands typed_at(glm::vec2 at, const std::string& text) {
+        click(at);
         Commands last;
         const auto see = [&](const Commands& commands) {
             if (commands.isovalue)
@@ -56,36 +26,29 @@ class TypedNumbers : public testing::Test {
         };
         for (const char character : text)
             see(frame({interaction::TextEvent{static_cast<char32_t>(character)}}));
-        see(frame({KeyEvent{Key::enter, true}, KeyEvent{Key::enter, false}}));
-        see(frame({}));
-        frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
-        frame({});
+        see(frame(
+            {interaction::KeyEvent{Key::enter, true}, interaction::KeyEvent{Key::enter, false}}));
+        see(frame());
+        press(Key::escape);
         return last;
     }
-
-    static constexpr glm::ivec2 kSize{1000, 1000};
-    std::unique_ptr<stereo::GlContext> context_ =
-        stereo::make_context(stereo::ContextKind::egl, {.size = kSize});
-    render::Gl gl_{context_->loader()};
-    PanelLayer layer_{gl_};
-    index::SeriesInfo info_;
-    index::IndexStats stats_;
-    ExplorerState asked_;
-    FrameReport report_;
-    std::vector<interaction::ControlGroup> controls_;
-    interaction::Seconds time_{0};
 };
 
-TEST_F(TypedNumbers, MayHaveADecimalCommaUnlessTheyAreWhole) {
-    frame({});
-    std::optional<float> isovalue, step;
-    for (float y = 0.02f; y < 0.5f; y += 0.01f) {
-        const Commands commands = typed_at(y, "42");
+TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessTheyAreWhole) {
+    frame();
+    std::optional<glm::vec2> isovalue, step;
+    const auto look = [&](glm::vec2 at) {
+        const Commands commands = typed_at(at, "42");
         if (commands.isovalue == 42.0 && !isovalue)
-            isovalue = y;
+            isovalue = at;
         if (commands.step == 41u && !step)
-            step = y;
-    }
+            step = at;
+    };
+    const PanelPlaces places = layer_.places();
+    for (float y = 350; y < 400; y += 9) // below the histogram
+        look({130, y});
+    for (float x = 200; x < 500; x += 20)
+        look({x, (places.time.low.y + places.time.high.y) / 2});
     ASSERT_TRUE(isovalue && step);
     EXPECT_EQ(typed_at(*isovalue, "1,5").isovalue, 1.5);
     EXPECT_EQ(typed_at(*isovalue, "1.5").isovalue, 1.5);

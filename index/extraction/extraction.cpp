@@ -3,16 +3,20 @@
 
 #include "index/detail/detail_search.h"
 #include "index/error.h"
+#include "index/extraction/extraction_at_hand.h"
 #include "index/extraction/surface_colors.h"
 #include "index/surface/mesh_colors.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 namespace isochron::index {
 namespace {
+
+std::atomic<std::uint64_t> last_number = 0; ///< of an extraction
 
 class Extracting {
   public:
@@ -24,7 +28,7 @@ class Extracting {
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
           gatherer_(file_->info().grid, values_), layers_(file_), colors_(file_, method),
-          details_(file_) {}
+          details_(file_), at_hand_(file_, layers_, shading_, !method) {}
 
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
@@ -32,25 +36,63 @@ class Extracting {
             throw Error(fmt::format("{} isovalues: expected 1 to {}", count, kMostSurfaces));
         auto result = std::make_shared<Extraction>();
         result->query = query;
-        const StepView step = step_of_query(*file_, query.step);
+        result->number = ++last_number;
         try {
-            // A large step is not searched as a whole before it is known that its cells fit.
-            if (step.by_chunks() && may_have_too_many(query))
-                if (const auto made = make_of_levels(result, stop))
-                    return *made;
-            if (!search(step, *result, stop))
-                return nullptr;
-            result->volume_cells = result->cells();
-            if (may_have_too_many(query) && result->cells() > query.detail.most_cells)
-                if (const auto made = make_of_levels(result, stop))
-                    return *made;
-            return fill(step, *result, stop) ? result : nullptr;
+            ExtractionPtr made = make(result, step_of_query(*file_, query.step), stop);
+            if (made)
+                at_hand_.set(made);
+            return made;
         } catch (const Stopped&) {
             return nullptr;
         }
     }
 
+    /// Begins with what has been extracted from an earlier state of the index.
+    void continue_from(const Extracting& earlier) {
+        const std::vector<std::uint64_t>& states = file_->metadata().earlier;
+        const IndexStats &now = file_->stats(), &before = earlier.file_->stats();
+        // Values that are converted for blocks depend on the range.
+        const bool same_blocks =
+            gatherer_.without_levels() || (now.low == before.low && now.high == before.high);
+        if (same_blocks && earlier.at_hand_.get() &&
+            std::ranges::find(states, earlier.file_->content_hash()) != states.end())
+            at_hand_.set(earlier.at_hand_.get());
+    }
+
   private:
+    /// @return null when stopped
+    ExtractionPtr make(const std::shared_ptr<Extraction>& result, const StepView& step,
+                       const std::stop_token& stop) {
+        const SurfacesQuery& query = result->query;
+        at_hand_.begin(query, file_->has_cells(query.step));
+        const bool keeps = keeps_any(query);
+        const bool may_have_too_many = this->may_have_too_many(query);
+        // A large step is not searched as a whole before it is known that its cells fit.
+        bool asked = !step.by_chunks() || !may_have_too_many;
+        if (!asked && !(keeps && at_hand_.fits(query.detail))) {
+            asked = true;
+            if (const auto made = make_of_levels(result, stop))
+                return *made;
+        }
+        if (!search(step, *result, stop))
+            return nullptr;
+        if (!asked && !at_hand_.fits(query.detail, result->cells()))
+            if (const auto made = make_of_levels(result, stop))
+                return *made;
+        result->volume_cells = result->cells();
+        if (may_have_too_many && result->cells() > query.detail.most_cells)
+            if (const auto made = make_of_levels(result, stop))
+                return *made;
+        return fill(keeps ? at_hand_.step() : step, *result, stop) ? result : nullptr;
+    }
+
+    bool keeps_any(const SurfacesQuery& query) const {
+        for (std::size_t i = 0; i < query.isovalues.size(); ++i)
+            if (at_hand_.keeps_cells(i))
+                return true;
+        return false;
+    }
+
     bool may_have_too_many(const SurfacesQuery& query) const {
         const std::uint64_t cells = file_->info().grid.cell_count() * query.isovalues.size();
         return query.detail.most_cells > 0 && cells > query.detail.most_cells;
@@ -66,6 +108,7 @@ class Extracting {
         case DetailSearch::Outcome::made: break;
         }
         result->surfaces = std::move(found.surfaces);
+        result->change = {};
         result->colors = std::move(found.colors);
         result->detail = std::move(found.levels);
         result->coarsest = found.coarsest;
@@ -87,6 +130,8 @@ class Extracting {
     bool search(const StepView& step, Extraction& found, const std::stop_token& stop) {
         const SurfacesQuery& query = found.query;
         found.surfaces.clear();
+        found.change = {at_hand_.number_for(query),
+                        std::vector<SurfaceChange>(query.isovalues.size())};
         std::uint64_t room = query.mesh_room;
         std::optional<ColorSource> colors;
         if (query.coloring == CellColoring::value && query.colors < ColorSource::count(*file_))
@@ -95,8 +140,11 @@ class Extracting {
             if (searches_.size() == i)
                 searches_.push_back(search_into(file_, method_, shading_));
             CellSet& set = found.surfaces.emplace_back();
-            if (!searches_[i](step, query.isovalues[i], stop, set) ||
-                !add_mesh(step, set, room, colors, stop))
+            if (!search_surface(step, i, found, stop))
+                return false;
+            const bool keeps = at_hand_.keeps_cells(i);
+            if (!add_mesh(keeps ? at_hand_.step() : step, set, room, colors,
+                          keeps ? at_hand_.mesh() : EarlierMesh{}, stop))
                 return false;
             room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
         }
@@ -106,15 +154,28 @@ class Extracting {
         return true;
     }
 
+    /// @return false when stopped
+    bool search_surface(const StepView& step, std::size_t i, Extraction& found,
+                        const std::stop_token& stop) {
+        CellSet& set = found.surfaces[i];
+        if (at_hand_.keeps_cells(i))
+            return at_hand_.find(i, found.query.mesh_room > 0, stop, set, found.change.surfaces[i]);
+        found.change.from = 0;
+        return searches_[i](step, found.query.isovalues[i], stop, set);
+    }
+
     /// Adds a mesh if it does not take more room. @return false when stopped
     /// @param colors array to color the mesh by, if any
+    /// @param earlier has the mesh of some cells
     bool add_mesh(const StepView& step, CellSet& set, std::uint64_t room,
-                  const std::optional<ColorSource>& colors, const std::stop_token& stop) {
+                  const std::optional<ColorSource>& colors, const EarlierMesh& earlier,
+                  const std::stop_token& stop) {
         if (shading_ == Shading::none || set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
             return true;
         const auto started = std::chrono::steady_clock::now();
         CellMesh mesh;
-        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr))
+        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr,
+                               colors ? EarlierMesh{} : earlier))
             return false;
         if (colors)
             color_by_values(mesh, colors->array().low, colors->array().high);
@@ -134,7 +195,8 @@ class Extracting {
             return true;
         for (const CellSet& surface : result.surfaces)
             gatherer_.need(surface);
-        if (!gatherer_.gather(step, levels, result.blocks, stop))
+        if (!gatherer_.gather(step, levels, result.blocks, stop,
+                              at_hand_.blocks(!gatherer_.without_levels())))
             return false;
         find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
@@ -187,6 +249,7 @@ class Extracting {
     LayerSearch layers_; ///< for meshes
     SurfaceColors colors_;
     DetailSearch details_;
+    ExtractionAtHand at_hand_;
 };
 
 template <class Sum, class Of>
@@ -251,13 +314,17 @@ Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<Search
 Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading) {
     struct Made {
         std::shared_ptr<const IndexFile> file;
-        Extract extract;
+        std::shared_ptr<Extracting> extracting;
     };
     return [newest = std::move(newest), shading, made = std::make_shared<Made>()](
                const SurfacesQuery& query, const std::stop_token& stop) {
-        if (auto file = array_of(newest->get(), query.array); file != made->file)
-            *made = {file, extract_from(file, std::nullopt, shading)};
-        return made->extract(query, stop);
+        if (auto file = array_of(newest->get(), query.array); file != made->file) {
+            auto extracting = std::make_shared<Extracting>(file, std::nullopt, shading);
+            if (made->extracting)
+                extracting->continue_from(*made->extracting);
+            *made = {std::move(file), std::move(extracting)};
+        }
+        return (*made->extracting)(query, stop);
     };
 }
 

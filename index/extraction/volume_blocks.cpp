@@ -13,6 +13,9 @@
 namespace isochron::index {
 namespace {
 
+static_assert(kChunkEdge % kBlockEdge == 0);
+constexpr std::uint32_t kAcross = kChunkEdge / kBlockEdge; ///< blocks of a chunk along each axis
+
 /// First and last block of a cell's two vertices along one axis.
 std::array<std::uint32_t, 2> inner(std::uint32_t cell) {
     return {cell / kBlockEdge, (cell + 1) / kBlockEdge};
@@ -144,9 +147,10 @@ void BlockGatherer::take_marked(VolumeBlocks& blocks) {
 }
 
 bool BlockGatherer::gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
-                           const std::stop_token& stop) {
-    return step.by_chunks() ? gather_chunks(step, levels, blocks, stop)
-                            : gather(step.whole(stop).values, step.at(), levels, blocks, stop);
+                           const std::stop_token& stop, const KnownBlocks& known) {
+    if (!step.by_chunks() && !known.blocks)
+        return gather(step.whole(stop).values, step.at(), levels, blocks, stop);
+    return gather_chunks(step, levels, blocks, stop, known);
 }
 
 bool BlockGatherer::gather(const StepValues& step, Instant at_step, const BlockLevels& levels,
@@ -170,24 +174,53 @@ bool BlockGatherer::gather(const StepValues& step, Instant at_step, const BlockL
     return true;
 }
 
+/// Copies the blocks that are known. @return the places in `blocks` of all others
+std::vector<std::uint32_t> BlockGatherer::take_known(const KnownBlocks& known,
+                                                     const ChunkGrid& chunks,
+                                                     VolumeBlocks& blocks) const {
+    std::vector<std::uint32_t> others;
+    const std::size_t bytes = blocks.block_bytes();
+    std::size_t at_known = 0;
+    for (std::uint32_t i = 0; i < blocks.ids.size(); ++i) {
+        const BlockId id = blocks.ids[i];
+        while (known.blocks && at_known < known.blocks->ids.size() &&
+               known.blocks->ids[at_known] < id)
+            ++at_known;
+        const auto [x, y, z] = at(id);
+        if (known.blocks && at_known < known.blocks->ids.size() &&
+            known.blocks->ids[at_known] == id &&
+            known.staying->has(z / kAcross, chunks.place(x / kAcross, y / kAcross))) {
+            std::memcpy(blocks.bytes.data() + i * bytes, known.blocks->block(at_known).data(),
+                        bytes);
+            blocks.digests[i] = known.blocks->digests[at_known];
+        } else {
+            others.push_back(i);
+        }
+    }
+    return others;
+}
+
 bool BlockGatherer::gather_chunks(const StepView& step, const BlockLevels& levels,
-                                  VolumeBlocks& blocks, const std::stop_token& stop) {
-    static_assert(kChunkEdge % kBlockEdge == 0);
-    constexpr std::uint32_t kAcross = kChunkEdge / kBlockEdge;
+                                  VolumeBlocks& blocks, const std::stop_token& stop,
+                                  const KnownBlocks& known) {
     take_marked(blocks);
+    const std::vector<std::uint32_t> others = take_known(known, step.chunk_grid(), blocks);
+    if (!others.empty() && !step.by_chunks())
+        step.whole(stop); // before there are several threads
+    const auto id_of = [&](std::uint32_t i) { return blocks.ids[i]; };
     const std::size_t size = size_of(values_.stored());
     const std::uint64_t layer_blocks =
         std::uint64_t{tiling_.blocks[0]} * tiling_.blocks[1] * kAcross;
     parallel_for(
         step.chunk_grid().layers(), thread_count(0),
         [&](std::size_t layer, unsigned) {
-            const auto first = std::ranges::lower_bound(blocks.ids, layer * layer_blocks);
-            const auto last =
-                std::ranges::lower_bound(first, blocks.ids.end(), (layer + 1) * layer_blocks);
+            const auto first = std::ranges::lower_bound(others, layer * layer_blocks, {}, id_of);
+            const auto last = std::ranges::lower_bound(first, others.end(),
+                                                       (layer + 1) * layer_blocks, {}, id_of);
             if (first == last || stop.stop_requested())
                 return;
-            const auto place_of = [&](BlockId block) {
-                const auto [x, y, z] = at(block);
+            const auto place_of = [&](std::uint32_t i) {
+                const auto [x, y, z] = at(blocks.ids[i]);
                 return step.chunk_grid().place(x / kAcross, y / kAcross);
             };
             std::vector<std::uint32_t> places;
@@ -202,7 +235,7 @@ bool BlockGatherer::gather_chunks(const StepView& step, const BlockLevels& level
                     return;
                 const auto place = std::ranges::lower_bound(places, place_of(*block));
                 const Chunk& chunk = *found[static_cast<std::size_t>(place - places.begin())];
-                auto corner = at(*block);
+                auto corner = at(blocks.ids[*block]);
                 Box box{chunk.values.data(),
                         chunk.size[0] * size,
                         chunk.size[0] * chunk.size[1] * size,
@@ -212,7 +245,7 @@ bool BlockGatherer::gather_chunks(const StepView& step, const BlockLevels& level
                     box.size[axis] = std::min(kBlockEdge, chunk.size[axis] - corner[axis]);
                 }
                 box.first += corner[2] * box.plane + corner[1] * box.row + corner[0] * size;
-                copy(box, levels, blocks, static_cast<std::size_t>(block - blocks.ids.begin()));
+                copy(box, levels, blocks, *block);
             }
         },
         {});

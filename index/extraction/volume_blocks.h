@@ -3,6 +3,7 @@
 
 #include "index/extraction/block_values.h"
 #include "index/file/step_view.h"
+#include "index/search/staying_cells.h"
 #include "index/surface/cell_set.h"
 #include "index/volume/step_values.h"
 
@@ -50,6 +51,12 @@ struct VolumeBlocks {
     }
 };
 
+/// Blocks that are there already: those of chunks that stay.
+struct KnownBlocks {
+    const VolumeBlocks* blocks = nullptr;
+    const StayingCells* staying = nullptr;
+};
+
 /// Collects the blocks that hold the vertices of cells and the neighbors of these along each axis,
 /// which central differences need.
 class BlockGatherer {
@@ -62,10 +69,13 @@ class BlockGatherer {
     void need(const CellSet& set);
     /// Copies the blocks that have been marked since the last call, then clears the marks. From
     /// chunks it does so with all cores.
+    /// @param known blocks that are taken over; held in the same way
     /// @return false when it was stopped and the blocks are incomplete
     /// @throws Error as ChunkStore does
     bool gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
-                const std::stop_token& stop = {});
+                const std::stop_token& stop = {}, const KnownBlocks& known = {});
+    /// Whether blocks of other isovalues are the same.
+    bool without_levels() const { return values_.stored() == values_.held(); }
     /// The same from values in memory.
     bool gather(const StepValues& step, Instant at, const BlockLevels& levels, VolumeBlocks& blocks,
                 const std::stop_token& stop = {});
@@ -77,8 +87,10 @@ class BlockGatherer {
     void mark_row(std::uint32_t y, std::uint32_t z);
     std::array<std::uint32_t, 3> at(BlockId block) const;
     void take_marked(VolumeBlocks& blocks);
+    std::vector<std::uint32_t> take_known(const KnownBlocks& known, const ChunkGrid& chunks,
+                                          VolumeBlocks& blocks) const;
     bool gather_chunks(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
-                       const std::stop_token& stop);
+                       const std::stop_token& stop, const KnownBlocks& known);
     void copy(const Box& from, const BlockLevels& levels, VolumeBlocks& blocks,
               std::size_t i) const;
 

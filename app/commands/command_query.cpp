@@ -117,6 +117,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"active_cells", active},
         {"id_bits", index::has_wide_ids(file.chunks(arguments.level).info().grid) ? 64 : 32},
         {"candidates", result.set->candidates},
+        {"reused", result.set->reused},
         {"false_positives", false_positives},
         {"false_positive_rate",
          active ? nlohmann::ordered_json(double(false_positives) / double(active)) : nullptr},

@@ -74,7 +74,9 @@ class Extracting {
             if (const auto made = make_of_levels(result, stop))
                 return *made;
         }
-        if (!search(step, *result, stop))
+        // What is in memory is enough: reading the step as a whole takes longer.
+        const StepView& near = at_hand_.of_same_step() ? at_hand_.step() : step;
+        if (!search(near, *result, stop))
             return nullptr;
         if (!asked && !at_hand_.fits(query.detail, result->cells()))
             if (const auto made = make_of_levels(result, stop))
@@ -83,7 +85,7 @@ class Extracting {
         if (may_have_too_many && result->cells() > query.detail.most_cells)
             if (const auto made = make_of_levels(result, stop))
                 return *made;
-        return fill(keeps ? at_hand_.step() : step, *result, stop) ? result : nullptr;
+        return fill(keeps ? at_hand_.step() : near, *result, stop) ? result : nullptr;
     }
 
     bool keeps_any(const SurfacesQuery& query) const {

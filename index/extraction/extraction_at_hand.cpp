@@ -9,6 +9,8 @@ namespace {
 
 /// Where less than this share of the cells stays, all are found anew: that takes no longer.
 constexpr double kLeastKept = 0.25;
+/// Where such a share of the chunks stays, enough of their cells do: they need not be counted.
+constexpr double kPlenty = 0.75;
 /// A set with so many times fewer cells than would be too many is not counted by levels of detail.
 constexpr std::uint64_t kFewer = 4;
 
@@ -41,17 +43,19 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
     if (!may_keep(query))
         return;
     step_.emplace(part_of_step(*file_, query.step));
-    if (from_->query.step != query.step &&
-        staying_share(*step_, from_->query.step, query.isovalues) < kLeastKept)
+    const double share = from_->query.step == query.step
+                             ? 1.0
+                             : staying_share(*step_, from_->query.step, query.isovalues);
+    if (share < kLeastKept)
         return;
     staying_.emplace(*step_, from_->query.step, shading_ != Shading::none);
-    if (!enough_stays())
+    if (!enough_stays(share))
         staying_.reset();
 }
 
-/// Of the cells at hand.
-bool ExtractionAtHand::enough_stays() const {
-    if (from_->query.step == query_.step)
+/// Of the cells at hand. @param chunks share of the chunks that stay
+bool ExtractionAtHand::enough_stays(double chunks) const {
+    if (chunks >= kPlenty)
         return true;
     std::size_t all = 0, kept = 0;
     for (std::size_t i = 0; i < from_->surfaces.size(); ++i) {

@@ -48,6 +48,11 @@ class ExtractionAtHand {
     /// The mesh of the cells that the last `find` kept; none if it was not meshed.
     EarlierMesh mesh() const;
 
+    /// Whether the extraction at hand is of the same step, some of whose chunks are in memory then.
+    bool of_same_step() const {
+        return staying_ && from_->query.step == query_.step &&
+               file_->plan().tiers.has(Tier::bricks);
+    }
     /// Where work on a part of the step's cells finds its values.
     const StepView& step() const { return *step_; }
     /// The blocks that are taken over. @param only_if_same_levels for other isovalues they differ
@@ -55,7 +60,7 @@ class ExtractionAtHand {
 
   private:
     bool may_keep(const SurfacesQuery& query) const;
-    bool enough_stays() const;
+    bool enough_stays(double chunks) const;
 
     std::shared_ptr<const IndexFile> file_;
     LayerSearch& layers_;

@@ -14,6 +14,8 @@ constexpr std::uint64_t kTables = 1 << 20;
 /// A step up to this size is decoded as a whole when it is worked on again: a search is faster
 /// then.
 constexpr std::uint64_t kModerateStep = 64 << 20;
+/// Bytes that are announced behind a read in order.
+constexpr std::uint64_t kAnnounced = 2 << 20;
 
 } // namespace
 
@@ -149,6 +151,21 @@ std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
     return announce(step, layer, missing(step, layer, places));
 }
 
+/// Whether the kernel, reading ahead of here, may get beyond the step.
+bool ChunkStore::near_end(std::uint32_t step, std::uint64_t end) const {
+    constexpr std::uint64_t kMostAhead = 16 << 20;
+    return end + kMostAhead > array_.steps[step].offset + array_.steps[step].bytes;
+}
+
+void ChunkStore::read_in_order(std::uint32_t step, std::uint64_t offset,
+                               std::span<std::byte> out) const {
+    if (!near_end(step, offset + out.size()))
+        return source_.read_in_order(offset, out);
+    const std::uint64_t end = array_.steps[step].offset + array_.steps[step].tables;
+    source_.expect(offset, std::min<std::uint64_t>(kAnnounced, end - std::min(end, offset)));
+    source_.read(offset, out);
+}
+
 std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
                                 std::span<const std::uint32_t> places,
                                 const std::stop_token& stop) const {
@@ -156,7 +173,10 @@ std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
     if (!fetches_all(missing.size()))
         return announce(step, layer, missing);
     const ChunkLayerPtr table = this->layer(step, layer);
-    source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
+    if (near_end(step, table->offsets.back()))
+        source_.expect(table->offsets.front(), table->offsets.back() - table->offsets.front());
+    else
+        source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
     return table->offsets.back() - table->offsets.front() +
            announce_earlier(step, layer, *table, missing);
 }

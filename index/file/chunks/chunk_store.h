@@ -71,6 +71,9 @@ class ChunkStore {
     /// until it has come from the disk.
     std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::uint32_t> places, const std::stop_token& stop) const;
+    /// Reads bytes of a step that are read in order. Near its end the kernel is not left to read
+    /// ahead as it sees fit, as it would read what follows the step, too.
+    void read_in_order(std::uint32_t step, std::uint64_t offset, std::span<std::byte> out) const;
     /// Whether `fetch` of so many chunks of a layer, none of them in the cache, reads the whole
     /// layer: a sixth of the chunks are so spread that, with their neighbors, most are needed.
     bool fetches_all(std::size_t places) const { return 6 * places >= grid_.chunks_of_layer(); }
@@ -136,9 +139,10 @@ class ChunkStore {
         return grid_.chunks_of_layer() * (sizeof(std::uint64_t) + sizeof(std::uint32_t) + 2);
     }
     std::vector<std::byte> read_at_once(std::uint32_t step) const;
-    void decode_from(std::span<const std::byte> all, std::uint32_t step, std::uint32_t layer,
-                     std::span<const std::uint32_t> places, std::span<std::byte> planes,
-                     std::span<std::uint8_t> bricks, const std::stop_token& stop) const;
+    void decode_from(std::span<const std::byte> all, std::span<const std::byte> before,
+                     std::uint32_t step, std::uint32_t layer, std::span<const std::uint32_t> places,
+                     std::span<std::byte> planes, std::span<std::uint8_t> bricks,
+                     const std::stop_token& stop) const;
     /// Calls `f(i, record)` for every place, `i` counting from 0.
     using TakeRecord = std::function<void(std::size_t i, std::span<const std::byte> record)>;
     void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
@@ -147,6 +151,7 @@ class ChunkStore {
                                        std::span<const std::uint32_t> places) const;
     std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
                            std::span<const std::uint32_t> missing) const;
+    bool near_end(std::uint32_t step, std::uint64_t end) const;
     std::uint64_t announce_earlier(std::uint32_t step, std::uint32_t layer, const ChunkLayer& table,
                                    std::span<const std::uint32_t> missing) const;
     std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,

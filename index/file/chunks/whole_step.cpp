@@ -72,10 +72,11 @@ std::vector<std::byte> ChunkStore::read_at_once(std::uint32_t step) const {
 }
 
 /// @param all bytes of the step; empty: those that are needed are read
-void ChunkStore::decode_from(std::span<const std::byte> all, std::uint32_t step,
-                             std::uint32_t layer, std::span<const std::uint32_t> places,
-                             std::span<std::byte> planes, std::span<std::uint8_t> bricks,
-                             const std::stop_token& stop) const {
+/// @param before planes of the layer in the step before; empty: they are not in memory
+void ChunkStore::decode_from(std::span<const std::byte> all, std::span<const std::byte> before,
+                             std::uint32_t step, std::uint32_t layer,
+                             std::span<const std::uint32_t> places, std::span<std::byte> planes,
+                             std::span<std::uint8_t> bricks, const std::stop_token& stop) const {
     const SeriesInfo& info = array_.info;
     const std::size_t size = size_of(info.type), row = info.grid.vertices[0] * size;
     const std::size_t plane = info.grid.vertices[1] * row;
@@ -110,7 +111,21 @@ void ChunkStore::decode_from(std::span<const std::byte> all, std::uint32_t step,
                             table->bytes(places[i])));
     if (all.empty())
         read_records(*table, places, stop, take);
+    const auto put_before = [&](std::uint32_t place) {
+        const auto extent = grid_.size(layer, place);
+        const auto [x, y] = grid_.at(place);
+        for (std::uint32_t dz = 0; dz < extent[2]; ++dz)
+            for (std::uint32_t dy = 0; dy < extent[1]; ++dy) {
+                const std::size_t at =
+                    dz * plane + (y * kChunkEdge + dy) * row + x * kChunkEdge * size;
+                std::memcpy(planes.data() + at, before.data() + at, extent[0] * size);
+            }
+    };
     for (const PlacesOfStep& earlier : elsewhere(step, *table, places)) {
+        if (!before.empty()) {
+            std::ranges::for_each(earlier.places, put_before);
+            continue;
+        }
         const auto found = this->chunks(earlier.step, layer, earlier.places, stop);
         for (std::size_t i = 0; i < found.size(); ++i)
             put(earlier.places[i], found[i]->values.data());
@@ -120,7 +135,7 @@ void ChunkStore::decode_from(std::span<const std::byte> all, std::uint32_t step,
 void ChunkStore::decode(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::uint32_t> places, std::span<std::byte> planes,
                         std::span<std::uint8_t> bricks, const std::stop_token& stop) const {
-    decode_from({}, step, layer, places, planes, bricks, stop);
+    decode_from({}, {}, step, layer, places, planes, bricks, stop);
 }
 
 LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) const {
@@ -137,6 +152,10 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
                                         size_of(info.type) * kChunkEdge;
         std::vector<std::uint32_t> places(grid_.chunks_of_layer());
         std::iota(places.begin(), places.end(), 0u);
+        std::shared_ptr<const WholeStep> before;
+        if (const ByteCache::Key at = key(whole_kept, step - 1);
+            step > 0 && array_.has_values && cache_.held({{at}})[0])
+            before = cache_.find<WholeStep>(at);
         // Starting threads takes longer than reading a small step.
         const bool small = stride <= kSmallStep;
         std::optional<ReadAhead> ahead;
@@ -153,9 +172,13 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
             if (ahead)
                 ahead->reach(layer);
             std::span<std::byte> planes;
+            std::span<const std::byte> planes_before;
             if (array_.has_values)
                 planes = std::span(all->values.get(), stride).subspan(layer * layer_bytes);
-            decode_from(at_once, step, layer, places, planes, all->bricks, stop);
+            if (before)
+                planes_before = std::span<const std::byte>(before->values.get(), stride)
+                                    .subspan(layer * layer_bytes);
+            decode_from(at_once, planes_before, step, layer, places, planes, all->bricks, stop);
         };
         parallel_for(grid_.layers(), small ? 1 : thread_count(0), take, {});
         cache_.add(key(whole_kept, step), all, stride + all->bricks.size());

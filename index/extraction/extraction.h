@@ -5,7 +5,7 @@
 #include "index/extraction/surroundings.h"
 #include "index/extraction/volume_blocks.h"
 #include "index/search/index_search.h"
-#include "index/search/kept_cells.h"
+#include "index/extraction/kept_cells.h"
 
 #include <chrono>
 #include <cstdint>

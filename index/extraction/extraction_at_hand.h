@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
-#include "index/search/kept_cells.h"
+#include "index/extraction/kept_cells.h"
 #include "index/search/layer_search.h"
 #include "index/search/staying_cells.h"
 

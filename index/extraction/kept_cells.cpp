@@ -1,5 +1,5 @@
 // Merges kept cells and others.
-#include "index/search/kept_cells.h"
+#include "index/extraction/kept_cells.h"
 
 #include "index/volume/cell_walk.h"
 

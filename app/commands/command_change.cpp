@@ -35,9 +35,8 @@ struct Difference {
     std::vector<index::CellId> added, removed;
 };
 
-Difference difference(const std::shared_ptr<const index::IndexFile>& file, const index::Query& from,
+Difference difference(const index::Search& search, const index::Query& from,
                       const index::Query& to) {
-    const auto search = index::search_in(file);
     const auto before = search(from, {}), after = search(to, {});
     Difference found;
     std::ranges::set_difference(after->ids, before->ids, std::back_inserter(found.added));
@@ -70,17 +69,19 @@ void run_change(const ChangeArguments& arguments) {
     if (to.isovalue != from.isovalue)
         warn_beyond(to.isovalue, *file);
     index::ChangeSearch search(file);
-    index::CellChange change;
+    const index::Search whole_search = index::search_in(file, std::nullopt, index::Shading::none);
+    bool whole = false;
+    Difference found;
     std::vector<std::chrono::duration<double, std::milli>> times;
     for (std::uint32_t i = 0; i < std::max(arguments.repeats, 1u); ++i) {
         const auto started = std::chrono::steady_clock::now();
-        change = search(from, to);
+        const index::CellChange change = search(from, to);
+        whole = change.whole;
+        found = whole ? difference(whole_search, from, to) : sorted(change);
         times.push_back(std::chrono::steady_clock::now() - started);
     }
     const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
     std::nth_element(times.begin(), middle, times.end());
-    const bool whole = change.whole;
-    const Difference found = whole ? difference(file, from, to) : sorted(change);
     if (!arguments.added.empty())
         write_ids(arguments.added, found.added);
     if (!arguments.removed.empty())

@@ -117,6 +117,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"active_cells", active},
         {"id_bits", index::has_wide_ids(file.chunks(arguments.level).info().grid) ? 64 : 32},
         {"candidates", result.set->candidates},
+        {"reused", result.set->reused},
         {"false_positives", false_positives},
         {"false_positive_rate",
          active ? nlohmann::ordered_json(double(false_positives) / double(active)) : nullptr},
@@ -243,7 +244,8 @@ void add_query(Command& program) {
         "value_unit,\n"
         "level (of detail), method (cells, bricks, tree or scan) of the first run, active_cells, "
         "id_bits (32, or 64 "
-        "where ids do not fit),\ncandidates (tested exactly), "
+        "where ids do not fit),\ncandidates (tested exactly), reused (of these, taken over from an "
+        "earlier search), "
         "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
         "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
         "file), resident_bytes and read_bytes (of the process after that run: its memory, and the "

@@ -152,6 +152,19 @@ std::string sizes(const index::IndexFile& file) {
     return text;
 }
 
+/// Of the chunks of all steps but the first: those that are as in the step before.
+double staying_percent(const index::IndexFile& file) {
+    const auto chunks = static_cast<double>(file.chunks().grid().count());
+    const auto later = static_cast<double>(std::max<std::size_t>(file.info().steps(), 2) - 1);
+    return 100 * static_cast<double>(file.stats().staying) / (chunks * later);
+}
+
+std::string staying_text(const index::IndexFile& file) {
+    return fmt::format("{:.1f} % of the chunks of 16 x 16 x 16 values are as in the step before: "
+                       "stored once, and their cells are taken over",
+                       staying_percent(file));
+}
+
 /// How a step is searched that is asked for the first time, and why.
 std::string first_visit_text(const index::IndexFile& file) {
     if (!file.cells() || !file.plan().tiers.has(index::Tier::bricks))
@@ -181,6 +194,8 @@ std::string as_text(const IndexReport& report) {
                                    with_space(color->value_unit), grouped(color->nan_values)));
     line("file",
          fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
+    if (file.has_since() && info.steps() > 1)
+        line("stays", staying_text(file));
     for (std::size_t level = 1; level < file.detail_levels(); ++level)
         line(level == 1 ? "levels" : "",
              fmt::format("of detail {}: {}", level,
@@ -234,6 +249,8 @@ std::string as_json(const IndexReport& report) {
         {"deltas_bytes", stats.deltas_bytes},
         {"tree_bytes", stats.tree_bytes},
         {"detail_bytes", stats.detail_bytes},
+        {"staying_chunks", stats.staying},
+        {"staying_percent", staying_percent(file)},
         {"detail", nlohmann::ordered_json::array()},
         {"raw_bytes", raw_bytes(info)},
         {"percent_of_raw", percent_of_raw(file)},

@@ -69,6 +69,10 @@ class CellTier {
     /// About how many bytes `search` would read of the file, from a few stretches: reads their heads.
     /// 0 if it would read none, or if one of these is damaged. Call it while a lock is held.
     std::uint64_t missing_bytes(std::uint32_t step) const;
+    /// Whether something of the step's epoch is in memory.
+    bool holds_some(std::uint32_t step) const {
+        return !pages_ || (*pages_)[step / TimePath::kMaxSteps]->held() > 0;
+    }
 
     /// Entries of every time node of every epoch, over all stretches, in depth-first order.
     std::vector<TimeNodeCells> nodes() const;

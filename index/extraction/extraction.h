@@ -5,6 +5,7 @@
 #include "index/extraction/surroundings.h"
 #include "index/extraction/volume_blocks.h"
 #include "index/search/index_search.h"
+#include "index/extraction/kept_cells.h"
 
 #include <chrono>
 #include <cstdint>
@@ -16,6 +17,12 @@
 #include <vector>
 
 namespace isochron::index {
+
+/// What came and went from one extraction to the next. For meshes and blocks see these.
+struct ExtractionChange {
+    std::uint64_t from = 0; ///< the number of that extraction; 0: nothing is known
+    std::vector<SurfaceChange> surfaces = {};
+};
 
 /// Constant once published, but for the meshes that come later. Showing it needs nothing more of the file.
 struct Extraction {
@@ -37,6 +44,8 @@ struct Extraction {
     unsigned coarsest = 0; ///< level of its largest cells
     /// Number of active cells of the volume itself; empty while it is not known.
     std::optional<std::uint64_t> volume_cells;
+    std::uint64_t number = 0; ///< different for each extraction of this process
+    ExtractionChange change;  ///< since an extraction that was at hand
     std::chrono::nanoseconds gather_time{0};
     /// The worker puts them there if they were asked for.
     std::shared_ptr<LaterMeshes> later = std::make_shared<LaterMeshes>();

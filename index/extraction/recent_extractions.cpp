@@ -20,8 +20,10 @@ std::uint64_t bytes_of(const std::vector<T>& values) {
 std::uint64_t bytes_of(const Extraction& extraction) {
     std::uint64_t bytes = sizeof extraction + bytes_of(extraction.colors) +
                           bytes_of(extraction.corner_colors) + bytes_of(extraction.blocks.ids) +
-                          bytes_of(extraction.blocks.digests) + bytes_of(extraction.blocks.bytes) +
+                          bytes_of(extraction.blocks.digests) + extraction.blocks.bytes() +
                           bytes_of(extraction.surroundings.shares);
+    for (const SurfaceChange& change : extraction.change.surfaces)
+        bytes += bytes_of(change.removed) + bytes_of(change.added);
     for (const CellSet& set : extraction.surfaces)
         bytes += bytes_of(set.ids) + bytes_of(set.points) + bytes_of(set.rows) +
                  (set.mesh ? bytes_of(*set.mesh) : 0);

@@ -3,11 +3,13 @@
 
 #include "index/extraction/block_values.h"
 #include "index/file/step_view.h"
+#include "index/search/staying_cells.h"
 #include "index/surface/cell_set.h"
 #include "index/volume/step_values.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -34,6 +36,12 @@ struct BlockDigest {
     bool operator==(const BlockDigest&) const = default;
 };
 
+/// Memory of some blocks, which several extractions may share.
+struct BlockMemory {
+    std::shared_ptr<const std::byte> first;
+    std::size_t bytes = 0;
+};
+
 /// Some blocks of one step.
 struct VolumeBlocks {
     ValueType held = ValueType::f32;  ///< of the values in `bytes`
@@ -42,12 +50,21 @@ struct VolumeBlocks {
     std::vector<BlockId> ids;         ///< ascending
     std::vector<BlockDigest> digests; ///< in the same order: a block with the same id and digest
                                       ///< need not be uploaded again
-    std::vector<std::byte> bytes;     ///< same order; [z][y][x], x fastest; 0 beyond the grid
+    std::vector<const std::byte*> places; ///< same order: where the bytes of each are
+    std::vector<BlockMemory> memory;      ///< in which all of them are
 
     std::size_t block_bytes() const { return kBlockVertices * size_of(held); }
-    std::span<const std::byte> block(std::size_t i) const {
-        return std::span(bytes).subspan(i * block_bytes(), block_bytes());
-    }
+    std::uint64_t bytes() const { return std::uint64_t{ids.size()} * block_bytes(); }
+    /// [z][y][x], x fastest; 0 beyond the grid.
+    std::span<const std::byte> block(std::size_t i) const { return {places[i], block_bytes()}; }
+    /// The bytes of all blocks, one after the other.
+    std::vector<std::byte> joined() const;
+};
+
+/// Blocks that are there already: those of chunks that stay.
+struct KnownBlocks {
+    const VolumeBlocks* blocks = nullptr;
+    const StayingCells* staying = nullptr;
 };
 
 /// Collects the blocks that hold the vertices of cells and the neighbors of these along each axis,
@@ -62,10 +79,13 @@ class BlockGatherer {
     void need(const CellSet& set);
     /// Copies the blocks that have been marked since the last call, then clears the marks. From
     /// chunks it does so with all cores.
+    /// @param known blocks that are taken over; held in the same way
     /// @return false when it was stopped and the blocks are incomplete
     /// @throws Error as ChunkStore does
     bool gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
-                const std::stop_token& stop = {});
+                const std::stop_token& stop = {}, const KnownBlocks& known = {});
+    /// Whether blocks of other isovalues are the same.
+    bool without_levels() const { return values_.stored() == values_.held(); }
     /// The same from values in memory.
     bool gather(const StepValues& step, Instant at, const BlockLevels& levels, VolumeBlocks& blocks,
                 const std::stop_token& stop = {});
@@ -77,16 +97,23 @@ class BlockGatherer {
     void mark_row(std::uint32_t y, std::uint32_t z);
     std::array<std::uint32_t, 3> at(BlockId block) const;
     void take_marked(VolumeBlocks& blocks);
+    /// Memory for blocks that are to be copied, one after the other.
+    struct Room {
+        std::byte* first = nullptr;
+        std::vector<std::uint32_t> others; ///< their places among all blocks
+    };
+    Room take_known(const KnownBlocks& known, const ChunkGrid* chunks, VolumeBlocks& blocks) const;
     bool gather_chunks(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
-                       const std::stop_token& stop);
-    void copy(const Box& from, const BlockLevels& levels, VolumeBlocks& blocks,
-              std::size_t i) const;
+                       const std::stop_token& stop, const KnownBlocks& known);
+    void copy(const Box& from, const BlockLevels& levels, std::byte* out,
+              BlockDigest& digest) const;
 
     Grid grid_;
     BlockTiling tiling_;
     BlockValues values_;
-    std::vector<std::uint8_t> needed_;                ///< by block id
-    std::vector<std::uint8_t> row_inner_, row_outer_; ///< of a row of cells, by block along x
+    std::size_t row_words_;                            ///< of 64 bits, for the blocks along x
+    std::vector<std::uint64_t> needed_;                ///< rows of blocks, a bit for each block
+    std::vector<std::uint64_t> row_inner_, row_outer_; ///< of a row of cells, by block along x
 };
 
 } // namespace isochron::index

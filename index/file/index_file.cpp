@@ -134,9 +134,11 @@ ChunkArray IndexFile::level_of(const std::string& called, std::size_t number,
                      .info = info,
                      .steps = {},
                      .has_bricks = number < details_ && metadata_.plan.tiers.has(Tier::bricks),
-                     .has_values = !metadata_.referral || !fine};
+                     .has_values = !metadata_.referral || !fine,
+                     .has_since = has_since()};
     const ChunkGrid grid(info.grid);
-    const std::uint64_t tables = layer_table_bytes(grid.chunks_of_layer()) * grid.layers();
+    const std::uint64_t tables =
+        layer_table_bytes(grid.chunks_of_layer(), array.has_since) * grid.layers();
     for (std::size_t step = 0; step < steps(); ++step) {
         const StepEntry& entry = step_entries_[number * steps() + step];
         const bool has_levels = array.has_bricks && has_step_levels(info.type);

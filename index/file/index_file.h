@@ -112,6 +112,8 @@ class IndexFile {
     std::uint64_t content_hash() const { return header_.content_hash; }
     /// The header that counts, with the offsets of all sections.
     const FileHeader& header() const { return header_; }
+    /// Whether its tables say since when chunks have stayed.
+    bool has_since() const { return header_.version > kVersionWithoutSince; }
     std::span<const StepEntry> step_entries() const { return step_entries_; }
     std::span<const UnitEntry> directory() const { return directory_; }
     /// The bytes of a unit of the directory, read and not checked.

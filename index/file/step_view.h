@@ -62,21 +62,26 @@ class StepView {
         return levels()->cut(scaling(), isovalue);
     }
     ChunkLayerPtr layer(std::uint32_t layer) const { return store_->layer(at_, layer); }
+    /// Of a step that is worked on as a whole, they are cut out of it.
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                  const std::stop_token& stop) const {
-        return store_->chunks(at_, layer, places, stop);
+        return by_chunks() ? store_->chunks(at_, layer, places, stop)
+                           : cut_out(layer, places, stop);
     }
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
-        return store_->expect(at_, layer, places);
+        return by_chunks() ? store_->expect(at_, layer, places) : 0;
     }
     std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
                         const std::stop_token& stop) const {
-        return store_->fetch(at_, layer, places, stop);
+        return by_chunks() ? store_->fetch(at_, layer, places, stop) : 0;
     }
     bool was_worked_on() const { return store_->was_worked_on(at_); }
     const ChunkStore& store() const { return *store_; }
 
   private:
+    std::vector<ChunkPtr> cut_out(std::uint32_t layer, std::span<const std::uint32_t> places,
+                                  const std::stop_token& stop) const;
+
     Kind kind_;
     const ChunkStore* store_;
     Instant at_;
@@ -88,6 +93,8 @@ class StepView {
 /// A step of the volume: whole where that is faster than work on the needed chunks alone.
 /// @param file outlives the view
 StepView step_of(const IndexFile& file, Instant at);
+/// The same for work on a part of its cells: by chunks unless it is in memory as a whole.
+StepView part_of_step(const IndexFile& file, Instant at);
 /// By chunks, at a level of detail.
 StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level = 0);
 

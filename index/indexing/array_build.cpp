@@ -4,6 +4,7 @@
 
 #include "index/file/detail_levels.h"
 #include "index/file/sections/step_levels.h"
+#include "index/indexing/chunk_history.h"
 #include "index/indexing/color_pass.h"
 #include "index/indexing/tier_plan.h"
 #include "index/indexing/unit_pass.h"
@@ -62,14 +63,23 @@ class ArrayBuild::Work {
                 values_alone.bricks = false;
                 colors_.emplace(*options_.color, steps_.fresh, held_ ? held_->color() : nullptr,
                                 values_alone, means(".colors"), team_);
+                if (held_ && held_->has_since())
+                    colors_->hold_since(held_since(*held_, true));
             });
-        return {series_,    steps_.window,    kept_,
-                contents(), means(".chunks"), colors_ ? &*colors_ : nullptr};
+        std::vector<std::uint32_t> since;
+        team_.together([&] {
+            if (held_ && held_->has_since())
+                since = held_since(*held_, false);
+        });
+        return {series_,         steps_.window,    kept_,
+                contents(),      means(".chunks"), colors_ ? &*colors_ : nullptr,
+                std::move(since)};
     }
 
     bool take(VolumeFindings found) {
         counts_.merge(metadata_.info.type, found.counts);
         set_counts(metadata_, counts_);
+        metadata_.stats.staying = held_stay_ + found.stayed;
         append_to(tables_.checksums, found.checksums);
         append_to(tables_.states, found.states);
         append_steps(tables_.volume_steps, found.steps);
@@ -156,6 +166,7 @@ class ArrayBuild::Work {
         metadata_.plan = known.plan;
         metadata_.levels = known.levels;
         counts_ = known.stats.counts;
+        held_stay_ = known.stats.staying;
         append_steps(tables_.volume_steps, held.step_entries().first(steps_.fresh * levels_));
         append_to(tables_.checksums, held.checksums().first(steps_.fresh));
         append_to(tables_.states, held.source_states());
@@ -270,7 +281,9 @@ class ArrayBuild::Work {
             metadata_.levels = found_levels_;
     }
 
-    ChunkContents contents() const { return {bricks_, !options_.referral, options_.codec}; }
+    ChunkContents contents() const {
+        return {bricks_, !options_.referral, options_.codec, !held_ || held_->has_since()};
+    }
     WriterMeans means(const char* what) const {
         return {threads_, options_.waiting_bytes, spill(what), options_.color != nullptr};
     }
@@ -334,6 +347,7 @@ class ArrayBuild::Work {
     StepsToBuild steps_;
     std::size_t levels_; ///< number of levels of detail
     ValueCounts counts_;
+    std::uint64_t held_stay_ = 0;          ///< of the held chunk-steps, are as in the step before
     std::optional<LevelMap> found_levels_; ///< of the new steps together
     std::optional<MappedFile> written_;    ///< the values, once they are complete
     StepValues values_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/sections/index_contents.h"
+#include "index/indexing/chunk_history.h"
 #include "index/indexing/step_writer.h"
 #include "index/indexing/value_stats.h"
 #include "index/system/running_checksum.h"
@@ -9,6 +10,8 @@
 #include "index/volume/volume_series.h"
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
@@ -32,6 +35,13 @@ class ColorPass {
               const ChunkContents& contents, const WriterMeans& means, const Team& team);
 
     VolumeSeries& series() { return series_; }
+    StepWriter& writer() { return writer_; }
+    /// Of the held chunks: see StepWriter::since.
+    std::span<const std::uint32_t> held_since() const { return held_since_; }
+    void hold_since(std::vector<std::uint32_t> since) { held_since_ = std::move(since); }
+    void settle(const MemberSteps& steps, PartWriter& parts, Team& team) {
+        settle_since(writer_, steps_, steps, parts, team);
+    }
 
     /// Takes the next layer. @param parts where the whole pass, this one included, writes its parts
     void take(const LayerView& layer, PartWriter& parts);
@@ -46,6 +56,7 @@ class ColorPass {
     RunningChecksum checksum_;
     std::vector<StepEntry> steps_;
     std::vector<std::uint64_t> checksums_;
+    std::vector<std::uint32_t> held_since_;
 };
 
 } // namespace isochron::index

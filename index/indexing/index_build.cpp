@@ -170,6 +170,7 @@ bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const B
                       held ? held->info().steps() : 0, team))
         return false;
     FileHeader header;
+    header.version = held ? held->header().version : kFileVersion;
     header.sequence = held ? held->header().sequence + 1 : 0;
     team.together([&] {
         if (team.rank() > 0)

@@ -27,6 +27,12 @@ class PartWriter {
     /// Leaves zeros up to the next multiple. @return the offset of what is appended next
     std::uint64_t align(std::uint64_t alignment);
 
+    /// Reads and replaces what was appended, before `place`: on ranks above 0 only.
+    void read(std::uint64_t offset, std::span<std::byte> out) const { spilled_->read(offset, out); }
+    void replace(std::uint64_t offset, std::span<const std::byte> bytes) {
+        spilled_->write_at(offset, bytes);
+    }
+
     /// Where the parts of a member lie.
     struct Placed {
         std::uint64_t start = 0; ///< of this member's parts, from `offset`

@@ -2,10 +2,12 @@
 #include "index/indexing/step_writer.h"
 
 #include "index/file/sections/step_levels.h"
+#include "index/indexing/value_extremes.h"
 #include "index/scan/bricks.h"
 #include "index/system/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -29,6 +31,42 @@ StepWriter::StepWriter(const SeriesInfo& info, const ChunkContents& contents,
       own_levels_(contents.bricks && has_step_levels(type_)) {
     for (const Grid& grid : detail_grids(info.grid))
         levels_.emplace_back(grid, type_, contents.codec, means);
+    if (!contents.since)
+        for (Level& level : levels_)
+            level.packer.write_without_since();
+}
+
+void StepWriter::begin_at(std::uint32_t step) {
+    for (Level& level : levels_)
+        level.packer.begin_at(step);
+}
+
+std::vector<std::uint32_t> StepWriter::since() const {
+    std::vector<std::uint32_t> all;
+    for (const Level& level : levels_)
+        all.insert(all.end(), level.packer.history().since.begin(),
+                   level.packer.history().since.end());
+    return all;
+}
+
+void StepWriter::set_since(std::span<const std::uint32_t> since) {
+    for (Level& level : levels_) {
+        std::vector<std::uint32_t>& own = level.packer.history().since;
+        std::ranges::copy(since.first(own.size()), own.begin());
+        since = since.subspan(own.size());
+    }
+}
+
+void StepWriter::for_each_table(std::size_t level, const StepEntry& entry,
+                                const TablePlace& f) const {
+    std::size_t before = 0;
+    for (std::size_t finer = 0; finer < level; ++finer)
+        before += ChunkGrid(levels_[finer].grid).count();
+    const ChunkGrid chunks(levels_[level].grid);
+    const std::uint32_t count = chunks.chunks_of_layer();
+    for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer)
+        f(entry.tables + layer * layer_table_bytes(count), count,
+          before + std::size_t{layer} * count);
 }
 
 /// Whether planes of a level wait until the step is complete. Those of the finest level do only if
@@ -43,6 +81,8 @@ void StepWriter::look(Level& level, std::uint32_t first_plane,
         return;
     const std::size_t plane = std::size_t{level.grid.vertices[0]} * level.grid.vertices[1];
     const std::size_t first = first_plane * plane;
+    if (contents_.since)
+        add_extremes(type_, planes, level.extremes);
     level.chooser.add(0, {first, first + planes.size() / size_of(type_), level.grid.vertex_count()},
                       planes);
 }
@@ -54,24 +94,35 @@ void StepWriter::take(const LayerView& layer, PartWriter& parts, std::vector<Ste
         look(levels_[0], layer.begin, layer.own());
         levels_[0].waiting.append(layer.own());
     } else {
-        pack(0, layer, parts);
+        pack(0, layer, &parts);
     }
     if (layer.end < levels_[0].grid.vertices[2])
         return;
     if (waits(0))
-        pack_waiting(0, parts);
+        pack_waiting(0, &parts);
     entries.push_back(finish(0, begin_, parts));
     for (std::size_t level = 1; level < levels_.size(); ++level) {
         const std::uint64_t begin = parts.align(kPartAlignment);
-        pack_waiting(level, parts);
+        pack_waiting(level, &parts);
         entries.push_back(finish(level, begin, parts));
     }
 }
 
-void StepWriter::pack_waiting(std::size_t level, PartWriter& parts) {
+void StepWriter::look(const LayerView& layer) {
+    pack(0, layer, nullptr);
+    for (std::size_t level = 1; layer.end == levels_[0].grid.vertices[2] && level < levels_.size();
+         ++level)
+        pack_waiting(level, nullptr);
+}
+
+/// @param parts null to look only
+void StepWriter::pack_waiting(std::size_t level, PartWriter* parts) {
     Level& it = levels_[level];
-    if (own_levels_) {
+    if (own_levels_ && parts) {
         it.map = it.chooser.choose();
+        if (const auto extremes = std::exchange(it.extremes, std::nullopt);
+            extremes && !it.map->lossless())
+            it.map->set_extremes(*extremes);
         it.chooser = chooser_of_one_step(type_);
     }
     LayerCutter cutter(it.grid, type_);
@@ -82,7 +133,8 @@ void StepWriter::pack_waiting(std::size_t level, PartWriter& parts) {
         it.waiting.release();
 }
 
-void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter& parts) {
+/// @param parts null to look only
+void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter* parts) {
     Level& it = levels_[level];
     // Builds the bricks of the cells up to the plane after this layer, brick layer by brick layer.
     constexpr std::uint32_t kPlanes = BrickGrid::kCells[2];
@@ -90,7 +142,7 @@ void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter& par
     slab.vertices[2] = kPlanes + 1;
     const std::size_t brick_bytes = BrickGrid(slab).bytes_per_step();
     const std::uint32_t brick_layers =
-        contents_.bricks ? (layer.last - 1 - layer.begin + kPlanes - 1) / kPlanes : 0;
+        contents_.bricks && parts ? (layer.last - 1 - layer.begin + kPlanes - 1) / kPlanes : 0;
     bricks_.resize(brick_bytes * brick_layers);
     const auto build_layer_of_bricks = [&](std::uint32_t i) {
         const std::uint32_t from = layer.begin + i * kPlanes;
@@ -130,15 +182,18 @@ void StepWriter::pack(std::size_t level, const LayerView& layer, PartWriter& par
                  },
                  {});
     if (coarser) {
-        look(levels_[level + 1], first, coarse);
+        if (parts)
+            look(levels_[level + 1], first, coarse);
         levels_[level + 1].waiting.append(coarse);
     }
-    const bool carries = contents_.values || level > 0;
-    it.packer.pack({.stored = carries ? layer.own() : std::span<const std::byte>(),
+    if (!parts)
+        return it.packer.look(layer.own());
+    it.packer.pack({.stored = layer.own(),
+                    .carries = contents_.values || level > 0,
                     .bricks = bricks_,
                     .brick_layers = brick_layers,
                     .with_bricks = contents_.bricks},
-                   [&](std::span<const std::byte> bytes) { parts.append(bytes); });
+                   [&](std::span<const std::byte> bytes) { parts->append(bytes); });
 }
 
 StepEntry StepWriter::finish(std::size_t level, std::uint64_t begin, PartWriter& parts) {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,6 +24,7 @@ struct ChunkContents {
     bool bricks = true;
     bool values = true; ///< of the steps themselves; their levels of detail always have values
     Codec codec = Codec::fitting;
+    bool since = true; ///< tables say since when chunks have stayed: not in files of version 3
 };
 
 /// The resources that writing may use.
@@ -46,6 +48,22 @@ class StepWriter {
     /// `parts`
     void take(const LayerView& layer, PartWriter& parts, std::vector<StepEntry>& entries);
 
+    /// Sets the number of the next step that is looked at or taken.
+    void begin_at(std::uint32_t step);
+    /// Takes the next layer of the step before the first: only to see what stays.
+    void look(const LayerView& layer);
+    /// Of the last step, level after level: the steps since which its chunks have stayed.
+    std::vector<std::uint32_t> since() const;
+    void set_since(std::span<const std::uint32_t> since);
+    /// Number of chunk-steps of the finest level that were as in the step before.
+    std::uint64_t stayed() const { return levels_.front().packer.stayed(); }
+    /// Where the table of a layer lies. Calls `f(begin, chunks, first)` for each layer of a level:
+    /// offset from the step's first byte, number of chunks, and place in `since` of its first one.
+    using TablePlace =
+        std::function<void(std::uint64_t begin, std::uint32_t chunks, std::size_t first)>;
+    void for_each_table(std::size_t level, const StepEntry& entry, const TablePlace& f) const;
+    std::size_t levels() const { return levels_.size(); }
+
   private:
     /// A level of detail, the step itself included.
     struct Level {
@@ -57,13 +75,14 @@ class StepWriter {
         /// Chooses the levels for its bricks, if they depend on the values.
         LevelChooser chooser;
         std::optional<LevelMap> map;
-        PlaneStore waiting; ///< planes that cannot be packed yet
+        std::optional<LevelMap::Extremes> extremes; ///< of the values so far
+        PlaneStore waiting;                         ///< planes that cannot be packed yet
     };
 
     bool waits(std::size_t level) const;
     void look(Level& level, std::uint32_t first_plane, std::span<const std::byte> planes) const;
-    void pack(std::size_t level, const LayerView& layer, PartWriter& parts);
-    void pack_waiting(std::size_t level, PartWriter& parts);
+    void pack(std::size_t level, const LayerView& layer, PartWriter* parts);
+    void pack_waiting(std::size_t level, PartWriter* parts);
     StepEntry finish(std::size_t level, std::uint64_t begin, PartWriter& parts);
 
     ValueType type_;

@@ -3,12 +3,14 @@
 
 #include "index/file/detail_levels.h"
 #include "index/file/sections/metadata.h"
+#include "index/indexing/chunk_history.h"
 #include "index/indexing/layer_stream.h"
 #include "index/indexing/level_choice.h"
 #include "index/indexing/value_stats.h"
 #include "index/system/running_checksum.h"
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -44,6 +46,7 @@ class Observer {
                 team.gather_items(states),
                 chooser.choose(),
                 {},
+                0,
                 {}};
     }
 
@@ -76,6 +79,12 @@ class Reading {
         writer_.take(layer, parts, steps_);
     }
 
+    StepWriter& writer() { return writer_; }
+
+    void settle(const MemberSteps& steps, PartWriter& parts, Team& team) {
+        settle_since(writer_, steps_, steps, parts, team);
+    }
+
     void take_states(std::size_t begin, std::size_t end) {
         for (std::size_t step = begin; step < end; ++step)
             states_.push_back(pass_.series.state(step));
@@ -86,6 +95,8 @@ class Reading {
         VolumeFindings found = observer_.agreed(states_, team);
         found.steps =
             agreed_steps(std::move(steps_), begin, detail_grids(info().grid).size(), team);
+        for (const std::uint64_t of_member : team.gather_values(writer_.stayed()))
+            found.stayed += of_member;
         if (pass_.colors)
             found.colors = pass_.colors->agreed(begin, team);
         return found;
@@ -101,6 +112,33 @@ class Reading {
     std::vector<StepEntry> steps_;
     std::vector<std::uint64_t> states_;
 };
+
+using Stream =
+    std::function<void(std::span<VolumeSeries* const>, std::size_t, std::size_t, const TakeLayer&)>;
+
+/// Looks at the step before a member's first one, to see what stays.
+void look_before(std::deque<Reading>& readings, std::size_t fresh, std::size_t first,
+                 const Stream& stream) {
+    const auto before = static_cast<std::uint32_t>(first == 0 ? 0 : first - 1);
+    const auto look = [&](StepWriter& writer, VolumeSeries& series, bool since,
+                          std::span<const std::uint32_t> held) {
+        writer.begin_at(before);
+        if (first == 0 || !since)
+            return writer.begin_at(static_cast<std::uint32_t>(first));
+        VolumeSeries* const alone[]{&series};
+        stream(alone, before, first,
+               [&](std::size_t, std::size_t, const LayerView& layer) { writer.look(layer); });
+        if (first == fresh)
+            writer.set_since(held);
+    };
+    for (Reading& reading : readings) {
+        const ArrayPass& pass = reading.pass();
+        look(reading.writer(), pass.series, pass.contents.since, pass.since);
+        if (pass.colors)
+            look(pass.colors->writer(), pass.colors->series(), pass.contents.since,
+                 pass.colors->held_since());
+    }
+}
 
 /// Reads this member's share of all steps.
 void read_share(std::deque<Reading>& readings, std::size_t fresh, const PassTarget& target,
@@ -135,6 +173,8 @@ void read_share(std::deque<Reading>& readings, std::size_t fresh, const PassTarg
         of.push_back({&reading, true});
     }
     const auto [begin, end] = team.share(arrays.front()->info().steps() - fresh);
+    if (begin < end)
+        look_before(readings, fresh, fresh + begin, stream);
     stream(arrays, fresh + begin, fresh + end,
            [&](std::size_t array, std::size_t step, const LayerView& layer) {
                const auto [reading, colors] = of[array];
@@ -160,6 +200,13 @@ std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std:
             readings.emplace_back(array);
         read_share(readings, fresh, target, *parts, team, progress);
     });
+    const Team::Share share = team.share(arrays.front().series.info().steps() - fresh);
+    const MemberSteps steps{fresh, fresh + share.first, fresh + share.last};
+    for (Reading& reading : readings) {
+        reading.settle(steps, *parts, team);
+        if (ColorPass* const colors = reading.pass().colors)
+            colors->settle(steps, *parts, team);
+    }
     const PartWriter::Placed placed = parts->place(team);
     std::vector<VolumeFindings> found;
     for (Reading& reading : readings)

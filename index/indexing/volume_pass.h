@@ -42,6 +42,7 @@ struct ArrayPass {
     ChunkContents contents;
     WriterMeans means;
     ColorPass* colors; ///< gets each new step right after this array; null if there is none
+    std::vector<std::uint32_t> since = {}; ///< of the held chunks: see StepWriter::since
 };
 
 /// The results of the pass for an array, the same for every member of the team.
@@ -51,6 +52,7 @@ struct VolumeFindings {
     std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
     LevelMap levels;
     std::vector<StepEntry> steps; ///< level after level
+    std::uint64_t stayed = 0;     ///< chunk-steps that are as in the step before
     std::optional<ColorFindings> colors;
 };
 

@@ -46,7 +46,7 @@ class PartsSearch {
     bool operator()() {
         if (levels_ && !cut_)
             return true;
-        if (!step_.by_chunks())
+        if (!step_.by_chunks() && !order_.staying)
             return whole();
         return cut_ ? by_candidates() : scan_layers();
     }
@@ -109,7 +109,8 @@ class PartsSearch {
             return WholeLayers(step_, *range, *cut_, threads).for_each(work, stop_);
         }
         PreparedCandidates candidates(layers, [&](std::uint32_t layer) {
-            return LayerCandidates(step_, layer, *cut_, order_.shaded, stop_, order_.only);
+            return LayerCandidates(step_, layer, *cut_, order_.shaded, stop_, order_.only,
+                                   order_.staying);
         });
         const auto stored = step_.stored_cut(order_.query.isovalue);
         const auto search_cubes = [&](unsigned worker, std::uint32_t layer) {
@@ -118,7 +119,7 @@ class PartsSearch {
             const auto begun = Clock::now() - prepared.time();
             if (stored && !prepared.places().empty())
                 work_.cubes(worker).search(step_, prepared, order_.query, *stored, order_.shaded,
-                                           stop_, result.cells, result.shading);
+                                           stop_, result.cells, result.shading, order_.staying);
             result.searching = Clock::now() - begun - result.shading;
             results_.add(layer, std::move(result));
         };

@@ -17,6 +17,8 @@ struct ActiveCellsOrder {
     bool by_bricks = false; ///< the index must have them; else by a scan
     bool shaded = false;    ///< also make points and rows, while each part is in memory
     ChunkFilter only = {};  ///< with bricks and by chunks: search these chunks alone
+    /// Likewise: cells that are not looked for.
+    const StayingCells* staying = nullptr;
 };
 
 /// Number of parts of a search; the results of all parts are put together.

@@ -3,12 +3,16 @@
 
 #include "index/error.h"
 #include "index/search/index_search.h"
+#include "index/search/layer_search.h"
+#include "index/search/staying_cells.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -17,6 +21,8 @@ namespace {
 constexpr std::size_t kFew = 4096;
 /// A longer chain of deltas touches more memory than a full search.
 constexpr std::uint32_t kMaxChain = 8;
+/// Where a smaller share of the chunks stays, a full search takes no longer than two of the others.
+constexpr double kLeastStaying = 0.5;
 
 using Cut = LevelMap::Cut;
 
@@ -26,7 +32,8 @@ struct ChangeSearch::WorkSpace {
     explicit WorkSpace(const std::shared_ptr<const IndexFile>& file)
         : scaling(file->info().scaling), cells(file->cells()),
           levels(cells ? &file->levels() : nullptr),
-          steps(static_cast<std::uint32_t>(file->info().steps())), search(search_in(file)) {}
+          steps(static_cast<std::uint32_t>(file->info().steps())),
+          search(search_in(file, std::nullopt, Shading::none)), layers(file) {}
 
     /// The cut at an isovalue; keeps the last one, since playback repeats the same isovalue.
     const std::optional<Cut>& cut_at(double isovalue) {
@@ -48,6 +55,7 @@ struct ChangeSearch::WorkSpace {
     std::vector<IdRun> added, removed, all, ambiguous;
     std::vector<CellId> added_ids, removed_ids, come, gone;
     CellSetPtr set; ///< of an index without cells
+    LayerSearch layers;
 
     void clear() {
         added.clear();
@@ -102,7 +110,29 @@ CellChange ChangeSearch::without_cells(const Query& from, const Query& to) {
         if (from_cut == to_cut && to_cut->exact)
             return {};
     }
+    if (from.step != to.step && from.isovalue == to.isovalue && file_->has_since() &&
+        can_search(*file_, SearchMethod::bricks))
+        if (const auto change = where_chunks_change(from, to))
+            return *change;
     return searched(to);
+}
+
+/// Searches both steps where chunks differ. @return nothing if most of them do
+std::optional<CellChange> ChangeSearch::where_chunks_change(const Query& from, const Query& to) {
+    const StepView before = part_of_step(*file_, from.step), after = part_of_step(*file_, to.step);
+    if (staying_share(after, from.step, std::array{to.isovalue}) < kLeastStaying)
+        return std::nullopt;
+    const StayingCells staying(after, from.step, false);
+    CellSet gone, come;
+    gone.query = from;
+    come.query = to;
+    for (const auto& [step, set] : {std::pair{&before, &gone}, std::pair{&after, &come}}) {
+        if (!step->by_chunks())
+            step->whole({}); // before there are several threads
+        work_->layers.search_others(*step, *set, staying, false, {});
+    }
+    drop_common(come.ids, gone.ids, work_->come, work_->gone);
+    return CellChange{false, work_->come, work_->gone};
 }
 
 CellChange ChangeSearch::operator()(const Query& from, const Query& to) {

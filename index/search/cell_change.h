@@ -5,6 +5,7 @@
 #include "index/volume/query.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace isochron::index {
@@ -18,8 +19,8 @@ struct CellChange {
 };
 
 /// Finds changes in the cheapest way that the index allows: by the deltas of a transition, the
-/// levels between two isovalues, the time nodes that two steps do not share, or a full search for
-/// the second query. It chooses the way that moves the fewest ids, so that a change never costs
+/// levels between two isovalues, the time nodes that two steps do not share, the chunks that differ
+/// between two steps, or a full search for the second query. It chooses the way that moves the fewest ids, so that a change never costs
 /// more than a full search. Not thread-safe: keeps its work space.
 class ChangeSearch {
   public:
@@ -34,6 +35,7 @@ class ChangeSearch {
     struct WorkSpace;
     CellChange searched(const Query& to);
     CellChange without_cells(const Query& from, const Query& to);
+    std::optional<CellChange> where_chunks_change(const Query& from, const Query& to);
     std::shared_ptr<const IndexFile> file_;
     std::unique_ptr<WorkSpace> work_;
 };

@@ -58,6 +58,24 @@ constexpr ReachOfSides reach_of_sides(bool normals) {
 inline constexpr ReachOfSides kReach = reach_of_sides(false),
                               kReachWithNormals = reach_of_sides(true);
 
+/// By chunk around (a bit of ChunksAround): the combinations of sides whose cells need it.
+using SidesNeeding = std::array<SidesOfCells, kChunksAround>;
+constexpr SidesNeeding sides_needing(const ReachOfSides& reach) {
+    SidesNeeding sides{};
+    for (unsigned bit = 0; bit < kChunksAround; ++bit)
+        for (unsigned i = 0; i < reach.size(); ++i)
+            sides[bit] |= SidesOfCells{reach[i] >> bit & 1} << i;
+    return sides;
+}
+inline constexpr SidesNeeding kSidesNeeding = sides_needing(kReach),
+                              kSidesNeedingWithNormals = sides_needing(kReachWithNormals);
+
+/// The combination of sides of a cell by its coordinates, as a bit of SidesOfCells.
+inline unsigned side_of_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return kSide[x % kChunkEdge] +
+           kSides * (kSide[y % kChunkEdge] + kSides * unsigned{kSide[z % kChunkEdge]});
+}
+
 /// All chunks of the bits that are set.
 template <class Bits, std::size_t kBits>
 ChunksAround joined(Bits bits, const std::array<ChunksAround, kBits>& of_bit) {

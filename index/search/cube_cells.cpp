@@ -162,6 +162,20 @@ SidesOfCells sides_of(const CubeRows& rows) {
     return sides;
 }
 
+void keep_sides(SidesOfCells sides, CubeRows& rows) {
+    std::array<std::uint16_t, kSides> along_x{};
+    for (std::uint32_t x = 0; x < kChunkEdge; ++x)
+        along_x[kSide[x]] = static_cast<std::uint16_t>(along_x[kSide[x]] | 1u << x);
+    std::array<std::uint16_t, std::size_t{kSides} * kSides> kept{};
+    for (unsigned i = 0; i < kept.size(); ++i)
+        for (unsigned x = 0; x < kSides; ++x)
+            if (sides >> (x + kSides * i) & 1)
+                kept[i] |= along_x[x];
+    for (std::uint32_t z = 0; z < kChunkEdge; ++z)
+        for (std::uint32_t y = 0; y < kChunkEdge; ++y)
+            rows[z * kChunkEdge + y] &= kept[kSide[y] + kSides * kSide[z]];
+}
+
 std::size_t append_places(const CubeRows& rows, std::vector<PlaceInChunk>& places) {
     std::array<PlaceInChunk, std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge + kChunkEdge> found;
     const PlaceInChunk* const end = HWY_DYNAMIC_DISPATCH(write_places)(rows, found.data());

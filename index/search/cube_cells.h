@@ -23,6 +23,8 @@ using PlaceInChunk = std::uint16_t;
 CubeRows active_rows(const ChunkCube& cube, std::uint64_t cut, BricksOfChunk bricks);
 /// Where these cells lie, for what they need around them.
 SidesOfCells sides_of(const CubeRows& rows);
+/// Leaves only the cells that lie there.
+void keep_sides(SidesOfCells sides, CubeRows& rows);
 /// Appends the places of these cells, ascending. @return their number
 std::size_t append_places(const CubeRows& rows, std::vector<PlaceInChunk>& places);
 /// By row, as above: a number of cells.

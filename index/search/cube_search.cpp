@@ -17,8 +17,9 @@ using Clock = std::chrono::steady_clock;
 
 void CubeSearch::search(const StepView& step, const LayerCandidates& candidates, const Query& query,
                         std::uint64_t cut, bool shaded, const std::stop_token& stop, CellSet& out,
-                        std::chrono::nanoseconds& shading) {
+                        std::chrono::nanoseconds& shading, const StayingCells* staying) {
     step_ = &step;
+    staying_ = staying;
     chunks_ = &step.chunk_grid();
     shading_ = std::chrono::nanoseconds(0);
     find(candidates, query, cut, shaded, stop, out);
@@ -60,7 +61,9 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
         cube_.begin(*step_, {x, y, layer_});
         fill_cube(x, y, reach);
         out.candidates += cells_of_bricks(candidates.bricks(i), cube_.cells());
-        const CubeRows rows = active_rows(cube_, cut, candidates.bricks(i));
+        CubeRows rows = active_rows(cube_, cut, candidates.bricks(i));
+        if (staying_)
+            keep_sides(staying_->others(layer_, places[i]), rows);
         const SidesOfCells sides = sides_of(rows);
         if (sides == 0)
             continue;

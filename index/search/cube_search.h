@@ -24,9 +24,10 @@ class CubeSearch {
     /// @param shaded also makes points and rows, from all that lies around the cells
     /// @param out empty; gets ids of the whole grid, ascending, and how many cells were tested
     /// @param shading set to the time that points and rows take
+    /// @param staying cells that are left out; null: none are
     void search(const StepView& step, const LayerCandidates& candidates, const Query& query,
                 std::uint64_t cut, bool shaded, const std::stop_token& stop, CellSet& out,
-                std::chrono::nanoseconds& shading);
+                std::chrono::nanoseconds& shading, const StayingCells* staying = nullptr);
 
   private:
     /// A chunk with active cells.
@@ -51,6 +52,7 @@ class CubeSearch {
 
     const StepView* step_ = nullptr;    ///< of the search that runs
     const ChunkGrid* chunks_ = nullptr; ///< of that step
+    const StayingCells* staying_ = nullptr;
     std::uint32_t layer_ = 0;
     std::chrono::nanoseconds shading_{0}; ///< of this layer
     ChunkCube cube_;

@@ -34,11 +34,35 @@ constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
 constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
                          kWithNormals = chunks_of_bricks(true);
 
+/// By brick of a chunk: where in the chunk its cells lie.
+constexpr std::array<SidesOfCells, kBricksOfChunk> kSidesOfBrick = [] {
+    std::array<SidesOfCells, kBricksOfChunk> sides{};
+    for (std::uint32_t z = 0; z < kChunkEdge; ++z)
+        for (std::uint32_t y = 0; y < kChunkEdge; ++y)
+            for (std::uint32_t x = 0; x < kChunkEdge; ++x) {
+                const std::size_t brick =
+                    x / BrickGrid::kCells[0] +
+                    kChunkBricks[0] * (y / BrickGrid::kCells[1] +
+                                       std::size_t{kChunkBricks[1]} * (z / BrickGrid::kCells[2]));
+                sides[brick] |= SidesOfCells{1}
+                                << (kSide[x] + kSides * (kSide[y] + kSides * unsigned{kSide[z]}));
+            }
+    return sides;
+}();
+
 } // namespace
+
+BricksOfChunk LayerCandidates::bricks_at(SidesOfCells sides) {
+    BricksOfChunk bits = 0;
+    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
+        bits |= ((kSidesOfBrick[i] & sides) != 0 ? 1u : 0u) << i;
+    return bits;
+}
 
 LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
                                  const LevelMap::Cut& cut, bool normals,
-                                 const std::stop_token& stop, const ChunkFilter& only)
+                                 const std::stop_token& stop, const ChunkFilter& only,
+                                 const StayingCells* staying)
     : layer_(layer), places_(places_of(*step.layer(layer), cut, layer, only)), cut_(cut) {
     if (places_.empty())
         return;
@@ -50,6 +74,8 @@ LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
     chunks_ = step.chunks(layer, places_, stop);
     for (std::size_t i = 0; i < places_.size(); ++i) {
         bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
+        if (staying)
+            bricks_.back() &= bricks_at(staying->others(layer, places_[i]));
         const auto [x, y] = grid.at(places_[i]);
         const ChunksAround around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick);
         for_each_around(around & ~(1u << kOwnChunk), {x, y, layer}, grid,

@@ -4,6 +4,7 @@
 
 #include "index/file/step_view.h"
 #include "index/search/chunk_reach.h"
+#include "index/search/staying_cells.h"
 #include "index/volume/level_map.h"
 
 #include <array>
@@ -33,8 +34,10 @@ class LayerCandidates {
     /// requests to the disk.
     /// @param normals whether normals will be made, too
     /// @param only reads the candidates among these alone
+    /// @param staying cells that are known already, whose bricks are left out; null: none are
     LayerCandidates(const StepView& step, std::uint32_t layer, const LevelMap::Cut& cut,
-                    bool normals, const std::stop_token& stop, const ChunkFilter& only = {});
+                    bool normals, const std::stop_token& stop, const ChunkFilter& only = {},
+                    const StayingCells* staying = nullptr);
 
     /// The chunks that may hold active cells according to their ranks, ascending.
     static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut,
@@ -45,10 +48,12 @@ class LayerCandidates {
                                 std::uint32_t layer = 0, const ChunkFilter& only = {});
     /// Whether cells with ranks from `low` to `high` may be active.
     static bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
-        return low + (cut.exact ? 1 : 0) <= cut.threshold && high >= cut.threshold;
+        return cut.may_hold(low, high);
     }
     /// The bricks that may hold active cells.
     static BricksOfChunk bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut);
+    /// The bricks that have cells at these places.
+    static BricksOfChunk bricks_at(SidesOfCells sides);
 
     std::uint32_t layer() const { return layer_; }
     /// Ascending.

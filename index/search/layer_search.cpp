@@ -70,7 +70,7 @@ bool LayerSearch::for_each_part(const StepView& step, const Cells& cells, bool n
     const auto places = [&](std::uint32_t layer) {
         std::ranges::fill(needed, std::uint8_t{0});
         CellWalk walk(step.grid());
-        for (const CellId id : of_layer(step, cells, layer)) {
+        for (const CellId id : without_earlier(cells, of_layer(step, cells, layer))) {
             // As wide ids wrap, from one layer to the next.
             walk.to(id - first_of(step.grid(), layer));
             needed[chunks.place(walk.x() / kChunkEdge, walk.y() / kChunkEdge)] = 1;
@@ -87,7 +87,10 @@ bool LayerSearch::for_each_part(const StepView& step, const Cells& cells, bool n
         const auto ids = of_layer(step, cells, layer);
         const std::vector<CellId> local = counted_from(slab.first_around(), ids);
         if (!local.empty())
-            slab.fill_around(local, normals);
+            slab.fill_around(cells.earlier
+                                 ? counted_from(slab.first_around(), without_earlier(cells, ids))
+                                 : local,
+                             normals);
         work({.values = slab.around(),
               .first = slab.first_around(),
               .first_plane = slab.first_plane(),
@@ -98,6 +101,17 @@ bool LayerSearch::for_each_part(const StepView& step, const Cells& cells, bool n
               .layer = layer});
     };
     return work_.for_each_layer(step, places, {}, work_on_slab, stop);
+}
+
+/// Those of some neighboring cells that need values.
+std::vector<CellId> LayerSearch::without_earlier(const Cells& cells, std::span<const CellId> some) {
+    const auto first = static_cast<std::size_t>(some.data() - cells.ids.data());
+    std::vector<CellId> others;
+    others.reserve(some.size());
+    for (std::size_t i = 0; i < some.size(); ++i)
+        if (!cells.earlier || !cells.earlier->has(first + i))
+            others.push_back(some[i]);
+    return others;
 }
 
 std::span<const CellId> LayerSearch::of_layer(const StepView& step, const Cells& cells,
@@ -131,6 +145,15 @@ bool LayerSearch::search(const StepView& step, CellSet& set, bool by_bricks, boo
     set.shading_time =
         std::chrono::duration_cast<std::chrono::nanoseconds>(passed) - set.search_time;
     return true;
+}
+
+bool LayerSearch::search_others(const StepView& step, CellSet& set, const StayingCells& staying,
+                                bool shaded, const std::stop_token& stop) {
+    LayerResults results(set, StepSlab::layers(step.grid()), stop);
+    const ChunkFilter only = [&](std::uint32_t layer, std::uint32_t place) {
+        return staying.others(layer, place) != 0;
+    };
+    return find_active(work_, step, {set.query, true, shaded, only, &staying}, results, stop);
 }
 
 std::optional<std::uint64_t> LayerSearch::count(const StepView& step, const Query& query,
@@ -187,8 +210,9 @@ bool LayerSearch::shade_cells(const StepView& step, CellSet& set, const std::sto
 }
 
 bool LayerSearch::make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
-                            const std::stop_token& stop, const ColorSource* values) {
-    const Cells cells{set.ids, set.points};
+                            const std::stop_token& stop, const ColorSource* values,
+                            const EarlierMesh& earlier) {
+    const Cells cells{set.ids, set.points, earlier.mesh ? &earlier : nullptr};
     const auto of_values = values ? std::optional(values->step(step)) : std::nullopt;
     if (of_values && !of_values->by_chunks())
         of_values->whole(stop); // before there are several threads
@@ -202,7 +226,7 @@ bool LayerSearch::make_mesh(const StepView& step, const CellSet& set, CellMesh& 
                 return;
             MeshPart& mesh_part = made[part.number];
             makers_[part.worker].make(part.values, set.query, part.ids, mesh_part, part.first_plane,
-                                      stop);
+                                      stop, earlier.part(part.before, part.ids.size()));
             if (!of_values)
                 return;
             StepSlab slab;

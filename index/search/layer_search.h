@@ -36,6 +36,10 @@ class LayerSearch {
     /// @param only with bricks and by chunks: search these chunks alone
     bool search(const StepView& step, CellSet& set, bool by_bricks, bool shaded,
                 const std::stop_token& stop, const ChunkFilter& only = {});
+    /// The same without the cells that stay: by bricks, and by chunks also of a step that is worked
+    /// on as a whole.
+    bool search_others(const StepView& step, CellSet& set, const StayingCells& staying, bool shaded,
+                       const std::stop_token& stop);
     /// The number of active cells, without keeping the cells; empty when stopped.
     std::optional<std::uint64_t> count(const StepView& step, const Query& query, bool by_bricks,
                                        const std::stop_token& stop);
@@ -46,8 +50,10 @@ class LayerSearch {
     bool shade_cells(const StepView& step, CellSet& set, const std::stop_token& stop);
     /// @param set in the order of `search`; with points, if the grid has wide ids
     /// @param values array whose values the mesh gets; null: none; else as `source` below
+    /// @param earlier only without values: has the mesh of some cells
     bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
-                   const std::stop_token& stop, const ColorSource* values = nullptr);
+                   const std::stop_token& stop, const ColorSource* values = nullptr,
+                   const EarlierMesh& earlier = {});
     /// @param set as above @param source by chunks, has chunks at the step's level of detail
     /// @param corners eight for each cell (color_corners); empty: they are not wanted
     bool color_cells(const StepView& step, const CellSet& set, const ColorSource& source,
@@ -59,6 +65,7 @@ class LayerSearch {
     struct Cells {
         std::span<const CellId> ids;
         std::span<const CellPoint> points = {};
+        const EarlierMesh* earlier = nullptr; ///< cells that it has need no values
     };
     /// Some of these cells, with the values around them.
     struct CellsOfPart {
@@ -74,6 +81,7 @@ class LayerSearch {
     using Work = std::function<void(const CellsOfPart& part)>;
 
     static std::size_t parts(const StepView& step, const Cells& cells, unsigned most);
+    static std::vector<CellId> without_earlier(const Cells& cells, std::span<const CellId> some);
     bool for_each_part(const StepView& step, const Cells& cells, bool normals, unsigned most,
                        const Work& work, const std::stop_token& stop);
     static StepValues around(const StepView& other, const CellsOfPart& part, StepSlab& slab,

@@ -24,6 +24,7 @@ std::optional<WholeLayers::Range> WholeLayers::worth(const StepView& step, const
     const std::uint32_t layers = StepSlab::layers(step.grid());
     Range range{layers, 0};
     std::uint32_t whole = 0;
+    std::size_t staying = 0;
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::size_t places = LayerCandidates::count_of(*step.layer(layer), cut);
         if (places == 0)
@@ -31,7 +32,11 @@ std::optional<WholeLayers::Range> WholeLayers::worth(const StepView& step, const
         range.first = std::min(range.first, layer);
         range.end = layer + 1;
         whole += step.store().fetches_all(places) ? 1 : 0;
+        staying += step.store().staying(step.at(), layer);
     }
+    // Values that lie in other steps do not come in the order of the file.
+    if (8 * staying > (range.end - range.first) * step.chunk_grid().chunks_of_layer())
+        return {};
     if (range.first >= range.end || 4 * whole < 3 * (range.end - range.first))
         return {};
     return range;
@@ -118,10 +123,17 @@ void WholeLayers::decode(const RecordPiece& piece, StepSlab& slab) {
     Chunk chunk;
     for (std::uint32_t place = piece.first; place < piece.end; ++place) {
         chunk.size = store.grid().size(piece.layer, place);
-        const auto own = std::span(values).first(store.bytes_of(chunk.size));
-        store.decoder().chunk(step_.at(), piece.layer, place, piece.record(place), chunk.bricks,
-                              own);
-        chunk.values = own;
+        ChunkPtr staying;
+        if (store.decoder().lies_elsewhere(step_.at(), *piece.table, place)) {
+            staying = store.chunks(step_.at(), piece.layer, std::array{place}).front();
+            chunk.bricks = staying->bricks;
+            chunk.values = staying->values;
+        } else {
+            const auto own = std::span(values).first(store.bytes_of(chunk.size));
+            store.decoder().chunk(step_.at(), piece.layer, place, piece.record(place), chunk.bricks,
+                                  own);
+            chunk.values = own;
+        }
         const bool may_hold =
             LayerCandidates::may_hold(piece.table->low[place], piece.table->high[place], cut_);
         slab.put(chunk, place, may_hold ? LayerCandidates::bricks_of(chunk.bricks, cut_) : 0);

@@ -63,6 +63,17 @@ void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
     }
 }
 
+/// Copies the vertices that a cell is the first to have.
+/// @param first number of the first of them @param corners of the cell, in the new mesh
+void take_vertices(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
+                   std::span<const std::uint32_t> corners, std::vector<MeshVertex>& vertices) {
+    const std::uint32_t* const of_earlier =
+        earlier.mesh->triangles.data() + earlier.corners[earlier.places[cell]];
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        if (corners[k] >= first)
+            vertices[corners[k]] = earlier.mesh->vertices[of_earlier[k]];
+}
+
 } // namespace
 
 /// Makes the triangles of cells in one pass over them.
@@ -149,6 +160,53 @@ class MeshMaker::Pass {
     std::array<std::uint32_t, kCellEdges> least_{}; ///< least number of a valid entry
 };
 
+std::vector<std::uint32_t> corners_of_cells(const CellMesh& mesh) {
+    const std::array<MeshCase, 256>& cases = mesh_cases();
+    std::vector<std::uint32_t> corners;
+    corners.reserve(mesh.cases.size());
+    std::uint32_t next = 0;
+    for (const std::uint8_t of_cell : mesh.cases) {
+        corners.push_back(next);
+        next += 3u * cases[of_cell].triangles;
+    }
+    return corners;
+}
+
+/// Those of cells that the earlier mesh has come from there.
+void MeshMaker::find_cases_of(const StepValues& values, const Query& query, std::uint64_t cut,
+                              std::span<const CellId> ids, const EarlierMesh& earlier,
+                              std::span<std::uint8_t> cases) {
+    const auto find = [&](std::span<const CellId> some, std::uint8_t* out) {
+        visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+            find_cases<T>(values, query, cut, some, out);
+        });
+    };
+    if (!earlier.mesh)
+        return find(ids, cases.data());
+    ids_.clear();
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (earlier.has(i))
+            cases[i] = earlier.mesh->cases[earlier.places[i]];
+        else
+            ids_.push_back(ids[i]);
+    cases_.resize(ids_.size());
+    find(ids_, cases_.data());
+    for (std::size_t i = 0, next = 0; i < ids.size(); ++i)
+        if (!earlier.has(i))
+            cases[i] = cases_[next++];
+}
+
+/// Places the vertices with the numbers that have been noted.
+void MeshMaker::place_new(const StepValues& values, const Query& query, std::uint32_t first_plane,
+                          std::span<MeshVertex> vertices) {
+    vertices_.clear();
+    for (const std::uint32_t number : numbers_)
+        vertices_.push_back(vertices[number]);
+    place_vertices(values, query, first_plane, vertices_);
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+        vertices[numbers_[i]] = vertices_[i];
+}
+
 void MeshMaker::Tables::fit(const Grid& grid, std::size_t cells) {
     const std::size_t wanted = std::size_t{5} * grid.vertices[0] * grid.vertices[1];
     const std::size_t most = std::size_t{kCellEdges} * (cells + 1);
@@ -160,7 +218,8 @@ void MeshMaker::Tables::fit(const Grid& grid, std::size_t cells) {
 }
 
 bool MeshMaker::make(const StepValues& values, const Query& query, std::span<const CellId> ids,
-                     MeshPart& part, std::uint32_t first_plane, const std::stop_token& stop) {
+                     MeshPart& part, std::uint32_t first_plane, const std::stop_token& stop,
+                     const EarlierMesh& earlier) {
     part = {};
     const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
     if (ids.empty() || !cut)
@@ -183,17 +242,31 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
             std::ranges::lower_bound(ids.begin() + static_cast<std::ptrdiff_t>(i), ids.end(),
                                      end_id) -
             ids.begin());
-        visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-            find_cases<T>(values, query, *cut, ids.subspan(i, end - i), part.cases.data() + i);
-        });
+        find_cases_of(values, query, *cut, ids.subspan(i, end - i), earlier.part(i, end - i),
+                      std::span(part.cases).subspan(i, end - i));
         const std::uint32_t first = pass.vertices();
         pass.enter_plane(z);
+        numbers_.clear();
         for (; i < end; ++i) {
             walk.to(ids[i]);
+            const std::uint32_t before = pass.vertices();
+            const std::size_t corner = pass.corners();
             pass.add(walk.x(), walk.y(), cases[part.cases[i]]);
+            if (!earlier.mesh)
+                continue;
+            if (earlier.has(i))
+                take_vertices(earlier, i, before,
+                              std::span(part.triangles).subspan(corner, pass.corners() - corner),
+                              part.vertices);
+            else
+                for (std::uint32_t number = before; number < pass.vertices(); ++number)
+                    numbers_.push_back(number);
         }
-        place_vertices(values, query, first_plane,
-                       std::span(part.vertices).subspan(first, pass.vertices() - first));
+        if (earlier.mesh)
+            place_new(values, query, first_plane, part.vertices);
+        else
+            place_vertices(values, query, first_plane,
+                           std::span(part.vertices).subspan(first, pass.vertices() - first));
         stopped = stop.stop_requested();
     }
     part.triangles.resize(pass.corners());

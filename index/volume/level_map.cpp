@@ -59,6 +59,8 @@ std::optional<LevelMap::Cut> LevelMap::cut(const Scaling& scaling, double isoval
     const auto stored = stored_cut(type_, scaling, isovalue);
     if (!stored || (lossless_ && *stored <= lowest_))
         return std::nullopt;
+    if (extremes_ && (*stored <= extremes_->low || *stored > extremes_->high))
+        return std::nullopt;
     const bool on_threshold = std::binary_search(thresholds_.begin(), thresholds_.end(), *stored);
     const std::uint8_t rank = rank_of(thresholds_, *stored);
     if (on_threshold)

@@ -32,6 +32,15 @@ class LevelMap {
     /// @param thresholds ordinals, ascending, at most 255
     static LevelMap of_thresholds(ValueType type, std::span<const std::uint64_t> thresholds);
 
+    /// Lowest and highest value that the map is for, as ordinals: isovalues beyond them have no
+    /// active cells. A lossless map knows them without this.
+    struct Extremes {
+        std::uint64_t low = 0, high = ~std::uint64_t{0};
+        bool operator==(const Extremes&) const = default;
+    };
+    void set_extremes(const Extremes& extremes) { extremes_ = extremes; }
+    const std::optional<Extremes>& extremes() const { return extremes_; }
+
     ValueType type() const { return type_; }
     /// True if no two values of the series have the same rank: then every cut is exact.
     bool lossless() const { return lossless_; }
@@ -47,6 +56,10 @@ class LevelMap {
     struct Cut {
         std::uint8_t threshold = 0;
         bool exact = false;
+        /// Whether cells with ranks from `low` to `high` may be active.
+        bool may_hold(std::uint8_t low, std::uint8_t high) const {
+            return low + (exact ? 1 : 0) <= threshold && high >= threshold;
+        }
         bool operator==(const Cut&) const = default;
     };
     /// None if all values are on one side, so that no cell is active.
@@ -64,7 +77,8 @@ class LevelMap {
     ValueType type_;
     std::vector<std::uint64_t> thresholds_; ///< ordinals
     bool lossless_;
-    std::uint64_t lowest_;            ///< ordinal of the lowest value, if lossless
+    std::uint64_t lowest_; ///< ordinal of the lowest value, if lossless
+    std::optional<Extremes> extremes_;
     std::vector<std::uint8_t> table_; ///< rank of every ordinal, for types of up to 16 bits
 };
 

@@ -20,7 +20,7 @@ std::span<const index::CellId> SlotPlan::ids_of(const index::Extraction* set) co
 
 void SlotPlan::next_surface() {
     ++surface_;
-    old_at_ = new_at_ = 0;
+    old_at_ = new_at_ = removed_at_ = added_at_ = 0;
     walk_ = index::CellWalk(grid_);
 }
 
@@ -28,10 +28,50 @@ std::uint16_t SlotPlan::style_of(std::size_t rank) const {
     return cell_style(surface_, to_->colors.empty() ? 0 : to_->colors[rank]);
 }
 
+/// What is known of the current surface; null: both sets are compared.
+const index::SurfaceChange* SlotPlan::known_change() const {
+    const bool known = from_ && from_->number != 0 && to_->change.from == from_->number &&
+                       from_->surfaces.size() == to_->surfaces.size();
+    return known ? &to_->change.surfaces[surface_] : nullptr;
+}
+
+/// Takes over the slots of the current surface's cells, run by run, by its known change.
+/// @param cells that may still be handled; counted down @return true when all are
+bool SlotPlan::follow(std::size_t& cells) {
+    const index::SurfaceChange& change = *known_change();
+    const std::size_t old_end = ids_of(from_).size(), new_end = ids_of(to_).size();
+    while (old_at_ < old_end || new_at_ < new_end) {
+        if (cells == 0)
+            return false;
+        const std::size_t removed =
+            removed_at_ < change.removed.size() ? change.removed[removed_at_] : old_end;
+        const std::size_t added =
+            added_at_ < change.added.size() ? change.added[added_at_] : new_end;
+        if (old_at_ == removed && old_at_ < old_end) {
+            free_.push_back(slots_->slot_of_rank[old_rank_++]);
+            ++old_at_, ++removed_at_, --cells;
+        } else if (new_at_ == added && new_at_ < new_end) {
+            next_.slot_of_rank[new_rank_++] = kNoSlot;
+            ++new_at_, ++added_at_, --cells;
+        } else {
+            const std::size_t run = std::min({removed - old_at_, added - new_at_, cells});
+            std::copy_n(slots_->slot_of_rank.begin() + static_cast<std::ptrdiff_t>(old_rank_), run,
+                        next_.slot_of_rank.begin() + static_cast<std::ptrdiff_t>(new_rank_));
+            old_at_ += run, new_at_ += run, old_rank_ += run, new_rank_ += run, cells -= run;
+        }
+    }
+    return true;
+}
+
 bool SlotPlan::merge(std::size_t cells) {
     const std::size_t surfaces =
         std::max(to_->surfaces.size(), from_ ? from_->surfaces.size() : std::size_t{0});
     for (; surface_ < surfaces; next_surface()) {
+        if (known_change()) {
+            if (!follow(cells))
+                return false;
+            continue;
+        }
         const auto before = ids_of(from_), after = ids_of(to_);
         while (old_at_ < before.size() || new_at_ < after.size()) {
             if (cells-- == 0)

@@ -48,7 +48,8 @@ class SlotPlan {
     SlotPlan(const index::Grid& grid, const index::Extraction* from, const Slots& slots,
              const index::Extraction& to);
 
-    /// Compares at most `cells` cells. @return true when all are compared
+    /// Compares at most `cells` cells. Where the new set knows what came and went since `from`, only
+    /// that is looked at. @return true when all are compared
     bool merge(std::size_t cells);
 
     /// After merging: whether the whole set is sent, as that takes no more words than the changes.
@@ -82,6 +83,8 @@ class SlotPlan {
     std::uint16_t style_of(std::size_t rank) const;
     void find_free_slots();
     void next_surface();
+    bool follow(std::size_t& cells);
+    const index::SurfaceChange* known_change() const;
 
     index::Grid grid_;
     const index::Extraction* from_;
@@ -91,6 +94,7 @@ class SlotPlan {
     // Position of the walk: a surface, and in it the next cell of the old set and of the new one.
     std::size_t surface_ = 0, old_at_ = 0, new_at_ = 0;
     std::size_t old_rank_ = 0, new_rank_ = 0;
+    std::size_t removed_at_ = 0, added_at_ = 0; ///< in the known change of the surface
     index::CellWalk walk_;
     std::vector<std::uint32_t> free_; ///< slots of removed cells; after merging, all slots to fill
     std::size_t free_at_ = 0, changes_ = 0;

@@ -31,6 +31,13 @@ void ByteCache::add_all(std::vector<Entry> entries) {
     }
 }
 
+void ByteCache::touch(std::span<const Key> keys) {
+    const std::scoped_lock lock(mutex_);
+    for (const Key& key : keys)
+        if (const auto found = by_key_.find(key); found != by_key_.end())
+            entries_.splice(entries_.begin(), entries_, found->second);
+}
+
 std::vector<bool> ByteCache::held(std::span<const Key> keys) const {
     std::vector<bool> held(keys.size());
     const std::scoped_lock lock(mutex_);

@@ -82,6 +82,10 @@ ChunkPacker::ChunkPacker(Codec codec) : state_(std::make_unique<State>()) {
 ChunkPacker::~ChunkPacker() = default;
 ChunkPacker::ChunkPacker(ChunkPacker&&) noexcept = default;
 
+bool ChunkPacker::all_equal(ValueType type, std::span<const std::byte> values) {
+    return index::all_equal(values, size_of(type));
+}
+
 void ChunkPacker::pack(ValueType type, const Size& size, std::span<const std::byte> values,
                        std::vector<std::byte>& out) {
     const auto put = [&](unsigned head, std::span<const std::byte> bytes) {
@@ -89,7 +93,7 @@ void ChunkPacker::pack(ValueType type, const Size& size, std::span<const std::by
         out.insert(out.end(), bytes.begin(), bytes.end());
     };
     const std::size_t word = size_of(type);
-    if (all_equal(values, word))
+    if (index::all_equal(values, word))
         return put(static_cast<unsigned>(Form::constant), values.first(word));
     if (state_->codec != Codec::none) {
         const Form form = state_->codec == Codec::lz4 ? Form::lz4 : Form::zstd;

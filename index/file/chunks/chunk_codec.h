@@ -33,6 +33,9 @@ class ChunkPacker {
     ~ChunkPacker();
     ChunkPacker(ChunkPacker&&) noexcept;
 
+    /// Whether one value fills a chunk.
+    static bool all_equal(ValueType type, std::span<const std::byte> values);
+
     /// Appends the packed chunk.
     /// @param values [z][y][x], x fastest, `size` of them along x, y and z
     void pack(ValueType type, const std::array<std::uint32_t, 3>& size,

@@ -37,6 +37,12 @@ void ChunkDecoder::damaged(std::uint32_t step, const std::string& what) const {
         fmt::format("{}: damaged: {}, step {}: {}", source_.name(), array_.called, step, what));
 }
 
+void ChunkDecoder::damaged(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
+                           const std::string& what) const {
+    const auto [x, y] = grid_.at(place);
+    damaged(step, fmt::format("chunk {} {} {}: {}", x, y, layer, what));
+}
+
 ChunkLayerPtr ChunkDecoder::table(std::uint32_t step, std::uint32_t layer,
                                   std::span<const std::byte> bytes) const {
     const StepEntry& entry = array_.steps[step];
@@ -49,13 +55,19 @@ ChunkLayerPtr ChunkDecoder::table(std::uint32_t step, std::uint32_t layer,
     table->offsets.resize(count + 1);
     table->low.resize(count);
     table->high.resize(count);
+    table->since.resize(count);
+    const std::size_t size = array_.has_since ? sizeof(ChunkEntry) : kEntryWithoutSince;
     std::uint64_t end = head.records;
     for (std::uint32_t place = 0; place < count; ++place) {
         ChunkEntry chunk;
-        std::memcpy(&chunk, bytes.data() + sizeof head + place * sizeof chunk, sizeof chunk);
+        chunk.since = step;
+        std::memcpy(&chunk, bytes.data() + sizeof head + place * size, size);
+        if (chunk.since > step)
+            damaged(step, layer, place, "it stays since a later step");
         table->offsets[place] = entry.offset + end;
         table->low[place] = chunk.low;
         table->high[place] = chunk.high;
+        table->since[place] = chunk.since;
         end += chunk.bytes;
     }
     table->offsets[count] = entry.offset + end;
@@ -67,12 +79,9 @@ ChunkLayerPtr ChunkDecoder::table(std::uint32_t step, std::uint32_t layer,
 void ChunkDecoder::chunk(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                          std::span<const std::byte> record, ChunkBricks& bricks,
                          std::span<std::byte> values) const {
-    const auto refuse = [&](const char* what) {
-        const auto [x, y] = grid_.at(place);
-        damaged(step, fmt::format("chunk {} {} {}: {}", x, y, layer, what));
-    };
+    const auto refuse = [&](const char* what) { damaged(step, layer, place, what); };
     RecordChecksum checksum = 0;
-    const std::size_t head = sizeof checksum + (array_.has_bricks ? sizeof bricks : 0);
+    const std::size_t head = head_bytes();
     if (record.size() < head)
         refuse("too short");
     std::memcpy(&checksum, record.data(), sizeof checksum);
@@ -80,7 +89,7 @@ void ChunkDecoder::chunk(std::uint32_t step, std::uint32_t layer, std::uint32_t 
         refuse("its checksum does not match");
     if (array_.has_bricks)
         std::memcpy(bricks.data(), record.data() + sizeof checksum, sizeof bricks);
-    if (array_.has_values &&
+    if (array_.has_values && !values.empty() &&
         !unpack_chunk(array_.info.type, grid_.size(layer, place), record.subspan(head), values))
         refuse("it cannot be unpacked");
 }

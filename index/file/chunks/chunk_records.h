@@ -19,6 +19,11 @@ namespace isochron::index {
 struct ChunkLayer {
     std::vector<std::uint64_t> offsets;  ///< in the file, by place, then the end of the last chunk
     std::vector<std::uint8_t> low, high; ///< by place
+    /// By place: the first step from which on the values have stayed the same; the step itself if
+    /// they changed, or if that is not known.
+    std::vector<std::uint32_t> since;
+
+    std::uint64_t bytes(std::uint32_t place) const { return offsets[place + 1] - offsets[place]; }
 };
 using ChunkLayerPtr = std::shared_ptr<const ChunkLayer>;
 
@@ -29,6 +34,7 @@ struct ChunkArray {
     SeriesInfo info;
     std::vector<StepEntry> steps;
     bool has_bricks = false, has_values = true;
+    bool has_since = true; ///< its tables say since when chunks have stayed
 };
 
 /// Records that are read together.
@@ -56,13 +62,25 @@ class ChunkDecoder {
     ChunkLayerPtr table(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::byte> bytes) const;
     /// @param bricks set if the array has some
-    /// @param values [z][y][x] of the chunk, x fastest, as many as it has; unused if it has none
+    /// @param values [z][y][x] of the chunk, x fastest, as many as it has; empty: they are not wanted
     void chunk(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                std::span<const std::byte> record, ChunkBricks& bricks,
                std::span<std::byte> values) const;
     [[noreturn]] void damaged(std::uint32_t step, const std::string& what) const;
+    /// The same of a chunk.
+    [[noreturn]] void damaged(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
+                              const std::string& what) const;
+    /// Whether the values of a chunk are in the record of the step since which it has stayed.
+    bool lies_elsewhere(std::uint32_t step, const ChunkLayer& table, std::uint32_t place) const {
+        return array_.has_values && table.since[place] < step && table.bytes(place) == head_bytes();
+    }
 
   private:
+    /// Of a record: what comes before the values.
+    std::size_t head_bytes() const {
+        return sizeof(RecordChecksum) + (array_.has_bricks ? sizeof(ChunkBricks) : 0);
+    }
+
     const ByteSource& source_;
     const ChunkArray& array_;
     const ChunkGrid& grid_;

@@ -1,51 +1,21 @@
 // Reads and decodes chunks.
 #include "index/file/chunks/chunk_store.h"
 
-#include "index/file/sections/metadata.h"
 #include "index/file/sections/step_levels.h"
-#include "index/system/huge_pages.h"
-#include "index/system/parallel.h"
-#include "index/system/read_ahead.h"
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 namespace isochron::index {
 namespace {
 
-enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, kinds };
-
 /// Bytes of tables that are read at a time.
 constexpr std::uint64_t kTables = 1 << 20;
-/// A step up to this size is always decoded as a whole, which takes less time than choosing chunks.
-constexpr std::uint64_t kSmallStep = 4 << 20;
 /// A step up to this size is decoded as a whole when it is worked on again: a search is faster
 /// then.
 constexpr std::uint64_t kModerateStep = 64 << 20;
-
-struct WholeStep {
-    LargeMemory values; ///< their padding is zero
-    std::vector<std::uint8_t> bricks;
-};
-
-/// Large memory for a step, in which access is in any order; its padding is 0.
-LargeMemory step_memory(std::size_t bytes) {
-    LargeMemory memory = large_memory(bytes);
-    const std::size_t padding = std::min(bytes, kPartAlignment);
-    std::fill_n(memory.get() + bytes - padding, padding, std::byte{0});
-    return memory;
-}
-
-/// Copies a chunk's bricks to their places in the order of `build_bricks`.
-void place_bricks(const ChunkBricks& of_chunk, const BrickGrid& grid,
-                  const std::array<std::uint32_t, 3>& at, std::span<std::uint8_t> bricks) {
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
-        if (const auto brick = brick_of_chunk(grid, at, i)) {
-            bricks[*brick] = of_chunk[i];
-            bricks[grid.count() + *brick] = of_chunk[kBricksOfChunk + i];
-        }
-}
+/// Bytes that are announced behind a read in order.
+constexpr std::uint64_t kAnnounced = 2 << 20;
 
 } // namespace
 
@@ -86,7 +56,7 @@ ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
     if (auto known = cache_.find<ChunkLayer>(key(layer_kept, step, layer)))
         return known;
     const std::uint32_t count = grid_.chunks_of_layer();
-    const std::uint64_t size = layer_table_bytes(count);
+    const std::uint64_t size = layer_table_bytes(count, array_.has_since);
     const auto together = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, kTables / size));
     const std::uint32_t first = layer / together * together;
     const std::uint32_t end = std::min(first + together, grid_.layers());
@@ -98,7 +68,7 @@ ChunkLayerPtr ChunkStore::layer(std::uint32_t step, std::uint32_t layer) const {
         tables.push_back(
             {key(layer_kept, step, i),
              decoder_.table(step, i, std::span(bytes).subspan((i - first) * size, size)),
-             count * (sizeof(std::uint64_t) + 2)});
+             table_bytes()});
     auto asked = std::static_pointer_cast<const ChunkLayer>(tables[layer - first].value);
     cache_.add_all(std::move(tables));
     return asked;
@@ -112,7 +82,8 @@ LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
         return known;
     const StepEntry& entry = array_.steps[step];
     const std::uint64_t begin =
-        entry.tables + layer_table_bytes(grid_.chunks_of_layer()) * grid_.layers();
+        entry.tables +
+        layer_table_bytes(grid_.chunks_of_layer(), array_.has_since) * grid_.layers();
     std::vector<std::byte> bytes(entry.bytes - begin);
     source_.read(entry.offset + begin, bytes);
     const auto levels = step_levels(array_.info.type, bytes);
@@ -134,22 +105,65 @@ std::vector<std::uint32_t> ChunkStore::missing(std::uint32_t step, std::uint32_t
     return missing;
 }
 
+/// Those of the places whose values lie in earlier steps, by step.
+std::vector<ChunkStore::PlacesOfStep>
+ChunkStore::elsewhere(std::uint32_t step, const ChunkLayer& table,
+                      std::span<const std::uint32_t> places) const {
+    std::vector<PlacesOfStep> by_step;
+    for (const std::uint32_t place : places) {
+        if (!decoder_.lies_elsewhere(step, table, place))
+            continue;
+        const auto known = std::ranges::find(by_step, table.since[place], &PlacesOfStep::step);
+        if (known != by_step.end())
+            known->places.push_back(place);
+        else
+            by_step.push_back({table.since[place], {place}});
+    }
+    return by_step;
+}
+
 /// @param missing places that are not in the cache, ascending
 std::uint64_t ChunkStore::announce(std::uint32_t step, std::uint32_t layer,
                                    std::span<const std::uint32_t> missing) const {
     std::uint64_t bytes = 0;
     if (missing.empty())
         return bytes;
-    for (const RecordRun& run : runs_of(*this->layer(step, layer), missing)) {
+    const ChunkLayerPtr table = this->layer(step, layer);
+    for (const RecordRun& run : runs_of(*table, missing)) {
         source_.expect(run.begin, run.end - run.begin);
         bytes += run.end - run.begin;
     }
+    return bytes + announce_earlier(step, layer, *table, missing);
+}
+
+/// Announces the records of earlier steps that have the values of these places.
+std::uint64_t ChunkStore::announce_earlier(std::uint32_t step, std::uint32_t layer,
+                                           const ChunkLayer& table,
+                                           std::span<const std::uint32_t> missing) const {
+    std::uint64_t bytes = 0;
+    for (const PlacesOfStep& earlier : elsewhere(step, table, missing))
+        bytes += expect(earlier.step, layer, earlier.places);
     return bytes;
 }
 
 std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
                                  std::span<const std::uint32_t> places) const {
     return announce(step, layer, missing(step, layer, places));
+}
+
+/// Whether the kernel, reading ahead of here, may get beyond the step.
+bool ChunkStore::near_end(std::uint32_t step, std::uint64_t end) const {
+    constexpr std::uint64_t kMostAhead = 16 << 20;
+    return end + kMostAhead > array_.steps[step].offset + array_.steps[step].bytes;
+}
+
+void ChunkStore::read_in_order(std::uint32_t step, std::uint64_t offset,
+                               std::span<std::byte> out) const {
+    if (!near_end(step, offset + out.size()))
+        return source_.read_in_order(offset, out);
+    const std::uint64_t end = array_.steps[step].offset + array_.steps[step].tables;
+    source_.expect(offset, std::min<std::uint64_t>(kAnnounced, end - std::min(end, offset)));
+    source_.read(offset, out);
 }
 
 std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
@@ -159,31 +173,26 @@ std::uint64_t ChunkStore::fetch(std::uint32_t step, std::uint32_t layer,
     if (!fetches_all(missing.size()))
         return announce(step, layer, missing);
     const ChunkLayerPtr table = this->layer(step, layer);
-    source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
-    return table->offsets.back() - table->offsets.front();
+    if (near_end(step, table->offsets.back()))
+        source_.expect(table->offsets.front(), table->offsets.back() - table->offsets.front());
+    else
+        source_.fetch(table->offsets.front(), table->offsets.back() - table->offsets.front(), stop);
+    return table->offsets.back() - table->offsets.front() +
+           announce_earlier(step, layer, *table, missing);
 }
 
-/// Calls `f(i, record)` for every place, `i` counting from 0.
-template <class F>
-void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
-                              const std::stop_token& stop, F&& f) const {
-    thread_local std::vector<std::byte> bytes;
-    for (const RecordRun& run : runs_of(table, places)) {
-        stop_if_asked(stop);
-        bytes.resize(std::max<std::size_t>(bytes.size(), run.end - run.begin));
-        source_.read(run.begin, std::span(bytes).first(run.end - run.begin));
-        for (std::size_t i = run.first; i <= run.last; ++i) {
-            const std::uint64_t begin = table.offsets[places[i]];
-            f(i, std::span<const std::byte>(bytes).subspan(begin - run.begin,
-                                                           table.offsets[places[i] + 1] - begin));
-        }
+std::shared_ptr<Chunk> ChunkStore::decoded(std::uint32_t step, std::uint32_t layer,
+                                           std::uint32_t place, std::span<const std::byte> record,
+                                           bool with_values) const {
+    if (!with_values) {
+        auto chunk = std::make_shared<Chunk>();
+        chunk->size = grid_.size(layer, place);
+        decoder_.chunk(step, layer, place, record, chunk->bricks, {});
+        return chunk;
     }
-}
-
-ChunkPtr ChunkStore::decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
-                             std::span<const std::byte> record) const {
     std::byte* const slot = pool_->take();
     const std::shared_ptr<Chunk> chunk(new (slot) Chunk, [pool = pool_](Chunk* done) {
+        done->~Chunk();
         pool->give_back(reinterpret_cast<std::byte*>(done));
     });
     chunk->size = grid_.size(layer, place);
@@ -198,6 +207,7 @@ std::vector<ChunkPtr> ChunkStore::chunks(std::uint32_t step, std::uint32_t layer
                                          const std::stop_token& stop) const {
     const std::vector<ByteCache::Key> known = keys(step, layer, places);
     std::vector<ChunkPtr> found = cache_.find_all<Chunk>(known);
+    use_earlier(layer, places, found);
     std::vector<std::uint32_t> missing;
     std::vector<std::size_t> where;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -210,93 +220,71 @@ std::vector<ChunkPtr> ChunkStore::chunks(std::uint32_t step, std::uint32_t layer
     const ChunkLayerPtr table = this->layer(step, layer);
     std::vector<ByteCache::Entry> added;
     added.reserve(missing.size());
+    std::vector<std::shared_ptr<Chunk>> read(missing.size());
     read_records(*table, missing, stop, [&](std::size_t i, std::span<const std::byte> record) {
-        const ChunkPtr chunk = decoded(step, layer, missing[i], record);
-        added.push_back({known[where[i]], chunk, chunk_bytes()});
-        found[where[i]] = chunk;
+        const bool here = !decoder_.lies_elsewhere(step, *table, missing[i]);
+        read[i] = decoded(step, layer, missing[i], record, here);
+        added.push_back({known[where[i]], read[i], here ? chunk_bytes() : 2 * sizeof(Chunk)});
+        found[where[i]] = read[i];
     });
+    add_earlier(step, layer, *table, missing, read, stop);
     cache_.add_all(std::move(added));
     return found;
 }
 
-LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) const {
-    const SeriesInfo& info = array_.info;
-    const std::size_t stride = step_stride(info.step_bytes());
-    auto held = cache_.find<WholeStep>(key(whole_kept, step));
-    if (!held) {
-        const BrickGrid bricks(info.grid);
-        auto all = std::make_shared<WholeStep>();
-        if (array_.has_values)
-            all->values = step_memory(stride);
-        if (array_.has_bricks)
-            all->bricks.resize(bricks.bytes_per_step());
-        const std::size_t size = size_of(info.type), row = info.grid.vertices[0] * size;
-        const std::size_t plane = info.grid.vertices[1] * row;
-        std::byte* const out = all->values.get();
-        std::vector<std::uint32_t> places(grid_.chunks_of_layer());
-        for (std::uint32_t place = 0; place < places.size(); ++place)
-            places[place] = place;
-        // Starting threads takes longer than reading a small step.
-        const bool small = stride <= kSmallStep;
-        std::optional<ReadAhead> ahead;
-        if (small)
-            source_.expect(array_.steps[step].offset, array_.steps[step].bytes);
-        else
-            ahead.emplace(grid_.layers(), [&](std::uint32_t layer) {
-                stop_if_asked(stop);
-                return fetch(step, layer, places, stop);
-            });
-        const auto take = [&](std::size_t at, unsigned) {
-            const auto layer = static_cast<std::uint32_t>(at);
-            if (ahead)
-                ahead->reach(layer);
-            const ChunkLayerPtr table = this->layer(step, layer);
-            std::vector<std::byte> values(most_values());
-            ChunkBricks of_chunk;
-            read_records(
-                *table, places, stop, [&](std::size_t i, std::span<const std::byte> record) {
-                    const auto extent = grid_.size(layer, places[i]);
-                    decoder_.chunk(step, layer, places[i], record, of_chunk,
-                                   std::span(values).first(bytes_of(extent)));
-                    const auto [x, y] = grid_.at(places[i]);
-                    if (array_.has_bricks)
-                        place_bricks(of_chunk, bricks, {x, y, layer}, all->bricks);
-                    const std::byte* from = values.data();
-                    for (std::uint32_t dz = 0; array_.has_values && dz < extent[2]; ++dz)
-                        for (std::uint32_t dy = 0; dy < extent[1]; ++dy) {
-                            std::memcpy(out + (layer * kChunkEdge + dz) * plane +
-                                            (y * kChunkEdge + dy) * row + x * kChunkEdge * size,
-                                        from, extent[0] * size);
-                            from += extent[0] * size;
-                        }
-                });
-        };
-        parallel_for(grid_.layers(), small ? 1 : thread_count(0), take, {});
-        cache_.add(key(whole_kept, step), all, stride + all->bricks.size());
-        held = all;
+/// Chunks that stay hold the chunk of the earlier step that has the values. So the cache drops the
+/// earlier ones after those that hold them, as their bytes are counted there.
+void ChunkStore::use_earlier(std::uint32_t layer, std::span<const std::uint32_t> places,
+                             std::span<const ChunkPtr> chunks) const {
+    std::vector<ByteCache::Key> earlier;
+    for (std::size_t i = 0; i < chunks.size(); ++i)
+        if (chunks[i] && chunks[i]->earlier)
+            earlier.push_back(key(chunk_kept, chunks[i]->since, layer, places[i]));
+    if (!earlier.empty())
+        cache_.touch(earlier);
+}
+
+/// Adds the values that lie in earlier steps. @param chunks of the places, in the same order
+void ChunkStore::add_earlier(std::uint32_t step, std::uint32_t layer, const ChunkLayer& table,
+                             std::span<const std::uint32_t> places,
+                             std::span<const std::shared_ptr<Chunk>> chunks,
+                             const std::stop_token& stop) const {
+    for (const PlacesOfStep& earlier : elsewhere(step, table, places)) {
+        const ChunkLayerPtr there = this->layer(earlier.step, layer);
+        for (const std::uint32_t place : earlier.places)
+            if (decoder_.lies_elsewhere(earlier.step, *there, place))
+                decoder_.damaged(step, layer, place, "an earlier step lacks its values");
+        const std::vector<ChunkPtr> found = this->chunks(earlier.step, layer, earlier.places, stop);
+        auto at = places.begin();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            at = std::lower_bound(at, places.end(), earlier.places[i]);
+            Chunk& chunk = *chunks[static_cast<std::size_t>(at - places.begin())];
+            chunk.values = found[i]->values;
+            chunk.since = earlier.step;
+            chunk.earlier = found[i];
+        }
     }
-    return {.values = {.grid = info.grid,
-                       .type = info.type,
-                       .scaling = info.scaling,
-                       .steps = info.steps(),
-                       .first = held->values.get(),
-                       .stride = stride,
-                       .first_step = step},
-            .bricks = held->bricks,
-            .owner = held};
 }
 
 std::uint64_t ChunkStore::missing_bytes(std::uint32_t step, std::uint32_t layer,
                                         std::span<const std::uint32_t> places) const {
     const ChunkLayerPtr table = this->layer(step, layer);
+    const std::vector<std::uint32_t> missing = this->missing(step, layer, places);
     std::uint64_t bytes = 0;
-    for (const std::uint32_t place : missing(step, layer, places))
-        bytes += table->offsets[place + 1] - table->offsets[place];
+    for (const std::uint32_t place : missing)
+        bytes += table->bytes(place);
+    for (const PlacesOfStep& earlier : elsewhere(step, *table, missing))
+        bytes += missing_bytes(earlier.step, layer, earlier.places);
     return bytes;
 }
 
 std::uint64_t ChunkStore::missing_bytes(std::uint32_t step) const {
     return cache_.held({{key(whole_kept, step)}})[0] ? 0 : array_.steps[step].bytes;
+}
+
+std::size_t ChunkStore::staying(std::uint32_t step, std::uint32_t layer) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        this->layer(step, layer)->since, [step](std::uint32_t since) { return since < step; }));
 }
 
 bool ChunkStore::better_whole(std::uint32_t step) const {

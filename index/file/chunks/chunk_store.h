@@ -8,6 +8,7 @@
 #include "index/system/slot_pool.h"
 #include "index/volume/level_map.h"
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -17,13 +18,17 @@
 
 namespace isochron::index {
 
+struct alignas(32) Chunk;
+using ChunkPtr = std::shared_ptr<const Chunk>;
+
 /// One chunk of a step.
-struct Chunk {
+struct alignas(32) Chunk {
     std::array<std::uint32_t, 3> size{}; ///< vertices along x, y and z
     ChunkBricks bricks{};                ///< undefined in an index without bricks
     std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty if the file has none
+    ChunkPtr earlier;        ///< the chunk of an earlier step that has the values, if any
+    std::uint32_t since = 0; ///< that step
 };
-using ChunkPtr = std::shared_ptr<const Chunk>;
 
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
 
@@ -43,6 +48,8 @@ class ChunkStore {
 
     const SeriesInfo& info() const { return array_.info; }
     const ChunkGrid& grid() const { return grid_; }
+    /// Whether the file has the values of its chunks.
+    bool carries_values() const { return array_.has_values; }
     const ChunkDecoder& decoder() const { return decoder_; }
     const ByteSource& source() const { return source_; }
 
@@ -64,6 +71,9 @@ class ChunkStore {
     /// until it has come from the disk.
     std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::uint32_t> places, const std::stop_token& stop) const;
+    /// Reads bytes of a step that are read in order. Near its end the kernel is not left to read
+    /// ahead as it sees fit, as it would read what follows the step, too.
+    void read_in_order(std::uint32_t step, std::uint64_t offset, std::span<std::byte> out) const;
     /// Whether `fetch` of so many chunks of a layer, none of them in the cache, reads the whole
     /// layer: a sixth of the chunks are so spread that, with their neighbors, most are needed.
     bool fetches_all(std::size_t places) const { return 6 * places >= grid_.chunks_of_layer(); }
@@ -71,6 +81,12 @@ class ChunkStore {
     /// The values and bricks of one whole step, for work that needs all of it.
     /// @throws Stopped as well
     LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
+    /// The same of some chunks of a layer, to their places; keeps nothing.
+    /// @param planes of the layer, [z][y][x]; unused if the file has no values
+    /// @param bricks of the whole step, as from `build_bricks`; empty: they are not wanted
+    void decode(std::uint32_t step, std::uint32_t layer, std::span<const std::uint32_t> places,
+                std::span<std::byte> planes, std::span<std::uint8_t> bricks,
+                const std::stop_token& stop = {}) const;
     /// Bytes of records of chunks that are not in the cache.
     std::uint64_t missing_bytes(std::uint32_t step, std::uint32_t layer,
                                 std::span<const std::uint32_t> places) const;
@@ -82,26 +98,62 @@ class ChunkStore {
     /// The same of a chunk that is not clipped.
     std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
 
+    /// Number of chunks of a layer that are as in the step before.
+    std::size_t staying(std::uint32_t step, std::uint32_t layer) const;
+
     /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
     /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
     bool better_whole(std::uint32_t step) const;
+    /// Whether a step is small enough to be read in one request.
+    bool is_small() const { return array_.info.step_bytes() <= kSmallStep; }
     /// Notes that a step has been worked on.
     void worked_on(std::uint32_t step) const;
     bool was_worked_on(std::uint32_t step) const;
 
   private:
+    enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, kinds };
+    /// A step up to this size is always decoded as a whole, which takes less time than choosing
+    /// chunks.
+    static constexpr std::uint64_t kSmallStep = 4 << 20;
+
     ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
                        std::uint32_t place = 0) const;
     std::size_t chunk_bytes() const;
-    ChunkPtr decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
-                     std::span<const std::byte> record) const;
-    template <class F>
+    /// Some places of a layer at a step.
+    struct PlacesOfStep {
+        std::uint32_t step;
+        std::vector<std::uint32_t> places;
+    };
+    std::vector<PlacesOfStep> elsewhere(std::uint32_t step, const ChunkLayer& table,
+                                        std::span<const std::uint32_t> places) const;
+    void use_earlier(std::uint32_t layer, std::span<const std::uint32_t> places,
+                     std::span<const ChunkPtr> chunks) const;
+    void add_earlier(std::uint32_t step, std::uint32_t layer, const ChunkLayer& table,
+                     std::span<const std::uint32_t> places,
+                     std::span<const std::shared_ptr<Chunk>> chunks,
+                     const std::stop_token& stop) const;
+    std::shared_ptr<Chunk> decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
+                                   std::span<const std::byte> record, bool with_values) const;
+    /// Of a table in the cache.
+    std::uint64_t table_bytes() const {
+        return grid_.chunks_of_layer() * (sizeof(std::uint64_t) + sizeof(std::uint32_t) + 2);
+    }
+    std::vector<std::byte> read_at_once(std::uint32_t step) const;
+    void decode_from(std::span<const std::byte> all, std::span<const std::byte> before,
+                     std::uint32_t step, std::uint32_t layer, std::span<const std::uint32_t> places,
+                     std::span<std::byte> planes, std::span<std::uint8_t> bricks,
+                     const std::stop_token& stop) const;
+    /// Calls `f(i, record)` for every place, `i` counting from 0.
+    using TakeRecord = std::function<void(std::size_t i, std::span<const std::byte> record)>;
     void read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
-                      const std::stop_token& stop, F&& f) const;
+                      const std::stop_token& stop, const TakeRecord& f) const;
     std::vector<std::uint32_t> missing(std::uint32_t step, std::uint32_t layer,
                                        std::span<const std::uint32_t> places) const;
     std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
                            std::span<const std::uint32_t> missing) const;
+    bool near_end(std::uint32_t step, std::uint64_t end) const;
+    std::uint64_t announce_earlier(std::uint32_t step, std::uint32_t layer, const ChunkLayer& table,
+                                   std::span<const std::uint32_t> missing) const;
     std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
                                      std::span<const std::uint32_t> places) const;
     const ByteSource& source_;

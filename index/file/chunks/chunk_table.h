@@ -4,8 +4,10 @@
 // The chunks of a step are records, back to back, layer after layer, in the order of ChunkGrid:
 // - the low 32 bits of XXH3 of the rest of the record
 // - if the index has bricks: ChunkBricks
-// - if it carries the values: a packed chunk (chunk_codec.h)
-// After the records comes a table for each layer: LayerHead, then a ChunkEntry for each chunk.
+// - if it carries the values: a packed chunk (chunk_codec.h), but nothing if the same values are in
+//   the record of an earlier step, which the table names, unless one value fills the chunk
+// After the records comes a table for each layer: LayerHead, then a ChunkEntry for each chunk. In
+// version 3 a ChunkEntry lacks `since`, and every record has its values.
 #pragma once
 
 #include <cstddef>
@@ -26,11 +28,16 @@ struct ChunkEntry {
     /// Lowest and highest rank of its bricks; 255 and 0 if the chunk has no brick, 0 and 255 if the
     /// index has none.
     std::uint8_t low = 255, high = 0;
+    /// The first step from which on the chunk has had these values without a break.
+    std::uint32_t since = 0;
 };
-static_assert(sizeof(ChunkEntry) == 4);
+static_assert(sizeof(ChunkEntry) == 8);
+/// Bytes of an entry of version 3.
+constexpr std::size_t kEntryWithoutSince = 4;
 
-constexpr std::uint64_t layer_table_bytes(std::uint32_t chunks) {
-    return sizeof(LayerHead) + std::uint64_t{chunks} * sizeof(ChunkEntry);
+constexpr std::uint64_t layer_table_bytes(std::uint32_t chunks, bool with_since = true) {
+    return sizeof(LayerHead) +
+           std::uint64_t{chunks} * (with_since ? sizeof(ChunkEntry) : kEntryWithoutSince);
 }
 
 RecordChecksum record_checksum(std::span<const std::byte> record);

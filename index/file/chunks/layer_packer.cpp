@@ -93,8 +93,8 @@ LayerPacker::LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned
 }
 
 /// Copies the values of chunks out of a layer, one chunk after the other.
-void LayerPacker::take_values(const Layer& layer, std::uint32_t first, std::uint32_t end,
-                              Packer& to) const {
+void LayerPacker::take_values(std::span<const std::byte> stored, std::uint32_t first,
+                              std::uint32_t end, Packer& to) const {
     const std::size_t size = size_of(type_);
     const std::size_t row = grid_.vertices[0] * size, plane = grid_.vertices[1] * row;
     to.begins.assign(1, 0);
@@ -117,14 +117,26 @@ void LayerPacker::take_values(const Layer& layer, std::uint32_t first, std::uint
         } while (i < to.order.size() && neighbors.count < Neighbors::kMost && to.order[i][0] == y &&
                  to.order[i][1] == x + neighbors.count &&
                  chunks_.size(packed_, to.order[i][2]) == extent);
-        copy_chunks(layer.stored.data() + y * kChunkEdge * row + x * kChunkEdge * size, row, plane,
+        copy_chunks(stored.data() + y * kChunkEdge * row + x * kChunkEdge * size, row, plane,
                     extent, size, neighbors);
     }
 }
 
+/// Whether a chunk is as in the step before; remembers it as it is now.
+bool LayerPacker::stays(std::uint32_t place, std::span<const std::byte> values) {
+    const std::size_t at = std::size_t{packed_} * chunks_.chunks_of_layer() + place;
+    const XXH128_hash_t hash = XXH3_128bits(values.data(), values.size());
+    const ChunkDigest digest{hash.low64, hash.high64};
+    const bool same = !first_ && digest == history_.digests[at];
+    history_.digests[at] = digest;
+    if (!same)
+        history_.since[at] = step_;
+    return same;
+}
+
 void LayerPacker::pack_chunk(const Layer& layer, std::uint32_t place,
                              std::span<const std::byte> values, ChunkPacker& packer,
-                             std::vector<std::byte>& out, ChunkEntry& entry) const {
+                             std::vector<std::byte>& out, ChunkEntry& entry) {
     const auto [x, y] = chunks_.at(place);
     const std::size_t begin = out.size();
     out.resize(begin + sizeof(RecordChecksum));
@@ -137,7 +149,11 @@ void LayerPacker::pack_chunk(const Layer& layer, std::uint32_t place,
         entry.low = *std::min_element(extremes.begin(), extremes.begin() + kBricksOfChunk);
         entry.high = *std::max_element(extremes.begin() + kBricksOfChunk, extremes.end());
     }
-    if (!layer.stored.empty())
+    const bool same = with_since_ && stays(place, values);
+    entry.since =
+        same ? history_.since[std::size_t{packed_} * chunks_.chunks_of_layer() + place] : step_;
+    // One value for all takes no more than a look at another step.
+    if (layer.carries && (!same || ChunkPacker::all_equal(type_, values)))
         packer.pack(type_, chunks_.size(packed_, place), values, out);
     const auto rest = std::span(out).subspan(begin + sizeof(RecordChecksum));
     const RecordChecksum checksum = record_checksum(rest);
@@ -150,54 +166,84 @@ void LayerPacker::pack_piece(const Layer& layer, std::uint32_t first, std::uint3
                              Packer& packer, std::vector<std::byte>& out) {
     for (std::uint32_t next = first; first < end; first = next) {
         next = std::min(first + together_, end);
-        if (!layer.stored.empty())
-            take_values(layer, first, next, packer);
-        for (std::uint32_t place = first; place < next; ++place) {
-            std::span<const std::byte> values;
-            if (!layer.stored.empty())
-                values =
-                    std::span(packer.values)
-                        .subspan(packer.begins[place - first],
-                                 packer.begins[place - first + 1] - packer.begins[place - first]);
-            pack_chunk(layer, place, values, packer.chunks, out, entries_[place]);
-        }
+        const bool reads = layer.carries || with_since_;
+        if (reads)
+            take_values(layer.stored, first, next, packer);
+        for (std::uint32_t place = first; place < next; ++place)
+            pack_chunk(layer, place,
+                       reads ? packer.value_of(place - first) : std::span<const std::byte>(),
+                       packer.chunks, out, entries_[place]);
     }
 }
 
-void LayerPacker::pack(const Layer& layer, const Append& append) {
+/// Calls `f(item, first, end, worker)` for every piece of a layer, with all threads.
+template <class F>
+void LayerPacker::for_pieces(F&& f) {
     assert(packed_ < chunks_.layers());
     const std::uint32_t places = chunks_.chunks_of_layer();
-    entries_.resize(places);
+    if (with_since_) {
+        history_.digests.resize(chunks_.count());
+        history_.since.resize(chunks_.count());
+    }
     parallel_for(pieces_.size(), static_cast<unsigned>(packers_.size()),
                  [&](std::size_t item, unsigned worker) {
                      const auto first = static_cast<std::uint32_t>(item) * kPlacesOfPiece;
-                     pieces_[item].clear();
-                     pack_piece(layer, first, std::min(first + kPlacesOfPiece, places),
-                                packers_[worker], pieces_[item]);
+                     f(item, first, std::min(first + kPlacesOfPiece, places), worker);
                  },
                  {});
-    const std::uint64_t table_bytes = layer_table_bytes(places);
+}
+
+/// The next layer, or the next step, follows.
+void LayerPacker::end_layer() {
+    if (++packed_ < chunks_.layers())
+        return;
+    packed_ = 0;
+    first_ = false;
+    ++step_;
+}
+
+void LayerPacker::look(std::span<const std::byte> stored) {
+    for_pieces([&](std::size_t, std::uint32_t first, std::uint32_t end, unsigned worker) {
+        Packer& packer = packers_[worker];
+        take_values(stored, first, end, packer);
+        for (std::uint32_t place = first; place < end; ++place)
+            stays(place, packer.value_of(place - first));
+    });
+    end_layer();
+}
+
+void LayerPacker::pack(const Layer& layer, const Append& append) {
+    const std::uint32_t places = chunks_.chunks_of_layer();
+    entries_.resize(places);
+    for_pieces([&](std::size_t item, std::uint32_t first, std::uint32_t end, unsigned worker) {
+        pieces_[item].clear();
+        pack_piece(layer, first, end, packers_[worker], pieces_[item]);
+    });
+    const std::size_t entry_bytes = with_since_ ? sizeof(ChunkEntry) : kEntryWithoutSince;
+    const std::uint64_t table_bytes = layer_table_bytes(places, with_since_);
     const std::size_t begin = tables_.size();
     tables_.resize(begin + table_bytes);
     std::byte* table = tables_.data() + begin;
     LayerHead head{0, end_};
     std::memcpy(table, &head, sizeof head);
-    std::memcpy(table + sizeof head, entries_.data(), entries_.size() * sizeof(ChunkEntry));
+    for (std::uint32_t place = 0; place < places; ++place) {
+        std::memcpy(table + sizeof head + place * entry_bytes, &entries_[place], entry_bytes);
+        stayed_ += entries_[place].since < step_ ? 1 : 0;
+    }
     head.checksum = checksum_of({table + sizeof head.checksum, table_bytes - sizeof head.checksum});
     std::memcpy(table, &head, sizeof head);
     for (const std::vector<std::byte>& piece : pieces_) {
         append(piece);
         end_ += piece.size();
     }
-    ++packed_;
+    end_layer();
 }
 
 StepEntry LayerPacker::finish(const Append& append) {
-    assert(packed_ == chunks_.layers());
+    assert(packed_ == 0 && !tables_.empty());
     append(tables_);
     const StepEntry entry{.offset = 0, .bytes = end_ + tables_.size(), .tables = end_};
     tables_.clear();
-    packed_ = 0;
     end_ = 0;
     return entry;
 }

@@ -52,8 +52,8 @@ void RecordStream::run(const std::stop_token& quit, std::uint32_t step, std::uin
                 piece.table = table;
                 const std::size_t bytes = table->offsets[piece.end] - table->offsets[place];
                 piece.bytes.resize(std::max(piece.bytes.size(), bytes));
-                store_.source().read_in_order(table->offsets[place],
-                                              std::span(piece.bytes).first(bytes));
+                store_.read_in_order(step, table->offsets[place],
+                                     std::span(piece.bytes).first(bytes));
                 if (!put(piece, quit))
                     return;
             }

@@ -41,14 +41,14 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
     if (header.byte_order != expected.byte_order)
         throw Error(fmt::format("{}: byte order mark {:08x}, expected {:08x}", name,
                                 header.byte_order, expected.byte_order));
-    if (header.version == kFileVersion - 1)
-        throw Error(
-            fmt::format("{}: file version {}, this program reads version {}; isochron build "
-                        "{} -o NEW.isochron converts it",
-                        name, header.version, kFileVersion, name));
-    if (header.version != kFileVersion)
-        throw Error(fmt::format("{}: file version {}, this program reads version {}", name,
-                                header.version, kFileVersion));
+    if (header.version >= kVersionWithoutSince && header.version <= kFileVersion)
+        return;
+    const std::string what = fmt::format("{}: file version {}, this program reads versions {} and "
+                                         "{}",
+                                         name, header.version, kVersionWithoutSince, kFileVersion);
+    if (header.version + 1 == kVersionWithoutSince)
+        throw Error(fmt::format("{}; isochron build {} -o NEW.isochron converts it", what, name));
+    throw Error(what);
 }
 
 /// Whether the slot holds an intact header of this slot. Compares with the rebuilt slot, so that

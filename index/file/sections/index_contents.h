@@ -25,6 +25,7 @@ struct IndexStats {
     std::uint64_t file_bytes = 0, volume_bytes = 0, bricks_bytes = 0, cells_bytes = 0,
                   deltas_bytes = 0, tree_bytes = 0, color_bytes = 0;
     std::uint64_t detail_bytes = 0; ///< levels of detail of the volume and the array to color by
+    std::uint64_t staying = 0;      ///< chunks of all steps that are as in the step before
     std::uint64_t cell_entries = 0; ///< entries (cell, extremes, time node) in the tier `cells`
 
     std::uint64_t bytes_of(Tier tier) const;

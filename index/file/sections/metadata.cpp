@@ -181,7 +181,7 @@ std::string to_json(const Metadata& metadata) {
         {"times", info.times},
         {"sources", exact(info.sources)},
         {"notes", info.notes},
-        {"stats", {{"counts", json_of(stats.counts)}}},
+        {"stats", {{"counts", json_of(stats.counts)}, {"staying", stats.staying}}},
         {"cell_steps", metadata.cell_steps},
         {"plan", json_of(metadata.plan)},
         {"codec", kCodecNames[static_cast<std::size_t>(metadata.codec)]},
@@ -218,6 +218,8 @@ Metadata metadata_from_json(std::string_view text) try {
     metadata.info = info_of(j);
     if (j.at("stats").contains("counts")) // version 2 had others, which are counted anew
         set_counts(metadata, counts_of(j.at("stats").at("counts"), metadata.info.type));
+    if (const auto staying = j.at("stats").find("staying"); staying != j.at("stats").end())
+        metadata.stats.staying = whole<std::uint64_t>(*staying);
     if (j.contains("levels"))
         metadata.levels = levels_of(j.at("levels"), metadata.info.type);
     if (j.contains("cell_steps"))

@@ -7,9 +7,19 @@
 #include <cstring>
 
 namespace isochron::index {
+namespace {
+
+/// What the numbers are. In files of version 3 there are no extremes.
+enum : std::uint64_t { kThresholds, kEachValue, kWithExtremes };
+
+} // namespace
 
 std::vector<std::byte> bytes_of(const LevelMap& levels) {
-    std::vector<std::uint64_t> words{0, levels.lossless() ? 1u : 0u};
+    std::vector<std::uint64_t> words{0, levels.lossless() ? kEachValue : kThresholds};
+    if (const auto& extremes = levels.extremes(); extremes && !levels.lossless()) {
+        words[1] = kWithExtremes;
+        words.insert(words.end(), {extremes->low, extremes->high});
+    }
     if (levels.lossless()) {
         const auto values = levels.distinct();
         words.insert(words.end(), values.begin(), values.end());
@@ -26,13 +36,20 @@ std::optional<LevelMap> step_levels(ValueType type, std::span<const std::byte> b
     if (words.size() < 2 || bytes.size() % sizeof(std::uint64_t))
         return std::nullopt;
     std::memcpy(words.data(), bytes.data(), bytes.size());
-    const auto ordinals = std::span<const std::uint64_t>(words).subspan(2);
-    const bool lossless = words[1] == 1;
-    if (words[0] != checksum_of(bytes.subspan(sizeof(std::uint64_t))) || words[1] > 1 ||
+    const bool lossless = words[1] == kEachValue, extremes = words[1] == kWithExtremes;
+    if (words.size() < (extremes ? 4u : 2u))
+        return std::nullopt;
+    const auto ordinals = std::span<const std::uint64_t>(words).subspan(extremes ? 4 : 2);
+    if (words[0] != checksum_of(bytes.subspan(sizeof(std::uint64_t))) || words[1] > kWithExtremes ||
         ordinals.size() > LevelMap::kMaxLevels - (lossless ? 0 : 1) ||
         std::ranges::adjacent_find(ordinals, std::greater_equal()) != ordinals.end())
         return std::nullopt;
-    return lossless ? LevelMap::of_values(type, ordinals) : LevelMap::of_thresholds(type, ordinals);
+    if (lossless)
+        return LevelMap::of_values(type, ordinals);
+    LevelMap levels = LevelMap::of_thresholds(type, ordinals);
+    if (extremes)
+        levels.set_extremes({words[2], words[3]});
+    return levels;
 }
 
 } // namespace isochron::index

@@ -1,8 +1,9 @@
 // The levels of a step's bricks as bytes of the file.
 //
 // They follow the tables of a step if the index has bricks and its type has more than 8 bits: XXH3
-// of the rest (u64); 1 if each value of the step has its own level, else 0 (u64); then the ordinals
-// of these values, or else of the thresholds (u64 each).
+// of the rest (u64); 1 if each value of the step has its own level, else 2, in version 3 0 (u64);
+// then the ordinals of these values, or else, of version 4, of the lowest and the highest value, and
+// of the thresholds (u64 each).
 #pragma once
 
 #include "index/volume/level_map.h"

@@ -76,7 +76,7 @@ TEST(Extraction, HasTheCellsOfEverySurfaceAndExactlyTheBlocksTheyNeed) {
                         << name_of(type) << " surface " << i;
                 const auto blocks = needed(values.grid, found->surfaces);
                 EXPECT_EQ(found->blocks.ids, (std::vector<BlockId>(blocks.begin(), blocks.end())));
-                EXPECT_EQ(found->blocks.bytes.size(), blocks.size() * found->blocks.block_bytes());
+                EXPECT_EQ(found->blocks.bytes(), blocks.size() * found->blocks.block_bytes());
             }
     }
 }

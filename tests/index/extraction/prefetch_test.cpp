@@ -24,7 +24,7 @@ class SizedExtraction {
         return [this](const SurfacesQuery& query, const std::stop_token&) -> ExtractionPtr {
             auto extraction = std::make_shared<Extraction>();
             extraction->query = query;
-            extraction->blocks.bytes.resize(bytes_);
+            extraction->colors.resize(bytes_ / sizeof(std::uint16_t));
             {
                 const std::scoped_lock lock(mutex_);
                 steps_.push_back(query.step);

@@ -206,13 +206,14 @@ TEST_F(IndexFileTest, EveryKindOfHeaderDamageHasItsOwnLine) {
     newer.version = kFileVersion + 1;
     std::string bytes = good;
     reseal(bytes, newer);
-    EXPECT_THAT(message_of(bytes), HasSubstr("file version 4, this program reads version 3"));
+    EXPECT_THAT(message_of(bytes),
+                HasSubstr("file version 5, this program reads versions 3 and 4"));
     FileHeader older = header_of(good);
     older.version = 2;
     bytes = good;
     reseal(bytes, older);
-    EXPECT_THAT(message_of(bytes), HasSubstr("file version 2, this program reads version 3; "
-                                             "isochron build"));
+    EXPECT_THAT(message_of(bytes), HasSubstr("file version 2, this program reads versions 3 "
+                                             "and 4; isochron build"));
 
     FileHeader foreign = header_of(good);
     foreign.byte_order = 0x04030201;

@@ -121,8 +121,8 @@ class OldVersionTest : public testing::Test {
 
 TEST_F(OldVersionTest, IsRefusedInOneLineThatSaysWhatToDo) {
     EXPECT_THAT(error_of([&] { IndexFile::open(old_); }),
-                HasSubstr("old.isochron: file version 2, this program reads version 3; isochron "
-                          "build"));
+                HasSubstr("old.isochron: file version 2, this program reads versions 3 and 4; "
+                          "isochron build"));
 }
 
 TEST_F(OldVersionTest, BecomesTheIndexThatItsSourcesGiveNow) {

@@ -144,7 +144,7 @@ TEST_F(LayerSearchTest, ExtractionsAreThoseOfWholeSteps) {
         EXPECT_FALSE(whole->surroundings.shares.empty());
         EXPECT_EQ(whole->surroundings.shares, chunks->surroundings.shares);
         EXPECT_EQ(whole->blocks.ids, chunks->blocks.ids);
-        EXPECT_EQ(whole->blocks.bytes, chunks->blocks.bytes);
+        EXPECT_EQ(whole->blocks.joined(), chunks->blocks.joined());
         EXPECT_TRUE(whole->blocks.digests == chunks->blocks.digests);
     }
 }

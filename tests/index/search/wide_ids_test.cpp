@@ -115,7 +115,7 @@ TEST(WideIds, AreExtractedAsTheSameCellsOfAGridWithoutThem) {
         EXPECT_EQ(*cells.mesh, *same.mesh);
     }
     EXPECT_EQ(places_of(found->blocks, wide_grid), places_of(expected->blocks, narrow_grid));
-    EXPECT_EQ(found->blocks.bytes, expected->blocks.bytes);
+    EXPECT_EQ(found->blocks.joined(), expected->blocks.joined());
     EXPECT_EQ(found->volume_cells, expected->volume_cells);
 }
 

@@ -152,6 +152,46 @@ TEST(SlotPlan, SendsNoMoreThanTheChangeAndNeverMoreThanTheSet) {
     }
 }
 
+/// The places in `all` of what `others` lacks.
+std::vector<std::uint32_t> places_without(const std::vector<CellId>& all,
+                                          const std::vector<CellId>& others) {
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+        if (!std::ranges::binary_search(others, all[i]))
+            places.push_back(i);
+    return places;
+}
+
+TEST(SlotPlan, AChangeThatIsKnownGivesTheSameSlotsAndMessagesAsComparing) {
+    std::mt19937 random(test_seed());
+    for (int round = 0; round < 300; ++round) {
+        std::vector<std::vector<CellId>> before(1 + random() % 3), after;
+        for (std::vector<CellId>& ids : before) {
+            ids = changed(random, {});
+            after.push_back(changed(random, ids));
+        }
+        index::Extraction from = set_of(before), to = set_of(after);
+        const Slots none;
+        SlotPlan first(kGrid, nullptr, none, from);
+        const Slots slots = run(first, random, 1000).slots;
+        SlotPlan compared(kGrid, &from, slots, to);
+        const Made expected = run(compared, random, 1000);
+        from.number = 7;
+        to.change.from = 7;
+        for (std::size_t i = 0; i < before.size(); ++i)
+            to.change.surfaces.push_back(
+                {places_without(before[i], after[i]), places_without(after[i], before[i])});
+        SlotPlan known(kGrid, &from, slots, to);
+        const Made found = run(known, random, round % 2 ? 3 : 1000);
+        ASSERT_EQ(found.words, expected.words) << "round " << round;
+        ASSERT_EQ(found.slots.slot_of_rank, expected.slots.slot_of_rank);
+        ASSERT_EQ(found.slots.places, expected.slots.places);
+        to.change = {8, std::vector<index::SurfaceChange>(before.size())};
+        SlotPlan of_another(kGrid, &from, slots, to); // the change since some other set
+        ASSERT_EQ(run(of_another, random, 1000).words, expected.words);
+    }
+}
+
 TEST(SlotPlan, TheSameCellsAgainSendNothing) {
     std::mt19937 random(test_seed());
     const index::Extraction set = set_of({{1, 5, 9, 200}, {5, 6}});

@@ -1,0 +1,285 @@
+// Searches for every surface, copies the blocks that the cells need, and colors the cells.
+#include "index/extraction/extraction.h"
+
+#include "index/detail/detail_search.h"
+#include "index/error.h"
+#include "index/extraction/extraction_at_hand.h"
+#include "index/extraction/surface_colors.h"
+#include "index/surface/mesh_colors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace isochron::index {
+namespace {
+
+std::atomic<std::uint64_t> last_number = 0; ///< of an extraction
+
+class Extracting {
+  public:
+    Extracting(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+               Shading shading)
+        : file_(std::move(file)), method_(method),
+          // By wide ids a renderer cannot tell where cells are.
+          shading_(has_wide_ids(file_->info().grid) ? Shading::cells : shading),
+          values_(file_->info().type, file_->info().scaling, file_->stats().low,
+                  file_->stats().high),
+          gatherer_(file_->info().grid, values_), layers_(file_), colors_(file_, method),
+          details_(file_), at_hand_(file_, layers_, shading_, !method) {}
+
+    ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
+        const std::size_t count = query.isovalues.size();
+        if (count < 1 || count > kMostSurfaces)
+            throw Error(fmt::format("{} isovalues: expected 1 to {}", count, kMostSurfaces));
+        auto result = std::make_shared<Extraction>();
+        result->query = query;
+        result->number = ++last_number;
+        try {
+            ExtractionPtr made = make(result, step_of_query(*file_, query.step), stop);
+            if (made)
+                at_hand_.set(made);
+            return made;
+        } catch (const Stopped&) {
+            return nullptr;
+        }
+    }
+
+    /// Begins with what has been extracted from an earlier state of the index.
+    void continue_from(const Extracting& earlier) {
+        const std::vector<std::uint64_t>& states = file_->metadata().earlier;
+        const IndexStats &now = file_->stats(), &before = earlier.file_->stats();
+        // Values that are converted for blocks depend on the range.
+        const bool same_blocks =
+            gatherer_.without_levels() || (now.low == before.low && now.high == before.high);
+        if (same_blocks && earlier.at_hand_.get() &&
+            std::ranges::find(states, earlier.file_->content_hash()) != states.end())
+            at_hand_.set(earlier.at_hand_.get());
+    }
+
+  private:
+    /// @return null when stopped
+    ExtractionPtr make(const std::shared_ptr<Extraction>& result, const StepView& step,
+                       const std::stop_token& stop) {
+        const SurfacesQuery& query = result->query;
+        at_hand_.begin(query, file_->has_cells(query.step));
+        const bool keeps = keeps_any(query);
+        const bool may_have_too_many = this->may_have_too_many(query);
+        // A large step is not searched as a whole before it is known that its cells fit.
+        bool asked = !step.by_chunks() || !may_have_too_many;
+        if (!asked && !(keeps && at_hand_.fits(query.detail))) {
+            asked = true;
+            if (const auto made = make_of_levels(result, stop))
+                return *made;
+        }
+        // What is in memory is enough: reading the step as a whole takes longer.
+        const StepView& near = at_hand_.of_same_step() ? at_hand_.step() : step;
+        if (!search(near, *result, stop))
+            return nullptr;
+        if (!asked && !at_hand_.fits(query.detail, result->cells()))
+            if (const auto made = make_of_levels(result, stop))
+                return *made;
+        result->volume_cells = result->cells();
+        if (may_have_too_many && result->cells() > query.detail.most_cells)
+            if (const auto made = make_of_levels(result, stop))
+                return *made;
+        return fill(keeps ? at_hand_.step() : near, *result, stop) ? result : nullptr;
+    }
+
+    bool keeps_any(const SurfacesQuery& query) const {
+        for (std::size_t i = 0; i < query.isovalues.size(); ++i)
+            if (at_hand_.keeps_cells(i))
+                return true;
+        return false;
+    }
+
+    bool may_have_too_many(const SurfacesQuery& query) const {
+        const std::uint64_t cells = file_->info().grid.cell_count() * query.isovalues.size();
+        return query.detail.most_cells > 0 && cells > query.detail.most_cells;
+    }
+
+    /// @return null when stopped; empty if all cells should be the volume's own
+    std::optional<ExtractionPtr> make_of_levels(const std::shared_ptr<Extraction>& result,
+                                                const std::stop_token& stop) {
+        DetailCells found;
+        switch (details_.find(result->query, result->volume_cells, found, stop)) {
+        case DetailSearch::Outcome::stopped: return nullptr;
+        case DetailSearch::Outcome::whole: return std::nullopt;
+        case DetailSearch::Outcome::made: break;
+        }
+        result->surfaces = std::move(found.surfaces);
+        result->change = {};
+        result->colors = std::move(found.colors);
+        result->detail = std::move(found.levels);
+        result->coarsest = found.coarsest;
+        if (!result->volume_cells && result->query.detail.at_rest) { // there is time for it
+            result->volume_cells = details_.count(result->query, stop);
+            if (stop.stop_requested())
+                return nullptr;
+        }
+        const auto started = std::chrono::steady_clock::now();
+        result->levels = values_.levels(result->query.isovalues).units;
+        result->blocks = gatherer_.none();
+        if (result->cells() > 0)
+            find_surroundings(step_in_chunks(*file_, result->query.step), *result, stop);
+        result->gather_time = std::chrono::steady_clock::now() - started;
+        return result;
+    }
+
+    /// Finds the cells of the volume itself. @return false when stopped
+    bool search(const StepView& step, Extraction& found, const std::stop_token& stop) {
+        const SurfacesQuery& query = found.query;
+        found.surfaces.clear();
+        found.change = {at_hand_.number_for(query),
+                        std::vector<SurfaceChange>(query.isovalues.size())};
+        std::uint64_t room = query.mesh_room;
+        std::optional<ColorSource> colors;
+        if (query.coloring == CellColoring::value && query.colors < ColorSource::count(*file_))
+            colors.emplace(*file_, query.colors);
+        for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
+            if (searches_.size() == i)
+                searches_.push_back(search_into(file_, method_, shading_));
+            CellSet& set = found.surfaces.emplace_back();
+            if (!search_surface(step, i, found, stop))
+                return false;
+            const bool keeps = at_hand_.keeps_cells(i);
+            if (!add_mesh(keeps ? at_hand_.step() : step, set, room, colors,
+                          keeps ? at_hand_.mesh() : EarlierMesh{}, stop))
+                return false;
+            room = set.mesh ? room - bytes_of(*set.mesh) : set.ids.empty() ? room : 0;
+        }
+        if (!found.meshed()) // some without the others are never drawn
+            for (CellSet& surface : found.surfaces)
+                surface.mesh.reset();
+        return true;
+    }
+
+    /// @return false when stopped
+    bool search_surface(const StepView& step, std::size_t i, Extraction& found,
+                        const std::stop_token& stop) {
+        CellSet& set = found.surfaces[i];
+        if (at_hand_.keeps_cells(i))
+            return at_hand_.find(i, found.query.mesh_room > 0, stop, set, found.change.surfaces[i]);
+        found.change.from = 0;
+        return searches_[i](step, found.query.isovalues[i], stop, set);
+    }
+
+    /// Adds a mesh if it does not take more room. @return false when stopped
+    /// @param colors array to color the mesh by, if any
+    /// @param earlier has the mesh of some cells
+    bool add_mesh(const StepView& step, CellSet& set, std::uint64_t room,
+                  const std::optional<ColorSource>& colors, const EarlierMesh& earlier,
+                  const std::stop_token& stop) {
+        if (shading_ == Shading::none || set.ids.empty() || least_mesh_bytes(set.ids.size()) > room)
+            return true;
+        const auto started = std::chrono::steady_clock::now();
+        CellMesh mesh;
+        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr,
+                               colors ? EarlierMesh{} : earlier))
+            return false;
+        if (colors)
+            color_by_values(mesh, colors->array().low, colors->array().high);
+        if (bytes_of(mesh) <= room)
+            set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
+        set.shading_time += std::chrono::steady_clock::now() - started;
+        return true;
+    }
+
+    /// Adds the blocks and the colors. @return false when stopped
+    bool fill(const StepView& step, Extraction& result, const std::stop_token& stop) {
+        const auto started = std::chrono::steady_clock::now();
+        const BlockLevels levels = values_.levels(result.query.isovalues);
+        result.levels = levels.units;
+        result.blocks = gatherer_.none();
+        if (result.cells() == 0) // avoids loading the step, which may decode a file
+            return true;
+        for (const CellSet& surface : result.surfaces)
+            gatherer_.need(surface);
+        if (!gatherer_.gather(step, levels, result.blocks, stop,
+                              at_hand_.blocks(!gatherer_.without_levels())))
+            return false;
+        find_surroundings(step, result, stop);
+        result.gather_time = std::chrono::steady_clock::now() - started;
+        if (!colors_.fill(result.query, result.surfaces, step, result.colors, result.corner_colors,
+                          stop))
+            return false;
+        if (result.query.coloring == CellColoring::first_crossing && !result.colors.empty())
+            color_meshes_by_cells(result);
+        return true;
+    }
+
+    /// What is known of cells alone: their vertices get the color of the first cell that has them.
+    static void color_meshes_by_cells(Extraction& result) {
+        std::span<const std::uint16_t> colors = result.colors;
+        for (CellSet& surface : result.surfaces) {
+            if (surface.mesh) {
+                auto colored = std::make_shared<CellMesh>(*surface.mesh);
+                color_by_cells(*colored, colors.first(surface.ids.size()));
+                surface.mesh = std::move(colored);
+            }
+            colors = colors.subspan(surface.ids.size());
+        }
+    }
+
+    /// In the finest level of detail that is small enough, so that little has to be read.
+    void find_surroundings(const StepView& step, Extraction& result,
+                           const std::stop_token& stop) const {
+        const SurfacesQuery& query = result.query;
+        std::size_t level = 0;
+        const auto small = [&] {
+            return std::ranges::max(file_->chunks(level).info().grid.vertices) <= kMostPlaces;
+        };
+        while (level + 1 < file_->detail_levels() && !small())
+            ++level;
+        if (level == 0 && step.by_chunks() && !small())
+            return;
+        const LoadedStep loaded = level > 0          ? file_->chunks(level).whole(query.step, stop)
+                                  : step.by_chunks() ? file_->load(query.step, stop)
+                                                     : step.whole(stop);
+        result.surroundings = surroundings_of(loaded.values, query.step,
+                                              static_cast<unsigned>(level), query.isovalues);
+    }
+
+    std::shared_ptr<const IndexFile> file_;
+    std::optional<SearchMethod> method_;
+    Shading shading_;
+    std::vector<SearchInto> searches_; ///< by surface
+    BlockValues values_;
+    BlockGatherer gatherer_;
+    LayerSearch layers_; ///< for meshes
+    SurfaceColors colors_;
+    DetailSearch details_;
+    ExtractionAtHand at_hand_;
+};
+
+} // namespace
+
+Extract extract_from(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> method,
+                     Shading shading) {
+    // `std::function` must be copyable, but the state of a search must not be copied.
+    auto extracting = std::make_shared<Extracting>(std::move(file), method, shading);
+    return [extracting = std::move(extracting)](const SurfacesQuery& query,
+                                                const std::stop_token& stop) {
+        return (*extracting)(query, stop);
+    };
+}
+
+Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading) {
+    struct Made {
+        std::shared_ptr<const IndexFile> file;
+        std::shared_ptr<Extracting> extracting;
+    };
+    return [newest = std::move(newest), shading, made = std::make_shared<Made>()](
+               const SurfacesQuery& query, const std::stop_token& stop) {
+        if (auto file = array_of(newest->get(), query.array); file != made->file) {
+            auto extracting = std::make_shared<Extracting>(file, std::nullopt, shading);
+            if (made->extracting)
+                extracting->continue_from(*made->extracting);
+            *made = {std::move(file), std::move(extracting)};
+        }
+        return (*made->extracting)(query, stop);
+    };
+}
+
+} // namespace isochron::index

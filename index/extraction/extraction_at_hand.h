@@ -1,0 +1,79 @@
+// The last extraction of an index, and what of it the next one can take over.
+#pragma once
+
+#include "index/extraction/extraction.h"
+#include "index/extraction/kept_cells.h"
+#include "index/search/layer_search.h"
+#include "index/search/staying_cells.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <stop_token>
+
+namespace isochron::index {
+
+/// A set that is at hand has the cells of chunks that stay, at isovalues that stay. Functions throw
+/// as ChunkStore does. Not thread-safe.
+class ExtractionAtHand {
+  public:
+    /// @param layers outlives this @param shading of the sets
+    /// @param free to choose how cells are found; else nothing is taken over
+    ExtractionAtHand(std::shared_ptr<const IndexFile> file, LayerSearch& layers, Shading shading,
+                     bool free)
+        : file_(std::move(file)), layers_(layers), shading_(shading), free_(free) {}
+
+    /// Remembers an extraction, unless it is of coarser levels.
+    void set(const ExtractionPtr& made);
+    const ExtractionPtr& get() const { return from_; }
+    /// The number of the extraction at hand if it has as many surfaces; else 0.
+    std::uint64_t number_for(const SurfacesQuery& query) const {
+        return from_ && from_->surfaces.size() == query.isovalues.size() ? from_->number : 0;
+    }
+
+    /// Decides what of the extraction at hand is taken over for a query.
+    /// @param by_cells its cells are found faster by the tier `cells`
+    void begin(const SurfacesQuery& query, bool by_cells);
+
+    /// Whether the cells of a surface are taken over where they stay.
+    bool keeps_cells(std::size_t surface) const;
+    /// Whether it is known that the cells of the volume itself are few enough. True for sets that are
+    /// several times smaller than what would be too many.
+    bool fits(const DetailQuery& detail) const;
+    static bool fits(const DetailQuery& detail, std::size_t cells);
+    /// Finds the cells of a surface that keeps cells. @param meshed a mesh may follow
+    /// @return false when stopped
+    bool find(std::size_t surface, bool meshed, const std::stop_token& stop, CellSet& set,
+              SurfaceChange& change);
+    /// The mesh of the cells that the last `find` kept; none if it was not meshed.
+    EarlierMesh mesh() const;
+
+    /// Whether the extraction at hand is of the same step, some of whose chunks are in memory then.
+    bool of_same_step() const {
+        return staying_ && from_->query.step == query_.step &&
+               file_->plan().tiers.has(Tier::bricks);
+    }
+    /// Where work on a part of the step's cells finds its values.
+    const StepView& step() const { return *step_; }
+    /// The blocks that are taken over. @param only_if_same_levels for other isovalues they differ
+    KnownBlocks blocks(bool only_if_same_levels) const;
+
+  private:
+    bool may_keep(const SurfacesQuery& query) const;
+    bool enough_stays(double chunks) const;
+
+    std::shared_ptr<const IndexFile> file_;
+    LayerSearch& layers_;
+    Shading shading_;
+    bool free_;
+    ExtractionPtr from_;
+    // For the query that is being answered:
+    SurfacesQuery query_;
+    bool by_cells_ = false;
+    std::optional<StepView> step_;
+    std::optional<StayingCells> staying_;         ///< none if nothing is taken over
+    CellMeshPtr mesh_;                            ///< of the last surface that was found
+    std::vector<std::uint32_t> corners_, places_; ///< EarlierMesh
+};
+
+} // namespace isochron::index

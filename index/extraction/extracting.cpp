@@ -67,19 +67,14 @@ class Extracting {
         const bool keeps = keeps_any(query);
         const bool may_have_too_many = this->may_have_too_many(query);
         // A large step is not searched as a whole before it is known that its cells fit.
-        bool asked = !step.by_chunks() || !may_have_too_many;
-        if (!asked && !(keeps && at_hand_.fits(query.detail))) {
-            asked = true;
+        // What is at hand does not decide it: processes of a job may have different sets at hand.
+        if (step.by_chunks() && may_have_too_many)
             if (const auto made = make_of_levels(result, stop))
                 return *made;
-        }
         // What is in memory is enough: reading the step as a whole takes longer.
         const StepView& near = at_hand_.of_same_step() ? at_hand_.step() : step;
         if (!search(near, *result, stop))
             return nullptr;
-        if (!asked && !at_hand_.fits(query.detail, result->cells()))
-            if (const auto made = make_of_levels(result, stop))
-                return *made;
         result->volume_cells = result->cells();
         if (may_have_too_many && result->cells() > query.detail.most_cells)
             if (const auto made = make_of_levels(result, stop))

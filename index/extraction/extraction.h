@@ -1,11 +1,11 @@
 // The result of one request: the active cells of its surfaces and the volume blocks around them.
 #pragma once
 
+#include "index/extraction/kept_cells.h"
 #include "index/extraction/simplified_meshes.h"
 #include "index/extraction/surroundings.h"
 #include "index/extraction/volume_blocks.h"
 #include "index/search/index_search.h"
-#include "index/extraction/kept_cells.h"
 
 #include <chrono>
 #include <cstdint>

@@ -11,8 +11,6 @@ namespace {
 constexpr double kLeastKept = 0.25;
 /// Where such a share of the chunks stays, enough of their cells do: they need not be counted.
 constexpr double kPlenty = 0.75;
-/// A set with so many times fewer cells than would be too many is not counted by levels of detail.
-constexpr std::uint64_t kFewer = 4;
 
 /// As the worker compares queries: a NaN equals itself.
 bool same(double a, double b) {
@@ -69,16 +67,6 @@ bool ExtractionAtHand::enough_stays(double chunks) const {
 bool ExtractionAtHand::keeps_cells(std::size_t surface) const {
     return staying_ && !by_cells_ && surface < from_->surfaces.size() &&
            same(from_->query.isovalues[surface], query_.isovalues[surface]);
-}
-
-bool ExtractionAtHand::fits(const DetailQuery& detail) const {
-    return staying_ && from_->query.isovalues.size() == query_.isovalues.size() &&
-           std::ranges::all_of(detail.wished, [](std::int8_t wish) { return wish <= 0; }) &&
-           fits(detail, from_->cells());
-}
-
-bool ExtractionAtHand::fits(const DetailQuery& detail, std::size_t cells) {
-    return kFewer * cells <= detail.most_cells;
 }
 
 bool ExtractionAtHand::find(std::size_t surface, bool meshed, const std::stop_token& stop,

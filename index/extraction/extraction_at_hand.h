@@ -37,10 +37,6 @@ class ExtractionAtHand {
 
     /// Whether the cells of a surface are taken over where they stay.
     bool keeps_cells(std::size_t surface) const;
-    /// Whether it is known that the cells of the volume itself are few enough. True for sets that are
-    /// several times smaller than what would be too many.
-    bool fits(const DetailQuery& detail) const;
-    static bool fits(const DetailQuery& detail, std::size_t cells);
     /// Finds the cells of a surface that keeps cells. @param meshed a mesh may follow
     /// @return false when stopped
     bool find(std::size_t surface, bool meshed, const std::stop_token& stop, CellSet& set,

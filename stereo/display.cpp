@@ -127,9 +127,11 @@ Display::Region Display::region_of(const Viewport& viewport, Eye place) const {
         corner.y = place == Eye::left ? size.y - half : 0;
         size.y = half;
     }
-    const int left = std::clamp(left_, 0, size.x - 1);
-    corner.x += left;
-    size.x -= left;
+    const int left = std::clamp(margins_.left, 0, size.x - 1);
+    const int bottom = std::clamp(margins_.bottom, 0, size.y - 1);
+    corner += glm::ivec2(left, bottom);
+    size -= glm::ivec2(left, bottom);
+    size.y -= std::clamp(margins_.top, 0, size.y - 1);
     // Round both edges, so that neighboring viewports neither overlap nor leave a gap.
     const glm::ivec2 low(glm::round(viewport.position * glm::vec2(size)));
     const glm::ivec2 high(glm::round((viewport.position + viewport.size) * glm::vec2(size)));

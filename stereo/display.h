@@ -99,16 +99,15 @@ class Display {
     std::optional<interaction::Pose> ray_at(std::span<const ViewerPose> viewers,
                                             glm::vec2 at) const;
 
-    /// Leaves `left` pixels free at the left of each eye's part, for a panel, from the next drawn
-    /// frame on.
-    void leave_free(int left) { left_ = left; }
+    /// Leaves the edges of each eye's part free, for a panel, from the next drawn frame on.
+    void leave_free(const Margins& margins) { margins_ = margins; }
     /// From the next drawn frame on, the left `share` of each eye's part shows what is to the left
     /// of the screen: for a panel that stands there.
     void show_aside(float share) {
         for (Viewport& viewport : window_.viewports)
             viewport.screen.aside = share;
     }
-    bool fills() const { return left_ == 0; } ///< nothing is left free
+    bool fills() const { return margins_ == Margins{}; } ///< nothing is left free
 
     const Window& window() const { return window_; }
     glm::ivec2 size() const { return composed_.size(); } ///< of the last frame, pixels
@@ -133,7 +132,7 @@ class Display {
         glm::ivec2 corner, size;
     };
 
-    int left_ = 0; ///< pixels that stay free
+    Margins margins_; ///< that stay free
     Region region_of(const Viewport& viewport, Eye place) const;
     render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
     std::vector<render::View> views_in_target(std::size_t number, const ViewerPose& viewer) const;

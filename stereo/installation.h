@@ -42,6 +42,12 @@ struct Viewport {
     bool operator==(const Viewport&) const = default;
 };
 
+/// Pixels at the edges of a picture that stay free of it, for a panel.
+struct Margins {
+    int left = 0, top = 0, bottom = 0;
+    bool operator==(const Margins&) const = default;
+};
+
 inline constexpr int kNextMonitor = -1;
 
 struct Window {

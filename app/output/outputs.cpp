@@ -73,9 +73,9 @@ bool Outputs::adapts() const {
                [](const stereo::Viewport& viewport) { return viewport.screen.fit_aspect; });
 }
 
-void Outputs::leave_free(int pixels) {
+void Outputs::leave_free(const stereo::Margins& margins) {
     if (adapts())
-        displays_.front().leave_free(pixels);
+        displays_.front().leave_free(margins);
 }
 
 void Outputs::show_aside(float share) {

@@ -94,9 +94,9 @@ class Outputs {
     std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
                                             std::span<const stereo::ViewerPose> viewers) const;
 
-    /// Keeps the left side of the first window free for the panel over it, if all of its screens
-    /// adapt to the shape of the rest. @param pixels width in each eye's part
-    void leave_free(int pixels);
+    /// Keeps the edges of the first window free for the panel over it, if all of its screens adapt
+    /// to the shape of the rest. @param margins in each eye's part
+    void leave_free(const stereo::Margins& margins);
     /// Widens the views of the first window to the left, for a panel there, where all of its
     /// screens adapt to the shape of the rest.
     /// @param share of each eye's width that shows what lies to the left of the screen

@@ -57,7 +57,7 @@ bool EventTaker::must_wait(const WindowEvent& event) const {
 }
 
 bool EventTaker::captures_mouse() const {
-    return io.WantCaptureMouse || area.contains(io.MousePos.x, io.MousePos.y);
+    return io.WantCaptureMouse || panel.covers({io.MousePos.x, io.MousePos.y});
 }
 
 bool EventTaker::operator()(const KeyEvent& event) {

@@ -26,7 +26,7 @@ glm::vec2 folded(glm::vec2 at, glm::ivec2 places);
 /// Takes one event into ImGui's state. The call returns whether the panel uses the event.
 struct EventTaker {
     ImGuiIO& io;
-    const PanelArea& area;
+    const PanelPlaces& panel;
     std::uint32_t& late_releases;
     std::optional<glm::vec2>& cursor;
     glm::ivec2 places;   ///< number of panels in the window, see `repeat`

@@ -2,6 +2,7 @@
 #include "app/panel/file_window.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/theme.h"
 #include "index/formats/format.h"
 #include "index/lower_case.h"
 
@@ -81,9 +82,9 @@ std::optional<fs::path> FileWindow::draw_folder() {
         if (ImGui::Selectable(name.c_str()))
             chosen = folder_ / name;
     if (!complaint_.empty())
-        note(complaint_, kWarning);
+        note(complaint_, color_of(Ink::warning));
     else if (files_.empty())
-        note("no data in this folder that can be read", kDim);
+        note("no data in this folder that can be read", color_of(Ink::dim));
     if (!next.empty())
         go_to(next);
     return chosen;
@@ -95,13 +96,12 @@ std::optional<fs::path> FileWindow::draw() {
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 560.0f), 0.8f * picture.y});
-    ImGui::SetNextWindowBgAlpha(0.97f);
     ImGui::Begin("Open data (Ctrl + O), or drop a file here###files", &shown_,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
     std::optional<fs::path> chosen;
     if (!recent_.empty())
-        note("recent", kDim);
+        note("recent", color_of(Ink::dim));
     for (const fs::path& path : recent_)
         if (ImGui::Selectable(path.string().c_str()))
             chosen = path;

@@ -1,4 +1,4 @@
-// Characters that the user types into the panel's fields: every field holds one number.
+// Characters that the user types into the panel's fields, most of which hold one number.
 #include "app/panel/number_entry.h"
 
 #include <fmt/format.h>
@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,7 @@ namespace isochron::app {
 namespace {
 
 constexpr int kNone = -1;
+constexpr int kWords = -2; ///< kept of a field that holds words and no number
 
 bool is_separator(char32_t character) {
     return character == U'.' || character == U',';
@@ -61,11 +63,14 @@ std::string text_to_be(const ImGuiInputTextState& field, const std::u32string& w
 
 } // namespace
 
-bool whole_number_slider(const char* label, int* value, int low, int high, const char* format) {
-    const ImGuiID slider = ImGui::GetID(label);
-    if (ImGui::GetCurrentContext()->ActiveId != slider)
-        ImGui::GetStateStorage()->SetInt(slider, *value); // for NumberEntry
-    return ImGui::SliderInt(label, value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+bool text_field(const char* id, const char* hint, std::string& words) {
+    constexpr std::size_t kLongest = 200;
+    ImGui::GetStateStorage()->SetInt(ImGui::GetID(id), kWords);
+    std::array<char, kLongest + 1> characters{};
+    words.copy(characters.data(), kLongest);
+    const bool changed = ImGui::InputTextWithHint(id, hint, characters.data(), characters.size());
+    words = characters.data();
+    return changed;
 }
 
 void NumberEntry::type(char32_t character) {
@@ -80,6 +85,10 @@ void NumberEntry::type(char32_t character) {
         return;
     }
     const int before = context.ActiveIdWindow->StateStorage.GetInt(context.ActiveId, kNone);
+    if (before == kWords) {
+        waiting_ += character;
+        return;
+    }
     const bool whole = before != kNone;
     const std::string text = text_to_be(*field, waiting_);
     if (!whole && std::ranges::none_of(text, [](char c) { return is_separator(c); })) {

@@ -1,4 +1,4 @@
-// Characters that the user types into the panel's fields: every field holds one number.
+// Characters that the user types into the panel's fields, most of which hold one number.
 #pragma once
 
 #include "interaction/input/window_event.h"
@@ -7,9 +7,9 @@
 
 namespace isochron::app {
 
-/// ImGui::SliderInt with clamped input. NumberEntry knows this slider as one for whole numbers, and
-/// remembers the number that it had. @param low at least 0
-bool whole_number_slider(const char* label, int* value, int low, int high, const char* format);
+/// A field for words, which NumberEntry leaves as they are. It has the width of the next item.
+/// @param hint shown while it is empty @return whether the words have changed
+bool text_field(const char* id, const char* hint, std::string& words);
 
 /// Passes typed characters to the field of ImGui that has the keyboard. A comma is a decimal point
 /// there: ImGui would leave it out, and 1,5 would become 15. A second point or comma, or one in a

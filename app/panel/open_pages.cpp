@@ -28,18 +28,30 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
         return true;
     }
     // At once: what comes after it may open the next page.
-    if (pressed && key->key == Key::escape && any() && !io.WantTextInput && !popup) {
+    const bool escapes = pressed && key->key == Key::escape && !popup;
+    if (escapes && search_.is_open()) {
+        search_.close();
+        return true;
+    }
+    if (escapes && any() && !io.WantTextInput) {
         if (files_.is_open())
             files_.close();
         else
             help_ = false;
         return true;
     }
-    const bool opens = key && key->down && key->key == Key{'O'} &&
-                       (io.KeyCtrl || key->with(interaction::Modifier::control)) &&
-                       !key->with(interaction::Modifier::alt) &&
-                       !key->with(interaction::Modifier::super);
-    if (!opens || !recent_)
+    const bool chord =
+        key && key->down && (io.KeyCtrl || key->with(interaction::Modifier::control)) &&
+        !key->with(interaction::Modifier::alt) && !key->with(interaction::Modifier::super);
+    if (chord && key->key == Key{'K'}) {
+        if (search_.is_open())
+            search_.close();
+        else
+            search_.open();
+        begun_ = true;
+        return true;
+    }
+    if (!chord || key->key != Key{'O'} || !recent_)
         return false;
     open_files();
     return true;
@@ -55,10 +67,13 @@ Seconds OpenPages::introduction_ends() const {
     return newcomer_ && begun_ && introduced_at_ ? *introduced_at_ + kLeast : Seconds(0);
 }
 
-void OpenPages::lay_out(const PanelModel& model, const PanelArea& panel, Seconds time) {
+void OpenPages::lay_out(const PanelModel& model, const PanelBox& picture, Seconds time) {
     if (help_ && model.place != PanelPlace::in_room)
         help_ = help_window(model);
     lay_out_files();
+    if (model.place != PanelPlace::in_room)
+        if (auto presses = search_.draw(picture); !presses.empty())
+            presses_ = std::move(presses);
     if (!newcomer_ || any() || model.place != PanelPlace::over)
         return;
     if (!introduced_at_)
@@ -68,8 +83,7 @@ void OpenPages::lay_out(const PanelModel& model, const PanelArea& panel, Seconds
         introduced_ = true;
         return;
     }
-    const bool docked = panel.bottom - panel.top > 2 * panel.title;
-    first_use_window(docked ? panel.right : 0.0f);
+    first_use_window(picture);
 }
 
 } // namespace isochron::app

@@ -1,9 +1,10 @@
-// The pages that lie over the picture beside the panel: help, the choice of data, and the
-// introduction.
+// The pages that lie over the picture beside the panel: help, the choice of data, the search of
+// commands, and the introduction.
 #pragma once
 
 #include "app/panel/file_window.h"
 #include "app/panel/panel.h"
+#include "app/panel/parts/key_search.h"
 #include "interaction/input/window_event.h"
 #include "interaction/pose.h"
 
@@ -38,24 +39,30 @@ class OpenPages {
     interaction::Seconds introduction_ends() const;
 
     void open_help() { help_ = true; }
+    void open_search() { search_.open(); }
+    /// What is to be pressed for the command that the user found; returned once.
+    std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
+    bool has_presses() const { return !presses_.empty(); }
 
     /// A page lies over the picture, which Escape closes.
-    bool any() const { return help_ || files_.is_open(); }
+    bool any() const { return help_ || files_.is_open() || search_.is_open(); }
 
-    /// Obeys F1, `?` and Ctrl + O, wherever the mouse is, and Escape, which closes a page.
+    /// Obeys F1, `?`, Ctrl + K and Ctrl + O, wherever the mouse is, and Escape, which closes a page.
     /// @param popup a popup is open, which Escape closes before a page
     /// @return whether the event was one of them
     bool turn(const interaction::WindowEvent& event, bool popup);
 
     /// Lays the pages out in the current Dear ImGui frame.
-    /// @param panel where the panel is
-    void lay_out(const PanelModel& model, const PanelArea& panel, interaction::Seconds time);
+    /// @param picture where the panel leaves the picture free
+    void lay_out(const PanelModel& model, const PanelBox& picture, interaction::Seconds time);
     /// Lays out the choice of data alone.
     void lay_out_files();
 
   private:
     bool help_ = false; ///< the help page is open
     FileWindow files_;
+    KeySearch search_;
+    std::vector<interaction::WindowEvent> presses_;
     std::function<std::vector<std::filesystem::path>()>
         recent_; ///< empty: the user cannot open other data
     std::optional<std::filesystem::path> chosen_;

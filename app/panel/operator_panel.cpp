@@ -1,6 +1,8 @@
 // Events, drawing and presenting of the operator's panel.
 #include "app/panel/operator_panel.h"
 
+#include <glm/common.hpp>
+
 #include <utility>
 
 namespace isochron::app {
@@ -51,13 +53,15 @@ interaction::Commands OperatorPanel::draw_alone(const Model& model, interaction:
     return console_ ? console_->draw(model(PanelPlace::whole), time) : interaction::Commands();
 }
 
-int OperatorPanel::covered(int width) const {
-    if (console_ || !first_.has_window())
-        return 0;
-    const PanelArea& area = over_.area();
-    const bool folded = area.bottom - area.top < 2 * area.title;
-    const int right = static_cast<int>(area.right * over_.scale());
-    return folded || 2 * right > width ? 0 : right;
+stereo::Margins OperatorPanel::covered(glm::ivec2 size) const {
+    const PanelPlaces& places = over_.places();
+    if (console_ || !first_.has_window() || places == PanelPlaces{})
+        return {};
+    const glm::ivec2 low(glm::round(over_.scale() * places.picture.low));
+    const glm::ivec2 high(glm::round(over_.scale() * places.picture.high));
+    if (2 * low.x > size.x || 2 * (high.y - low.y) < size.y)
+        return {};
+    return {.left = low.x, .top = low.y, .bottom = size.y - high.y};
 }
 
 bool OperatorPanel::covers(const interaction::MouseMoveEvent& cursor) const {

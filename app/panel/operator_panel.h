@@ -59,9 +59,9 @@ class OperatorPanel {
     void present(bool again);
     /// What the last frame tells about the next one.
     FrameOutlook outlook() const { return console_ ? console_->outlook() : over_.outlook(); }
-    /// Width in pixels that the panel covers at the left of the picture; 0 if the panel is folded,
-    /// or would cover more than half. @param width of the part of the picture that one eye has
-    int covered(int width) const;
+    /// Pixels that the panel covers at the edges of the picture; none where they would leave less
+    /// than half of its width. @param size of the part of the picture that one eye has
+    stereo::Margins covered(glm::ivec2 size) const;
     /// Whether the panel over the picture is under the cursor.
     bool covers(const interaction::MouseMoveEvent& cursor) const;
 

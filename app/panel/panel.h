@@ -2,34 +2,24 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
+#include "app/panel/parts/places.h"
+#include "app/panel/parts/top_bar.h"
 #include "interaction/commands.h"
 
+#include <cstddef>
 #include <optional>
-#include <string>
 
 namespace isochron::app {
 
-/// The rectangle that the panel covers, in panel pixels from the top left.
-struct PanelArea {
-    float left = 0, top = 0, right = 0, bottom = 0;
-    float title = 0;     ///< height of its title
-    bool narrow = false; ///< the picture has no room for the data beside it
-    bool contains(float x, float y) const {
-        return x >= left && x < right && y >= top && y < bottom;
-    }
-};
-
-/// The pages that the panel's buttons open beside it.
-struct PanelPages {
-    bool offers_files = false;        ///< the user can open other data
-    bool files = false, help = false; ///< opened in this frame
-    std::optional<MovieWish> movie{}; ///< likewise
+/// What a panel remembers of itself from frame to frame.
+struct PanelView {
+    PanelPlaces places{};               ///< in the last layout; empty while the panel is hidden
+    std::optional<std::size_t> section; ///< opened over the picture, where the column is folded
+    bool statistics = false;            ///< open below the chip
+    float below_chip = 0;               ///< where the rest of what lies over the picture may begin
 };
 
 /// Lays the panel out in the current Dear ImGui frame. @return commands of the user
-interaction::Commands draw_panel(const PanelModel& model, PanelArea& area, PanelPages& pages);
-
-/// How the picture is drawn, and why: `settled: surface, 7.2 of 11.1 ms`.
-std::string quality_line(const FrameReport& frame);
+interaction::Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages);
 
 } // namespace isochron::app

@@ -2,6 +2,7 @@
 #include "app/panel/panel_help.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/theme.h"
 
 #include <imgui.h>
 
@@ -23,7 +24,7 @@ void table_of(const interaction::ControlGroup& group) {
         note(line.substr(0, end), ImGui::GetStyleColorVec4(ImGuiCol_Text));
         ImGui::TableNextColumn();
         if (effect != std::string::npos)
-            note(line.substr(effect), kDim);
+            note(line.substr(effect), color_of(Ink::dim));
     }
     ImGui::EndTable();
 }
@@ -46,7 +47,6 @@ bool help_window(const PanelModel& model) {
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 620.0f), 0.92f * picture.y});
-    ImGui::SetNextWindowBgAlpha(0.97f);
     bool open = true;
     ImGui::Begin("Keys, mouse and devices (F1)###help", &open,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -56,23 +56,25 @@ bool help_window(const PanelModel& model) {
     return open;
 }
 
-void first_use_window(float left) {
-    const ImVec2 picture = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({(left + picture.x) / 2, 0.08f * picture.y}, ImGuiCond_Always,
-                            {0.5f, 0.0f});
-    ImGui::SetNextWindowBgAlpha(0.86f);
+void first_use_window(const PanelBox& picture) {
+    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2, picture.high.y - 14.0f},
+                            ImGuiCond_Always, {0.5f, 1.0f});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
     ImGui::Begin("###first use", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PushTextWrapPos(std::min(480.0f, 0.94f * (picture.x - left)));
-    for (const char* line : {"Drag with the left button to turn the data; the wheel scales them.",
-                             "Up and Down change the isovalue, or drag in the histogram.",
-                             "Space plays the steps; Left and Right go through them.",
-                             "F1 lists all keys. This hint disappears when you begin."})
+    ImGui::PushTextWrapPos(std::min(480.0f, 0.94f * picture.size().x));
+    for (const char* line :
+         {"Drag with the left button to turn the data; the wheel scales them.",
+          "Up and Down change the isovalue, or drag its line in the histogram.",
+          "Space plays the steps; Left and Right go through them.",
+          "Ctrl + K finds every command, F1 lists all keys. This hint disappears "
+          "when you begin."})
         ImGui::TextUnformatted(line);
     ImGui::PopTextWrapPos();
     ImGui::End();
+    ImGui::PopStyleColor();
 }
 
 } // namespace isochron::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
+#include "app/panel/parts/places.h"
 
 #include <span>
 
@@ -15,7 +16,6 @@ void controls_of(std::span<const interaction::DeviceKind> kinds,
 bool help_window(const PanelModel& model);
 
 /// The introduction for new users. It takes no input.
-/// @param left width at the left of the picture that the panel covers, pixels
-void first_use_window(float left);
+void first_use_window(const PanelBox& picture);
 
 } // namespace isochron::app

@@ -2,7 +2,8 @@
 #include "app/panel/panel_layer.h"
 
 #include "app/panel/event_taker.h"
-#include "app/panel/panel_tools.h"
+#include "app/panel/parts/notes.h"
+#include "app/panel/parts/theme.h"
 #include "app/scene/font.h"
 #include "render/gl/limits.h"
 #include "render/gl/shader.h"
@@ -27,16 +28,6 @@ using namespace interaction;
 
 constexpr Seconds kMessageShown{4.0};
 
-void style_dark_and_round() {
-    ImGui::StyleColorsDark();
-    ImGuiStyle& style = ImGui::GetStyle();
-    style.WindowRounding = 6.0f;
-    style.FrameRounding = 4.0f;
-    style.GrabRounding = 4.0f;
-    style.ItemSpacing = {8.0f, 6.0f};
-    style.WindowBorderSize = 0.0f;
-}
-
 } // namespace
 
 PanelLayer::PanelLayer(const render::Gl& gl, float scale)
@@ -50,7 +41,8 @@ PanelLayer::PanelLayer(const render::Gl& gl, float scale)
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     for (const auto& [imgui_key, key] : keys_of_imgui())
         io.KeyMap[imgui_key] = static_cast<int>(key);
-    style_dark_and_round();
+    use_theme(Theme::dark);
+    use_measures();
     make_font_texture();
     const GLuint array = vertex_array_.name();
     const auto attribute = [&](GLuint index, GLint count, GLenum type, GLboolean normalized,
@@ -104,13 +96,17 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
             io.MouseDown[button] = false;
     late_releases_ = 0;
     EventTaker taker{.io = io,
-                     .area = area_,
+                     .panel = view_.places,
                      .late_releases = late_releases_,
                      .cursor = cursor_,
                      .places = places_,
                      .popups = has_popup(),
                      .closes_popup = closes_popup_,
                      .numbers = numbers_};
+    if (!io.WantTextInput) { // the field of the search has let the keyboard go
+        const auto presses = pages_.take_presses();
+        waiting_.insert(waiting_.end(), presses.begin(), presses.end());
+    }
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     fed_ = !waiting_.empty();
     while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
@@ -153,23 +149,8 @@ void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
         ImGui::ClosePopupToLevel(imgui_->OpenPopupStack.Size - 1, true);
 }
 
-Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
-    begin_frame(picture, time);
-    Commands commands;
-    PanelPages asked{.offers_files = pages_.offers_files()};
-    area_ = {.narrow = area_.narrow};
-    // The panel in the room replaces the one over the picture.
-    if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
-        commands = draw_panel(model, area_, asked);
-    if (asked.files)
-        pages_.open_files();
-    if (asked.help)
-        pages_.open_help();
-    if (asked.movie)
-        wanted_movie_ = asked.movie;
-    if (model.place != PanelPlace::in_room)
-        leaving_window(model, commands);
-    pages_.lay_out(model, area_, time);
+/// What the user is told at the top of the picture, or in a panel that has no picture.
+void PanelLayer::say(const PanelModel& model, Seconds time) {
     const Seconds said_before = said_;
     if (std::exchange(messages_, model.notes.messages) != model.notes.messages) {
         said_ = time;
@@ -181,21 +162,61 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     }
     const bool stands_else = std::exchange(standing_, model.notes.standing) != standing_;
     const bool fresh = time < said_ + kMessageShown;
-    if (model.place == PanelPlace::over)
-        message_window(standing_, !fresh               ? std::string()
-                                  : complaint_.empty() ? model.notes.message
-                                                       : complaint_);
-    else if (model.place == PanelPlace::whole)
-        message_window({}, fresh ? complaint_ : std::string());
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const bool hidden = view_.places == PanelPlaces{};
+    const PanelBox picture = hidden ? PanelBox{{0, 0}, {screen.x, screen.y}} : view_.places.picture;
+    const float top = hidden ? picture.low.y + 10.0f : view_.below_chip;
+    if (model.place == PanelPlace::over) {
+        const bool closed = !model.notes.failure.empty() && model.notes.failure == closed_;
+        if (message_window({.failure = closed ? std::string() : model.notes.failure,
+                            .standing = standing_,
+                            .message = !fresh               ? std::string()
+                                       : complaint_.empty() ? model.notes.message
+                                                            : complaint_},
+                           picture, top))
+            closed_ = model.notes.failure;
+    } else if (model.place == PanelPlace::whole) {
+        message_window({.failure = {}, .standing = {}, .message = fresh ? complaint_ : ""},
+                       {{0, 0}, {screen.x, screen.y}}, 44.0f);
+    }
+    pages_.lay_out(model, picture, time);
+    changed_by_words_ = said_ != said_before || stands_else; // ImGui shows a new window late
+}
+
+Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
+    begin_frame(picture, time);
+    use_theme(theme_for(model.asked.look));
+    // A wand has no keyboard: there a click does not begin to type.
+    ImGui::GetIO().ConfigDragClickToInputText = model.place != PanelPlace::in_room;
+    Commands commands;
+    PanelPages asked{.offers_files = pages_.offers_files()};
+    // The panel in the room replaces the one over the picture.
+    if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
+        commands = draw_panel(model, view_, asked);
+    else
+        view_.places = {};
+    if (asked.files)
+        pages_.open_files();
+    if (asked.help)
+        pages_.open_help();
+    if (asked.search)
+        pages_.open_search();
+    if (asked.movie)
+        wanted_movie_ = asked.movie;
+    if (model.place != PanelPlace::in_room)
+        leaving_window(model, commands);
+    say(model, time);
     end_frame();
-    changed_ |= said_ != said_before || stands_else; // ImGui shows a new window a frame late
+    changed_ |= changed_by_words_;
     return commands;
 }
 
 void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint, Seconds time) {
     begin_frame(picture, time);
     pages_.lay_out_files();
-    message_window(complaint, {});
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    message_window({.failure = {}, .standing = complaint, .message = {}},
+                   {{0, 0}, {screen.x, screen.y}}, 10.0f);
     end_frame();
 }
 
@@ -213,7 +234,8 @@ bool PanelLayer::has_popup() const {
 bool PanelLayer::covers(glm::vec2 at) const {
     const ImGuiIO& io = imgui_->IO;
     at = folded(at, places_);
-    return io.WantCaptureMouse || area_.contains(at.x * io.DisplaySize.x, at.y * io.DisplaySize.y);
+    return io.WantCaptureMouse ||
+           view_.places.covers({at.x * io.DisplaySize.x, at.y * io.DisplaySize.y});
 }
 
 std::uint32_t PanelLayer::hovered() const {
@@ -234,7 +256,7 @@ FrameOutlook PanelLayer::outlook() const {
     const ImGuiIO& io = imgui_->IO;
     const auto is_down = [](bool down) { return down; };
     FrameOutlook next{.changed = changed_ || fed_, .final = true};
-    next.busy = late_releases_ != 0 || !waiting_.empty() || closes_popup_ ||
+    next.busy = late_releases_ != 0 || !waiting_.empty() || closes_popup_ || pages_.has_presses() ||
                 std::ranges::any_of(io.MouseDown, is_down) ||
                 std::ranges::any_of(io.KeysDown, is_down);
     if (io.WantTextInput)

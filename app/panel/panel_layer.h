@@ -85,7 +85,7 @@ class PanelLayer {
     std::size_t digest() const { return digest_; }
     /// What the last layout tells about the next one.
     FrameOutlook outlook() const;
-    const PanelArea& area() const { return area_; } ///< panel pixels
+    const PanelPlaces& places() const { return view_.places; } ///< of the last layout
     /// Whether the panel, or a page that it has opened, covers a place.
     /// @param at fractions of the picture from the top left
     bool covers(glm::vec2 at) const;
@@ -98,15 +98,16 @@ class PanelLayer {
     void end_frame();
     std::size_t hash_of_layout() const;
     bool has_popup() const;
+    void say(const PanelModel& model, interaction::Seconds time);
     void begin_frame(glm::ivec2 picture, interaction::Seconds time);
 
     const render::Gl& gl_;
     ImGuiContext* imgui_;
     float scale_;
     interaction::Seconds laid_out_{0}; ///< session time
-    PanelArea area_;                   ///< of the panel in the last layout
-    std::uint32_t late_releases_ = 0;  ///< mouse buttons, by bit, to release in the next `feed`
-    std::optional<glm::vec2> cursor_;  ///< in the panel's picture, fractions from the top left
+    PanelView view_;
+    std::uint32_t late_releases_ = 0; ///< mouse buttons, by bit, to release in the next `feed`
+    std::optional<glm::vec2> cursor_; ///< in the panel's picture, fractions from the top left
     std::deque<interaction::WindowEvent> waiting_; ///< for the next frame, see `feed`
     glm::ivec2 places_{1};
     std::size_t digest_ = 0;          ///< of the last layout
@@ -115,6 +116,8 @@ class PanelLayer {
     std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
     std::string standing_;            ///< in the last layout
+    std::string closed_;              ///< the failure that the user has read and closed
+    bool changed_by_words_ = false;   ///< a window with words has come or gone
     NumberEntry numbers_;
     std::string complaint_;     ///< of `numbers_`, if nothing was said since
     bool closes_popup_ = false; ///< Escape was pressed

@@ -26,11 +26,12 @@ enum class PanelPlace : std::uint8_t {
     in_room ///< in the room; it shows only what is the same on every wall and in every replay
 };
 
-/// What the user wants: a movie of something, or to give up the one that is being made.
+/// What the user wants: a movie of something, to give up the one that is being made, or a recording.
 enum class MovieWish : std::uint8_t {
     recording, ///< of this session, so far
     series,    ///< all steps, as they are seen now
-    give_up    ///< the one that is being made
+    give_up,   ///< the one that is being made
+    record     ///< to begin a recording, or to end the one that goes on
 };
 
 struct MovieState {

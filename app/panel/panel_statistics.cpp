@@ -3,6 +3,7 @@
 
 #include "app/config/first_placement.h"
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/theme.h"
 #include "app/text.h"
 
 #include <fmt/format.h>
@@ -28,37 +29,38 @@ void measurements(const PanelModel& model) {
     note(model.work.searching
              ? "searching ..."
              : fmt::format("of {} candidates, {} reused", frame.candidates, frame.reused),
-         kDim);
+         color_of(Ink::dim));
     const glm::dvec3 size = physical_size(model.info.grid);
     note(fmt::format("volume {:.4g} x {:.4g} x {:.4g}{}{}   shown at {:.3g} m", size.x, size.y,
                      size.z, model.info.length_unit.empty() ? "" : " ", model.info.length_unit,
                      std::max({size.x, size.y, size.z}) * model.asked.room_from_physical.scale),
-         kDim);
+         color_of(Ink::dim));
     note(fmt::format("search {:.2f} ms   blocks {:.2f} ms", frame.search.count(),
                      frame.gather.count()),
-         kDim);
+         color_of(Ink::dim));
     const index::ReadUse& use = model.work.reading;
     note(fmt::format("read {}   cache {} of {}   {} of {} steps ready",
                      human_bytes(static_cast<double>(use.bytes)),
                      human_bytes(static_cast<double>(use.held)),
                      human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),
-         kDim);
+         color_of(Ink::dim));
     note(fmt::format("{:.0f} frames/s   median {:.1f} ms   99 % {:.1f} ms",
                      model.work.frames.per_second, model.work.frames.times.median,
                      model.work.frames.times.p99),
-         kDim);
+         color_of(Ink::dim));
     for (const DeviceTracking& device : frame.tracking)
-        note(in_words(device), device.tracking == interaction::Tracking::tracked ? kDim : kWarning);
+        note(in_words(device),
+             color_of(device.tracking == interaction::Tracking::tracked ? Ink::dim : Ink::warning));
 }
 
 void complaints(const PanelModel& model) {
     if (!model.notes.failure.empty())
-        note(model.notes.failure, kWarning);
+        note(model.notes.failure, color_of(Ink::error));
 }
 
 void newest_note(const PanelModel& model) {
     if (!model.notes.message.empty())
-        note(model.notes.message, kDim);
+        note(model.notes.message, color_of(Ink::dim));
 }
 
 } // namespace isochron::app

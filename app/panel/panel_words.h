@@ -7,9 +7,6 @@
 
 namespace isochron::app {
 
-inline const ImVec4 kDim(0.62f, 0.65f, 0.70f, 1.0f);
-inline const ImVec4 kWarning(1.0f, 0.55f, 0.40f, 1.0f);
-
 /// One line, as it is.
 void text(const std::string& line);
 /// Text that is wrapped to several lines.

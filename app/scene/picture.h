@@ -10,6 +10,7 @@
 #include "interaction/tools/tool.h"
 #include "render/cells/footprints.h"
 #include "render/passes/veil_pass.h"
+#include "stereo/installation.h"
 
 #include <glm/vec2.hpp>
 
@@ -30,7 +31,7 @@ struct Aids {
 /// Where the eyes' pictures lie in the windows.
 struct PictureLayout {
     std::vector<glm::ivec2> windows; ///< their sizes [pixel]
-    int free = 0;                    ///< pixels at the left of the first one
+    stereo::Margins free;            ///< for the panel over the first one
     float aside = 0;                 ///< share of width, see Outputs::show_aside
     bool operator==(const PictureLayout&) const = default;
 };

@@ -92,10 +92,9 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
     add(over_.draw_alone(models(facts), time));
 }
 
-int SessionPanel::covered(const ExplorerState& state) const {
-    return is_flat(state)
-               ? over_.covered(outputs_.windows()[0].framebuffer_size().x / places(state).x)
-               : 0;
+stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
+    return is_flat(state) ? over_.covered(outputs_.windows()[0].framebuffer_size() / places(state))
+                          : stereo::Margins{};
 }
 
 bool SessionPanel::head_is_emulated() const {

@@ -71,8 +71,8 @@ class SessionPanel {
     static bool is_flat(const ExplorerState& state) {
         return state.panel && !state.room_panel.shown;
     }
-    /// Width in pixels that it covers at the left of the first window, in each eye's part.
-    int covered(const ExplorerState& state) const;
+    /// Pixels that it covers at the edges of the first window, in each eye's part.
+    stereo::Margins covered(const ExplorerState& state) const;
     /// Whether mouse and keyboard play the head, before a screen that it carries along.
     bool head_is_emulated() const;
     /// Where the panel in the room stands beside such a screen, in the head's frame: so far away

@@ -1,5 +1,6 @@
 // What is typed into a field of the panel is the number that its user means, or refused.
 #include "app/panel/number_entry.h"
+#include "app/panel/parts/rows.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,11 +44,11 @@ class NumberEntryTest : public testing::Test {
             at = {low.x + 10, (low.y + high.y) / 2};
         };
         const double low = 0, high = 10;
-        ImGui::SliderScalar("isovalue", ImGuiDataType_Double, &isovalue_, &low, &high, "%.6g %%");
+        number_field("isovalue", isovalue_, {.low = low, .high = high}, "%.6g %%");
         place(at_isovalue_);
-        ImGui::SliderFloat("speed", &speed_, 0, 10, "x %.3g");
+        number_field("speed", speed_, {.low = low, .high = high}, "x %.3g");
         place(at_speed_);
-        whole_number_slider("step", &step_, 0, 9999, "%d");
+        whole_number_field("step", &step_, 0, 9999, "%d");
         place(at_step_);
         ImGui::InputScalarN("range", ImGuiDataType_Double, range_.data(), 2, nullptr, nullptr,
                             "%.6g", ImGuiInputTextFlags_CharsScientific);

@@ -1,9 +1,9 @@
 // The panel without a window can be laid out, whatever the names and values of the data.
 #include "app/config/config.h"
 #include "app/panel/panel.h"
-#include "app/panel/panel_colors.h"
 #include "app/panel/panel_statistics.h"
-#include "app/panel/panel_tools.h"
+#include "app/panel/parts/surfaces_section.h"
+#include "app/panel/parts/theme.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,9 @@ class PanelTest : public testing::Test {
     PanelTest() : imgui_(ImGui::CreateContext()) {
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.DisplaySize = {640, 480};
+        io.DisplaySize = {1280, 800};
+        use_theme(Theme::dark);
+        use_measures();
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
@@ -40,21 +42,21 @@ class PanelTest : public testing::Test {
             ImGui::GetIO().MousePos = {x, y};
             ImGui::GetIO().MouseDown[0] = down;
             ImGui::NewFrame();
-            PanelArea area;
+            PanelView view;
             PanelPages pages;
             commands = draw_panel({.info = info_,
                                    .stats = stats_,
                                    .asked = asked_,
                                    .frame = frame_,
                                    .controls = controls_},
-                                  area, pages);
+                                  view, pages);
             ImGui::Render();
         }
         return commands;
     }
 
-    /// Presses on the first control from the top, the histogram, in the middle of the panel.
-    interaction::Commands press_on_histogram() { return press(144.0f, 62.0f); }
+    /// Presses in the middle of the histogram.
+    interaction::Commands press_on_histogram() { return press(150.0f, 260.0f); }
 
     ImGuiContext* imgui_;
     index::SeriesInfo info_;

@@ -26,7 +26,7 @@ constexpr std::uint64_t kTrigger = bit(WandButton::grab);
 struct Rgb {
     int r, g, b;
 };
-constexpr Rgb kTitle{41, 74, 122}, kPaper{29, 32, 37}, kBackground{14, 16, 20};
+constexpr Rgb kTitle{39, 70, 107}, kBar{36, 39, 44}, kPaper{28, 30, 34}, kBackground{14, 16, 20};
 
 bool near(const std::uint8_t* pixel, Rgb color) {
     return std::abs(pixel[0] - color.r) <= 3 && std::abs(pixel[1] - color.g) <= 3 &&
@@ -63,15 +63,16 @@ TEST_P(RoomPanelTest, EachEyeSeesItsPartsWhereTheGeometryPutsThem) {
         };
         for (const float x : {200.0f, 300.0f, size.x - 12})
             EXPECT_TRUE(near(at({x, 11}), kTitle)) << "the title, " << x;
-        for (const float y : {40.0f, 200.0f, size.y - 12})
+        for (const float y : {80.0f, 200.0f, 400.0f})
             EXPECT_TRUE(near(at({3, y}), kPaper)) << "the left margin, " << y;
+        for (const float y : {40.0f, size.y - 12})
+            EXPECT_TRUE(near(at({3, y}), kBar)) << "the bars above and below, " << y;
         // Three of its pixels, 3 mm, to either side of its edges.
-        EXPECT_TRUE(near(at({3, 300}), kPaper));
         EXPECT_TRUE(near(at({-3, 300}), kBackground));
-        EXPECT_TRUE(near(at({size.x / 2, size.y - 3}), kPaper));
+        EXPECT_TRUE(near(at({size.x / 2, size.y - 3}), kBar));
         EXPECT_TRUE(near(at({size.x / 2, size.y + 3}), kBackground));
         EXPECT_TRUE(near(at({size.x - 40, 18}), kTitle));
-        EXPECT_FALSE(near(at({size.x - 40, 24}), kTitle));
+        EXPECT_FALSE(near(at({size.x - 40, 28}), kTitle));
         middle[eye == stereo::Eye::right] = pinhole.pixel_of(in_room(session, size / 2.0f))->x;
     }
     EXPECT_GT(middle[0], middle[1] + 10) << "it stands before the screen";
@@ -130,15 +131,15 @@ TEST_P(RoomPanelTest, StaysReadableWhateverSurfaceIsNearer) {
     }
 }
 
-/// The middle of its isovalue's slider, below the title, the buttons and the histogram.
-constexpr float kSliderY = 137;
+/// The middle of its histogram, below the title, the bar of buttons and the names of the sections.
+constexpr float kHistogramY = 180;
 
 TEST_P(RoomPanelTest, WhoAsksAgainForTheCommandsOfAFrameGetsTheSame) {
     Session session(panel_config(kWindow), file_, *context_);
     const auto pointing = [&](float x, std::uint64_t buttons) {
         InputState state = input();
         state.devices.push_back(
-            wand_at(session, glm::vec2(x, kSliderY) / PanelInRoom::kPixels, buttons));
+            wand_at(session, glm::vec2(x, kHistogramY) / PanelInRoom::kPixels, buttons));
         return state;
     };
     int dragged = 0;
@@ -151,7 +152,7 @@ TEST_P(RoomPanelTest, WhoAsksAgainForTheCommandsOfAFrameGetsTheSame) {
         dragged += commands.isovalue.has_value();
         session.frame(state, commands, Waiting::for_cells);
     }
-    EXPECT_GT(dragged, 4) << "the slider follows the ray";
+    EXPECT_GT(dragged, 4) << "the line of the surface follows the ray";
 }
 
 class WandSession {
@@ -195,7 +196,7 @@ TEST_P(RoomPanelTest, AWandsRayMovesTheIsovalueAndAReplayFromDevicesRepeatsItAnd
     const auto point = [&](float x, std::uint64_t buttons) {
         InputState state = input();
         state.devices.push_back(
-            wand_at(live, glm::vec2(x, kSliderY) / PanelInRoom::kPixels, buttons));
+            wand_at(live, glm::vec2(x, kHistogramY) / PanelInRoom::kPixels, buttons));
         wand.frame(state);
     };
     for (int i = 0; i < 3; ++i)
@@ -218,7 +219,7 @@ TEST_P(RoomPanelTest, AWandsRayMovesTheIsovalueAndAReplayFromDevicesRepeatsItAnd
         EXPECT_FALSE(frame.commands.room_from_physical) << "the wand holds the world as well";
     }
     EXPECT_GE(moved, 9);
-    EXPECT_GE(pulses, 2) << "entering the slider, and pressing it";
+    EXPECT_GE(pulses, 2) << "entering the histogram, and pressing it";
 
     const auto again = stereo::make_context(GetParam(), {.size = {400, 200}});
     const auto replay = [&](std::vector<Image>* pictures) {

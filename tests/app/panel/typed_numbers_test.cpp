@@ -39,13 +39,11 @@ class TypedNumbers : public testing::Test {
                                .controls = controls_},
                               time_);
     }
-    /// Ctrl + click at a height of the window, and text that is typed then and entered.
-    Commands typed_at(float y, const std::string& text) {
-        frame({interaction::MouseMoveEvent{0.1f, y, kSize.x, kSize.y}});
-        frame({KeyEvent{Key::left_control, true},
-               interaction::MouseButtonEvent{interaction::MouseButton::left, true}});
-        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, false},
-               KeyEvent{Key::left_control, false}});
+    /// A click at a place of the window, and text that is typed then and entered.
+    Commands typed_at(glm::vec2 at, const std::string& text) {
+        frame({interaction::MouseMoveEvent{at.x, at.y, kSize.x, kSize.y}});
+        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, true}});
+        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, false}});
         frame({});
         Commands last;
         const auto see = [&](const Commands& commands) {
@@ -76,16 +74,20 @@ class TypedNumbers : public testing::Test {
     interaction::Seconds time_{0};
 };
 
-TEST_F(TypedNumbers, MayHaveADecimalCommaUnlessTheyAreWhole) {
+TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessTheyAreWhole) {
     frame({});
-    std::optional<float> isovalue, step;
-    for (float y = 0.02f; y < 0.5f; y += 0.01f) {
-        const Commands commands = typed_at(y, "42");
+    std::optional<glm::vec2> isovalue, step;
+    const auto look = [&](glm::vec2 at) {
+        const Commands commands = typed_at(at, "42");
         if (commands.isovalue == 42.0 && !isovalue)
-            isovalue = y;
+            isovalue = at;
         if (commands.step == 41u && !step)
-            step = y;
-    }
+            step = at;
+    };
+    for (float y = 0.1f; y < 0.6f; y += 0.01f)
+        look({0.1f, y}); // in the column of the sections
+    for (float x = 0.2f; x < 0.5f; x += 0.02f)
+        look({x, 0.974f}); // in the bar of the time
     ASSERT_TRUE(isovalue && step);
     EXPECT_EQ(typed_at(*isovalue, "1,5").isovalue, 1.5);
     EXPECT_EQ(typed_at(*isovalue, "1.5").isovalue, 1.5);

@@ -1,0 +1,180 @@
+// The histogram of all values, with a line for each surface that the user drags.
+#include "app/panel/parts/histogram.h"
+
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/theme.h"
+#include "app/scene/ticks.h"
+#include "app/text.h"
+
+#include <glm/vec3.hpp>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+constexpr float kPlotHeight = 120.0f, kAxisHeight = 20.0f;
+constexpr float kReach = 7.0f; ///< of a line, for the hand, panel pixels
+constexpr int kNobody = -1;
+
+/// Where values lie in the plot.
+struct Plot {
+    ImVec2 low, high; ///< upper left, lower right
+    double first, last;
+
+    bool has_span() const { return last / 2 - first / 2 > 0; }
+    /// Halves keep the span finite for any two doubles.
+    float x_of(double value) const {
+        const double half_span = last / 2 - first / 2;
+        const double share =
+            half_span > 0 ? std::clamp((value / 2 - first / 2) / half_span, 0.0, 1.0) : 0.5;
+        return low.x + static_cast<float>(share) * (high.x - low.x);
+    }
+    double value_at(float x) const {
+        return std::lerp(
+            first, last,
+            static_cast<double>(std::clamp((x - low.x) / (high.x - low.x), 0.0f, 1.0f)));
+    }
+};
+
+void columns(const Plot& plot, const std::vector<std::uint64_t>& bins, bool logarithmic) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(plot.low, plot.high, packed(Ink::control), ImGui::GetStyle().FrameRounding);
+    if (bins.empty())
+        return;
+    const auto scaled = [logarithmic](std::uint64_t count) {
+        const auto number = static_cast<double>(count);
+        return logarithmic ? std::log1p(number) : number;
+    };
+    const double most = std::max(scaled(*std::ranges::max_element(bins)), 1e-9);
+    const float width = (plot.high.x - plot.low.x) / static_cast<float>(bins.size());
+    const float room = plot.high.y - plot.low.y - 12.0f; // the handles lie above
+    for (std::size_t bin = 0; bin < bins.size(); ++bin) {
+        const float height = room * static_cast<float>(scaled(bins[bin]) / most);
+        const float x = plot.low.x + width * static_cast<float>(bin);
+        list.AddRectFilled({x, plot.high.y - height}, {x + width, plot.high.y},
+                           packed(Ink::columns));
+    }
+}
+
+void axis(const Plot& plot, const std::string& unit) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 unit_size = ImGui::CalcTextSize(unit.c_str());
+    const bool shows_unit = !unit.empty() && unit_size.x < 0.3f * (plot.high.x - plot.low.x);
+    const float end = shows_unit ? plot.high.x - unit_size.x - 8.0f : plot.high.x;
+    const float y = plot.high.y + 4.0f;
+    if (shows_unit)
+        list.AddText({plot.high.x - unit_size.x, y}, packed(Ink::dim), unit.c_str());
+    const Ticks ticks = nice_ticks(plot.first, plot.last, 5);
+    float taken = plot.low.x - 1.0f;
+    for (const double value : ticks.values) {
+        const std::string text = tick_text(value, ticks.step);
+        const float width = ImGui::CalcTextSize(text.c_str()).x, x = plot.x_of(value);
+        const float left = std::clamp(x - width / 2, plot.low.x, std::max(plot.low.x, end - width));
+        if (left < taken || left + width > end || std::abs(left + width / 2 - x) > width / 2 + 1)
+            continue;
+        list.AddLine({x, plot.high.y}, {x, plot.high.y + 3.0f}, packed(Ink::dim));
+        list.AddText({left, y}, packed(Ink::dim), text.c_str());
+        taken = left + width + 8.0f;
+    }
+}
+
+void line_at(const Plot& plot, double value, ImU32 color, bool picked) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float x = plot.x_of(value), thick = picked ? 2.0f : 1.5f;
+    list.AddLine({x, plot.low.y}, {x, plot.high.y}, packed(Ink::paper), thick + 2.0f);
+    list.AddLine({x, plot.low.y}, {x, plot.high.y}, color, thick);
+    list.AddCircleFilled({x, plot.low.y + 5.0f}, picked ? 6.0f : 4.5f, packed(Ink::paper));
+    list.AddCircleFilled({x, plot.low.y + 5.0f}, picked ? 5.0f : 3.5f, color);
+}
+
+/// The surface whose line is nearest to a place and within reach.
+std::optional<std::uint32_t> line_near(const Plot& plot, const PanelModel& model, float x) {
+    std::optional<std::uint32_t> nearest;
+    float distance = kReach;
+    for (std::uint32_t i = 0; i < model.asked.isosurfaces.size(); ++i) {
+        const float away = std::abs(plot.x_of(model.asked.isosurfaces[i].isovalue) - x);
+        if (away < distance || (away == distance && i == model.asked.picked)) {
+            distance = away;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/// Linear or logarithmic counts: a word in the plot's corner.
+void scale_choice(const Plot& plot, bool& logarithmic) {
+    const char* word = logarithmic ? "log" : "lin";
+    const ImVec2 size = ImGui::CalcTextSize(word);
+    const ImVec2 corner(plot.high.x - size.x - 12.0f, plot.low.y + 14.0f);
+    const ImVec2 after = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos(corner);
+    if (ImGui::Button(word, {size.x + 10.0f, size.y + 4.0f}))
+        logarithmic = !logarithmic;
+    tip("heights of the columns: logarithmic or linear");
+    ImGui::SetCursorScreenPos(after);
+}
+
+/// The values on screen, where they are not yet those that were asked for.
+void lines_behind(const Plot& plot, const PanelModel& model) {
+    const auto& shown = model.frame.shown;
+    if (!shown)
+        return;
+    const std::size_t surfaces = std::min(shown->isovalues.size(), model.asked.isosurfaces.size());
+    for (std::size_t i = 0; i < surfaces; ++i)
+        if (shown->isovalues[i] != model.asked.isosurfaces[i].isovalue) {
+            const float x = plot.x_of(shown->isovalues[i]);
+            ImGui::GetWindowDrawList()->AddLine({x, plot.low.y + 12.0f}, {x, plot.high.y},
+                                                packed(Ink::dim));
+        }
+}
+
+} // namespace
+
+ImU32 line_color(const interaction::Isosurface& surface) {
+    const glm::vec3& color = surface.color;
+    return ImGui::ColorConvertFloat4ToU32({color.x, color.y, color.z, 1.0f});
+}
+
+void histogram(const PanelModel& model, Commands& commands) {
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    bool* const logarithmic = kept.GetBoolRef(ImGui::GetID("logarithmic"), true);
+    int* const grabbed = kept.GetIntRef(ImGui::GetID("grabbed"), kNobody);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const Plot plot{
+        corner, {corner.x + width, corner.y + kPlotHeight}, model.stats.low, model.stats.high};
+    ImGui::InvisibleButton("histogram", {width, kPlotHeight});
+    ImGui::SetItemAllowOverlap(); // the word in its corner
+    const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+    const float pointed = ImGui::GetIO().MousePos.x;
+    columns(plot, model.stats.histogram, *logarithmic);
+    lines_behind(plot, model);
+    const auto& surfaces = model.asked.isosurfaces;
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+        if (i != model.asked.picked)
+            line_at(plot, surfaces[i].isovalue, line_color(surfaces[i]), false);
+    line_at(plot, model.asked.isovalue(), line_color(surfaces[model.asked.picked]), true);
+    axis(plot, model.info.value_unit);
+    if (ImGui::IsItemActivated())
+        *grabbed = static_cast<int>(line_near(plot, model, pointed).value_or(model.asked.picked));
+    if (active && plot.has_span()) {
+        const auto surface = static_cast<std::uint32_t>(*grabbed);
+        if (surface != model.asked.picked && surface < surfaces.size())
+            commands.picked = surface;
+        commands.isovalue = plot.value_at(pointed);
+    }
+    if (hovered && plot.has_span())
+        ImGui::SetTooltip("%s", with_unit(plot.value_at(pointed), model.info.value_unit).c_str());
+    scale_choice(plot, *logarithmic);
+    ImGui::Dummy({width, kAxisHeight});
+}
+
+} // namespace isochron::app

@@ -1,0 +1,16 @@
+// The histogram of all values, with a line for each surface that the user drags.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "interaction/commands.h"
+
+namespace isochron::app {
+
+/// Lays it out across the section. A press near a line takes that surface's line; elsewhere it takes
+/// the picked surface's. Counts are linear or logarithmic, as the user chose in this panel.
+void histogram(const PanelModel& model, interaction::Commands& commands);
+
+/// The color of a surface, so that its line and swatch are seen on the panel.
+ImU32 line_color(const interaction::Isosurface& surface);
+
+} // namespace isochron::app

@@ -1,0 +1,47 @@
+// The search of commands: the user types what they want, sees its key, and runs it.
+#pragma once
+
+#include "app/panel/parts/places.h"
+#include "interaction/input/actions.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace isochron::app {
+
+/// Something that a key does. Running it presses that key, so that all that follows is as if the
+/// user had pressed it.
+struct KeyCommand {
+    std::string words, name; ///< `play, pause`, `Space`
+    interaction::Key key;
+    interaction::Chord chord = interaction::Chord::none;
+};
+/// The events of someone who presses its key and lets it go.
+std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command);
+
+/// All that keys do at once, in the order of their table; what a key does while it is held is left
+/// out.
+const std::vector<KeyCommand>& key_commands();
+
+/// Those whose words or key have all the words of a text, upper or lower case.
+std::vector<const KeyCommand*> found(std::string_view text);
+
+class KeySearch {
+  public:
+    void open();
+    void close() { shown_ = false; }
+    bool is_open() const { return shown_; }
+
+    /// Lays it out in the current Dear ImGui frame, at the top of the picture.
+    /// @return what is to be pressed for the command that the user chose; then it closes
+    std::vector<interaction::WindowEvent> draw(const PanelBox& picture);
+
+  private:
+    bool shown_ = false, fresh_ = false;
+    std::string text_;
+    int chosen_ = 0; ///< among the lines that are found
+};
+
+} // namespace isochron::app

@@ -1,0 +1,159 @@
+// What lies over the picture: how exact it is, and what the user is told and asked.
+#include "app/panel/parts/notes.h"
+
+#include "app/panel/panel_statistics.h"
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/icons.h"
+#include "app/panel/parts/theme.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+constexpr float kMargin = 10.0f; ///< between the picture's edges and what lies over it
+constexpr ImGuiWindowFlags kFixed =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
+
+void statistics_window(const PanelModel& model, const PanelBox& picture, float top) {
+    constexpr float kWidth = 380.0f;
+    ImGui::SetNextWindowPos({picture.low.x + kMargin, top});
+    ImGui::SetNextWindowSize({std::min(kWidth, picture.size().x - 2 * kMargin), 0.0f});
+    ImGui::Begin("###statistics", nullptr, kFixed & ~ImGuiWindowFlags_AlwaysAutoResize);
+    note(quality_line(model.frame), color_of(Ink::text));
+    measurements(model);
+    newest_note(model);
+    ImGui::End();
+}
+
+} // namespace
+
+StateWords state_words(const FrameReport& frame, interaction::QualityMode mode) {
+    if (!frame.shown)
+        return {"searching", false};
+    const bool fast = mode == interaction::QualityMode::fast;
+    const bool whole = frame.coarsest == 0;
+    const bool best = frame.footprint == render::kBestFootprint;
+    if (best && whole && frame.final && !frame.in_parts)
+        return {"exact", true};
+    if (best && frame.final)
+        return {whole ? "exact" : "exact, of coarser cells", whole};
+    return {fmt::format("{} {} of {}", fast ? "fast" : "preview",
+                        static_cast<int>(frame.footprint) + 1, render::kFootprints),
+            false};
+}
+
+std::string quality_line(const FrameReport& frame) {
+    // Fast mode draws quads in motion and at rest.
+    const bool fast = frame.reason == QualityReason::fast_mode;
+    std::string line =
+        fmt::format("{}: {}", fast ? "fast" : name_of(frame.pace), name_of(frame.footprint));
+    if (frame.expected)
+        line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
+    if (frame.reason == QualityReason::over_budget && frame.better)
+        line += fmt::format(" (the next better one takes {:.1f} ms)", frame.better->count());
+    // The line already tells that the picture moves or fits.
+    else if (!fast && frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
+        line += fmt::format(" ({})", name_of(frame.reason));
+    return line;
+}
+
+float state_chip(const PanelModel& model, const PanelBox& picture, bool& open) {
+    const StateWords state = state_words(model.frame, model.asked.quality);
+    ImGui::SetNextWindowPos({picture.low.x + kMargin, picture.low.y + kMargin});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::Begin("###chip", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float height = 26.0f, text = ImGui::CalcTextSize(state.words.c_str()).x;
+    const float width = text + 34.0f;
+    if (ImGui::InvisibleButton("state", {width, height}))
+        open = !open;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const Ink paper = open ? Ink::chosen : ImGui::IsItemHovered() ? Ink::control : Ink::bar;
+    list.AddRectFilled(corner, {corner.x + width, corner.y + height}, packed(paper), 5.0f);
+    list.AddCircleFilled({corner.x + 13.0f, corner.y + height / 2}, 4.5f,
+                         packed(state.exact ? Ink::good : Ink::warning));
+    list.AddText({corner.x + 24.0f, corner.y + (height - ImGui::GetFontSize()) / 2},
+                 packed(Ink::text), state.words.c_str());
+    tip("how exact the picture is; a click shows the times and numbers behind it");
+    ImGui::End();
+    ImGui::PopStyleVar();
+    if (open)
+        statistics_window(model, picture, corner.y + height + 6.0f);
+    return corner.x + width;
+}
+
+bool message_window(const Said& said, const PanelBox& picture, float top) {
+    if (said.failure.empty() && said.standing.empty() && said.message.empty())
+        return false;
+    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2, top}, ImGuiCond_Always,
+                            {0.5f, 0.0f});
+    const ImGuiWindowFlags quiet =
+        said.failure.empty() ? ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav : 0;
+    ImGui::Begin("###message", nullptr, kFixed | quiet);
+    constexpr float kButton = 22.0f;
+    const float widest = std::max(60.0f, picture.size().x - 6 * kMargin - kButton);
+    bool closed = false;
+    if (!said.failure.empty()) {
+        closed = icon_button("close", Icon::close, "close this message", false, kButton);
+        ImGui::SameLine();
+    }
+    ImGui::BeginGroup();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
+    for (const auto& [line, ink] :
+         {std::pair(&said.failure, Ink::error), std::pair(&said.standing, Ink::warning),
+          std::pair(&said.message, Ink::text)})
+        if (!line->empty()) {
+            ImGui::PushStyleColor(ImGuiCol_Text, color_of(ink));
+            ImGui::TextUnformatted(line->c_str());
+            ImGui::PopStyleColor();
+        }
+    ImGui::PopTextWrapPos();
+    ImGui::EndGroup();
+    ImGui::End();
+    return closed;
+}
+
+void progress_window(const std::string& name, const std::string& line, float fraction) {
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(0.9f * picture.x, 420.0f), 0.0f});
+    ImGui::Begin("###progress", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings);
+    text(name);
+    ImGui::ProgressBar(fraction, {-1.0f, 0.0f});
+    text(line);
+    note("Escape: leave", color_of(Ink::dim));
+    ImGui::End();
+}
+
+void leaving_window(const PanelModel& model, Commands& commands) {
+    if (!model.asked.leaving)
+        return;
+    const ImVec2 picture = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowFocus();
+    ImGui::Begin("Leave Isochron?###leaving", nullptr,
+                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    if (model.recording)
+        ImGui::TextUnformatted("The recording ends and is saved.");
+    if (model.movies.progress)
+        ImGui::TextUnformatted("The movie that is being made is discarded.");
+    if (ImGui::Button("Leave (Enter)"))
+        commands.quit = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Stay (Escape)"))
+        commands.leaving = false;
+    ImGui::End();
+}
+
+} // namespace isochron::app

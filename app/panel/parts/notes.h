@@ -1,0 +1,43 @@
+// What lies over the picture: how exact it is, and what the user is told and asked.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "app/panel/parts/places.h"
+#include "interaction/commands.h"
+
+#include <string>
+
+namespace isochron::app {
+
+/// How exact the picture is: `exact`, `preview 2 of 4`.
+struct StateWords {
+    std::string words;
+    bool exact = false;
+};
+StateWords state_words(const FrameReport& frame, interaction::QualityMode mode);
+
+/// How the picture is drawn, and why: `settled: surface, 7.2 of 11.1 ms`.
+std::string quality_line(const FrameReport& frame);
+
+/// The chip with these words at the upper left of the picture; a click opens and closes the
+/// statistics below it. @param open whether they are open
+/// @return the right end of the chip
+float state_chip(const PanelModel& model, const PanelBox& picture, bool& open);
+
+/// What is said at the top of the picture.
+struct Said {
+    std::string failure; ///< stays until the user closes it
+    std::string standing;
+    std::string message; ///< for a moment
+};
+/// Says it; empty parts are left out. @param top lowest place where it may begin
+/// @return whether the user has closed the failure
+bool message_window(const Said& said, const PanelBox& picture, float top);
+
+/// The progress of something that the user waits for, in the middle of the picture.
+/// @param fraction 0 to 1
+void progress_window(const std::string& name, const std::string& line, float fraction);
+/// The question whether to leave the program, in the middle of the picture.
+void leaving_window(const PanelModel& model, interaction::Commands& commands);
+
+} // namespace isochron::app

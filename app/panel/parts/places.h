@@ -1,0 +1,37 @@
+// Where the parts of the panel lie: bars above and below, the column of sections, the picture.
+#pragma once
+
+#include "app/panel/panel_model.h"
+
+#include <glm/vec2.hpp>
+
+#include <array>
+
+namespace isochron::app {
+
+/// In panel pixels from the top left.
+struct PanelBox {
+    glm::vec2 low{0.0f}, high{0.0f};
+    glm::vec2 size() const { return high - low; }
+    bool contains(glm::vec2 at) const {
+        return at.x >= low.x && at.x < high.x && at.y >= low.y && at.y < high.y;
+    }
+    bool operator==(const PanelBox&) const = default;
+};
+
+struct PanelPlaces {
+    PanelBox top, column, time, picture;
+    bool folded = false; ///< the column shows only icons, which open the sections over the picture
+    bool two_rows = false; ///< of the bar of the time: its buttons stand above its track
+
+    /// Whether a part that is always there covers a place.
+    bool covers(glm::vec2 at) const {
+        return top.contains(at) || column.contains(at) || time.contains(at);
+    }
+    bool operator==(const PanelPlaces&) const = default;
+};
+
+/// @param size of the window or the panel that they lie in, panel pixels
+PanelPlaces places_in(PanelPlace place, glm::vec2 size);
+
+} // namespace isochron::app

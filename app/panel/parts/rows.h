@@ -1,0 +1,51 @@
+// Rows of the panel's sections: the label in a column at the left, the control beside it.
+#pragma once
+
+#include <imgui.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace isochron::app {
+
+inline constexpr float kLabelColumn = 92.0f; ///< width of the labels, panel pixels
+
+/// Begins a row: the label, and the place and width of the control that is laid out next.
+/// @param spared width at the right that the control leaves free
+void row(const char* label, float spared = 0.0f);
+/// A row with nothing but text, cut with dots where it is too long; a tip shows all of it.
+void text_row(const char* label, const std::string& words);
+/// Text no wider than `width`: cut with dots, and then with a tip that shows all of it.
+void fitted_text(const std::string& words, float width, const ImVec4& color);
+
+/// The values that a field goes through when it is dragged.
+struct FieldRange {
+    double low = 0, high = 1;
+    bool logarithmic = false;
+    bool bounded = true; ///< values that are typed stay in the range, too
+};
+
+/// A number: a click lets the user type it, a drag changes it. The filled part of the field shows
+/// where it lies in the range. It takes the width of the next item.
+/// @param format as printf has it, with one number
+/// @return whether it has changed
+bool number_field(const char* id, double& value, const FieldRange& range, const char* format);
+bool number_field(const char* id, float& value, const FieldRange& range, const char* format);
+
+/// A whole number likewise, between two bounds; NumberEntry knows then that it is whole, and
+/// remembers the number that it had. @param low at least 0
+bool whole_number_field(const char* id, int* value, int low, int high, const char* format);
+
+/// One word of several. @param effect its tip @return the one that the user chose
+std::optional<std::size_t> choice_field(const char* id, const std::string& current,
+                                        std::span<const std::string> words, const char* effect);
+
+/// A box to tick. @return whether it has changed
+bool tick_field(const char* id, bool& on, const char* words = "");
+
+/// The format of a number with its unit, with the unit's percent signs escaped.
+std::string format_with(const std::string& unit);
+
+} // namespace isochron::app

@@ -1,0 +1,230 @@
+// The panel's sections: data, surfaces, color and view.
+#include "app/panel/parts/sections.h"
+
+#include "app/config/first_placement.h"
+#include "app/panel/panel_help.h"
+#include "app/panel/panel_statistics.h"
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/color_section.h"
+#include "app/panel/parts/rows.h"
+#include "app/panel/parts/surfaces_section.h"
+#include "app/panel/parts/theme.h"
+#include "app/text.h"
+#include "interaction/navigation/navigation.h"
+#include "interaction/tools/tool_table.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+
+void data_section(const PanelModel& model, Commands& commands) {
+    const index::SeriesInfo& info = model.info;
+    if (model.arrays.names.size() > 1) {
+        row("array");
+        const std::vector<std::string> names(model.arrays.names.begin(), model.arrays.names.end());
+        const auto chosen = choice_field("##array", names[model.arrays.asked], names,
+                                         "array whose isosurfaces are shown (Ctrl + A)");
+        if (chosen && *chosen != model.arrays.asked)
+            interaction::merge(commands, model.arrays.way_to(*chosen));
+    } else {
+        text_row("array", info.array);
+    }
+    text_row("values", fmt::format("{:.4g} to {}", model.stats.low,
+                                   with_unit(model.stats.high, info.value_unit)));
+    const glm::dvec3 size = physical_size(info.grid);
+    text_row("size", fmt::format("{:.3g} x {:.3g} x {:.3g}{}", size.x, size.y, size.z,
+                                 with_space(info.length_unit)));
+    text_row("grid",
+             fmt::format("{} x {} x {}, {} step{}", info.grid.vertices[0], info.grid.vertices[1],
+                         info.grid.vertices[2], info.steps(), info.steps() == 1 ? "" : "s"));
+}
+
+/// A row with the names of an enumeration.
+template <class Value>
+void named_row(const char* label, Value& value, const char* effect) {
+    const std::vector<std::string> words = interaction::all_names<Value>();
+    row(label);
+    const std::string id = fmt::format("##{}", label);
+    if (const auto chosen =
+            choice_field(id.c_str(), words[static_cast<std::size_t>(value)], words, effect))
+        value = static_cast<Value>(*chosen);
+}
+
+void look_rows(const PanelModel& model, Commands& commands) {
+    interaction::Look look = model.asked.look;
+    named_row("background", look.background,
+              "what is behind the data; with the light one the panel is light too");
+    named_row("material", look.material, "how surfaces shine");
+    row("occlusion");
+    float percent = 100.0f * look.occlusion;
+    if (number_field("##occlusion", percent, {.low = 0, .high = 100}, "%.0f %%"))
+        look.occlusion = percent / 100.0f;
+    tip("ambient occlusion: how dark crevices are");
+    if (look != model.asked.look)
+        commands.look = look;
+}
+
+void projection_rows(const PanelModel& model, Commands& commands) {
+    row("show");
+    bool box = model.asked.bounding_box;
+    if (tick_field("##box", box, "box"))
+        commands.bounding_box = box;
+    tip("the data's box, with ticks in their units (O)");
+    ImGui::SameLine(0.0f, 14.0f);
+    bool orthographic = model.asked.orthographic;
+    if (tick_field("##parallel", orthographic, "parallel"))
+        commands.orthographic = orthographic;
+    tip("parallel (orthographic) projection (0)");
+    row("heights");
+    double exaggeration = model.asked.room_from_physical.exaggeration;
+    if (number_field("##heights", exaggeration, {.low = 0.1, .high = 100, .logarithmic = true},
+                     "x %.3g"))
+        commands.room_from_physical = exaggerated(model.asked.room_from_physical,
+                                                  physical_center(model.info.grid), exaggeration);
+    tip("vertical exaggeration, along z (Ctrl + E, Ctrl + Shift + E)");
+}
+
+/// Only where there is something to set: with one picture for both eyes there is none.
+void stereo_rows(const PanelModel& model, Commands& commands) {
+    if (model.asked.stereo_mode() == stereo::StereoMode::mono && !model.quad_buffered)
+        return;
+    std::vector<std::string> modes;
+    for (const stereo::StereoMode mode : stereo::all_stereo_modes())
+        if (upright(mode) != stereo::StereoMode::quadbuffer || model.quad_buffered)
+            modes.emplace_back(stereo::name_of(mode));
+    row("stereo");
+    if (const auto chosen = choice_field("##stereo", model.asked.stereo, modes,
+                                         "how both eyes' pictures are shown (V)"))
+        commands.stereo = modes[*chosen];
+    row("eyes");
+    float millimeters = model.asked.eye_separation * 1000.0f;
+    if (number_field("##eyes", millimeters,
+                     {.low = 0, .high = static_cast<double>(interaction::kWidestEyes) * 1000},
+                     "%.0f mm"))
+        commands.eye_separation = millimeters / 1000.0f;
+    tip("distance between the eyes ( [ and ] )");
+}
+
+void hand_rows(const PanelModel& model, Commands& commands) {
+    const auto has = [&](interaction::DeviceKind kind) {
+        return std::ranges::find(model.at_hand, kind) != model.at_hand.end();
+    };
+    if (model.place != PanelPlace::in_room && !has(interaction::DeviceKind::hands) &&
+        !has(interaction::DeviceKind::gamepad))
+        return;
+    std::vector<std::string> words;
+    for (const interaction::ToolRow& each : interaction::tool_table())
+        words.emplace_back(each.words);
+    interaction::Tools tools = model.asked.tools;
+    const auto tool_row = [&](const char* label, const char* id, interaction::ToolKind& tool) {
+        row(label);
+        if (const auto chosen = choice_field(id, words[static_cast<std::size_t>(tool)], words,
+                                             "what the hand's first button does (4, 5, 6)"))
+            tool = interaction::tool_table()[*chosen].kind;
+    };
+    tool_row("right hand", "##right", tools.wand);
+    tool_row("left hand", "##left", tools.other);
+    if (tools != model.asked.tools)
+        commands.tools = tools;
+}
+
+void view_section(const PanelModel& model, Commands& commands) {
+    interaction::QualityMode quality = model.asked.quality;
+    named_row("quality", quality,
+              "auto (1): quads while something moves, then the best that fits the frame's time\n"
+              "fast (2): always quads\nquality (3): always the best, however long it takes");
+    if (quality != model.asked.quality)
+        commands.quality = quality;
+    look_rows(model, commands);
+    projection_rows(model, commands);
+    stereo_rows(model, commands);
+    hand_rows(model, commands);
+}
+
+/// A line with the section's name, which folds it. @return whether it is open
+bool section_line(const Section& section) {
+    bool* const open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID(section.name), true);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    if (ImGui::InvisibleButton(section.name, {width, height}))
+        *open = !*open;
+    if (ImGui::IsItemHovered())
+        list.AddRectFilled(corner, {corner.x + width, corner.y + height},
+                           ImGui::GetColorU32(ImGuiCol_FrameBg), 3.0f);
+    const float middle = corner.y + height / 2;
+    const ImU32 ink = packed(Ink::text);
+    draw_icon(list, section.icon, {corner.x + 9.0f, middle}, 17.0f, packed(Ink::dim));
+    list.AddText({corner.x + 26.0f, middle - ImGui::GetFontSize() / 2}, ink, section.name);
+    const float x = corner.x + width - 9.0f;
+    if (*open)
+        list.AddTriangleFilled({x - 4, middle - 2}, {x + 4, middle - 2}, {x, middle + 3},
+                               packed(Ink::dim));
+    else
+        list.AddTriangleFilled({x - 2, middle - 4}, {x - 2, middle + 4}, {x + 3, middle},
+                               packed(Ink::dim));
+    return *open;
+}
+
+} // namespace
+
+const std::array<Section, kSections>& sections() {
+    static constexpr std::array<Section, kSections> kAll{
+        {{"Data", Icon::data, data_section},
+         {"Surfaces", Icon::surfaces, surfaces_section},
+         {"Color", Icon::color, color_section},
+         {"View", Icon::view, view_section}}};
+    return kAll;
+}
+
+void section_column(const PanelModel& model, Commands& commands) {
+    for (const Section& section : sections()) {
+        if (section_line(section)) {
+            ImGui::PushID(section.name);
+            section.lay_out(model, commands);
+            ImGui::PopID();
+            ImGui::Dummy({0.0f, 2.0f});
+        }
+        if (&section != &sections().back())
+            ImGui::Separator();
+    }
+    complaints(model);
+}
+
+void section_pages(const PanelModel& model, Commands& commands) {
+    constexpr int kFirst = 1; // the surfaces
+    int* const page = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("page"), kFirst);
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - (kSections - 1) * gap) / kSections;
+    for (int i = 0; i < static_cast<int>(kSections); ++i) {
+        if (i > 0)
+            ImGui::SameLine();
+        const bool chosen = i == *page;
+        if (chosen)
+            ImGui::PushStyleColor(ImGuiCol_Button, color_of(Ink::chosen));
+        if (ImGui::Button(sections()[static_cast<std::size_t>(i)].name, {width, 0.0f}))
+            *page = i;
+        if (chosen)
+            ImGui::PopStyleColor();
+    }
+    ImGui::Dummy({0.0f, 1.0f});
+    const Section& section = sections()[static_cast<std::size_t>(*page)];
+    ImGui::PushID(section.name);
+    section.lay_out(model, commands);
+    ImGui::PopID();
+    if (model.place == PanelPlace::in_room && section.lay_out == view_section &&
+        ImGui::CollapsingHeader("hands"))
+        controls_of(std::array{interaction::DeviceKind::hands}, model.controls);
+    complaints(model); // below all controls, so that it does not move them
+}
+
+} // namespace isochron::app

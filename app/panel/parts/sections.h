@@ -1,0 +1,27 @@
+// The panel's sections: data, surfaces, color and view.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "app/panel/parts/icons.h"
+#include "interaction/commands.h"
+
+#include <array>
+#include <cstddef>
+
+namespace isochron::app {
+
+/// One section of the panel.
+struct Section {
+    const char* name;
+    Icon icon;
+    void (*lay_out)(const PanelModel& model, interaction::Commands& commands);
+};
+inline constexpr std::size_t kSections = 4;
+const std::array<Section, kSections>& sections();
+
+/// All of them in the current window, each under a line that folds it.
+void section_column(const PanelModel& model, interaction::Commands& commands);
+/// One of them, which the user chooses from a line of names: for panels without room for all.
+void section_pages(const PanelModel& model, interaction::Commands& commands);
+
+} // namespace isochron::app

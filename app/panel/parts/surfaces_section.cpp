@@ -1,0 +1,180 @@
+// The panel's section on surfaces: their values, colors and opacities.
+#include "app/panel/parts/surfaces_section.h"
+
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/histogram.h"
+#include "app/panel/parts/icons.h"
+#include "app/panel/parts/rows.h"
+#include "app/panel/parts/theme.h"
+#include "app/text.h"
+#include "render/passes/color_map.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::Isosurface;
+
+constexpr float kSmallIcon = 22.0f, kOpacityField = 54.0f;
+
+/// A new surface: with a color that no other has, and an isovalue between the picked one's and the
+/// farther end of the range.
+Isosurface another(const PanelModel& model) {
+    const auto& surfaces = model.asked.isosurfaces;
+    const auto& palette = render::surface_palette();
+    const auto free = std::ranges::find_if(palette, [&](const glm::vec3& color) {
+        return std::ranges::find(surfaces, color, &Isosurface::color) == surfaces.end();
+    });
+    const double low = model.stats.low, high = model.stats.high, picked = model.asked.isovalue();
+    const double end = high / 2 - picked / 2 > picked / 2 - low / 2 ? high : low;
+    return {picked / 2 + end / 2, free == palette.end() ? palette.front() : *free, 1.0f};
+}
+
+/// What the user did with the list, beside what a row changes in its surface.
+struct ListChange {
+    std::optional<std::uint32_t> removed, picked;
+    std::optional<double> isovalue; ///< of `picked`
+};
+
+/// Hides a surface, and shows it again as opaque as it was.
+void eye_button(Isosurface& surface) {
+    float* const before = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("before"), 1.0f);
+    const bool seen = surface.opacity > 0.0f;
+    if (seen)
+        *before = surface.opacity;
+    if (icon_button("eye", seen ? Icon::eye : Icon::eye_shut,
+                    seen ? "hide this surface" : "show this surface", false, kSmallIcon))
+        surface.opacity = seen ? 0.0f : *before;
+}
+
+void menu_of_surface(const PanelModel& model, std::uint32_t i, ListChange& change) {
+    if (icon_button("menu", Icon::menu, "more about this surface", false, kSmallIcon))
+        ImGui::OpenPopup("surface");
+    if (!ImGui::BeginPopup("surface"))
+        return;
+    if (ImGui::MenuItem("keys and wheel move this one", "I", model.asked.picked == i))
+        change.picked = i;
+    const auto& mark = model.asked.mark.point;
+    if (ImGui::MenuItem("isovalue of the mark", nullptr, false, mark.has_value())) {
+        change.picked = i;
+        change.isovalue = mark->value;
+    }
+    if (ImGui::MenuItem("remove", nullptr, false, model.asked.isosurfaces.size() > 1))
+        change.removed = i;
+    ImGui::EndPopup();
+}
+
+void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
+                 ListChange& change) {
+    ImGui::PushID(static_cast<int>(i));
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    if (model.asked.picked == i && model.asked.isosurfaces.size() > 1)
+        ImGui::GetWindowDrawList()->AddRectFilled({corner.x - 7.0f, corner.y},
+                                                  {corner.x - 4.0f, corner.y + kSmallIcon},
+                                                  packed(Ink::accent), 1.5f);
+    ImGui::ColorEdit3("##color", &surface.color.x, ImGuiColorEditFlags_NoInputs);
+    tip("its color");
+    ImGui::SameLine();
+    eye_button(surface);
+    ImGui::SameLine();
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - kOpacityField - kSmallIcon -
+                            2 * gap);
+    // Beyond half of the doubles' range ImGui gives up.
+    constexpr double kMost = std::numeric_limits<double>::max() / 2;
+    double value = surface.isovalue;
+    if (number_field("##isovalue", value,
+                     {.low = std::clamp(model.stats.low, -kMost, kMost),
+                      .high = std::clamp(model.stats.high, -kMost, kMost),
+                      .bounded = false},
+                     format_with(model.info.value_unit).c_str())) {
+        change.picked = i;
+        change.isovalue = value;
+    }
+    tip("isovalue: drag, or click and type (Up, Down)");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(kOpacityField);
+    float percent = 100.0f * surface.opacity;
+    if (number_field("##opacity", percent, {.low = 0, .high = 100}, "%.0f %%"))
+        surface.opacity = percent / 100.0f;
+    tip("opacity");
+    ImGui::SameLine();
+    menu_of_surface(model, i, change);
+    ImGui::PopID();
+}
+
+/// What the user should know of the isovalues; always one line, so that the controls below stay in
+/// place for the user's hand and for a replay.
+void line_on_isovalues(const PanelModel& model) {
+    const auto& surfaces = model.asked.isosurfaces;
+    const double asked = model.asked.isovalue();
+    if (asked < model.stats.low || asked > model.stats.high)
+        return state_note(fmt::format("outside the data's range, {} to {}",
+                                      human_number(model.stats.low),
+                                      with_unit(model.stats.high, model.info.value_unit)),
+                          color_of(Ink::warning));
+    if (surfaces.size() < 2)
+        return state_note(" ", color_of(Ink::dim));
+    const bool through =
+        std::ranges::any_of(surfaces, [](const Isosurface& each) { return each.opacity < 1.0f; });
+    state_note(through ? "lower isovalues lie outside, translucent"
+                       : "lower isovalues lie outside and hide others",
+               color_of(Ink::dim));
+}
+
+void take(const ListChange& change, std::vector<Isosurface>& surfaces, std::uint32_t picked,
+          Commands& commands) {
+    if (change.picked && *change.picked != picked)
+        commands.picked = change.picked;
+    if (change.isovalue)
+        commands.isovalue = change.isovalue;
+    if (!change.removed)
+        return;
+    surfaces.erase(surfaces.begin() + *change.removed);
+    if (picked > *change.removed || picked >= surfaces.size())
+        commands.picked = picked - 1;
+}
+
+} // namespace
+
+void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
+    constexpr float kSeenThrough = 0.45f;
+    for (Isosurface& outer : surfaces) {
+        const bool encloses = std::ranges::any_of(surfaces, [&](const Isosurface& inner) {
+            return inner.isovalue > outer.isovalue &&
+                   (&outer == &surfaces[added] || &inner == &surfaces[added]);
+        });
+        if (encloses)
+            outer.opacity = std::min(outer.opacity, kSeenThrough);
+    }
+}
+
+void surfaces_section(const PanelModel& model, Commands& commands) {
+    histogram(model, commands);
+    std::vector<Isosurface> surfaces = model.asked.isosurfaces;
+    ListChange change;
+    for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+        surface_row(model, i, surfaces[i], change);
+    take(change, surfaces, model.asked.picked, commands);
+    ImGui::BeginDisabled(surfaces.size() >= interaction::kMostIsosurfaces);
+    if (icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon)) {
+        commands.picked = static_cast<std::uint32_t>(surfaces.size());
+        surfaces.push_back(another(model));
+        let_see(surfaces, surfaces.size() - 1);
+    }
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    line_on_isovalues(model);
+    if (surfaces != model.asked.isosurfaces)
+        commands.isosurfaces = surfaces;
+}
+
+} // namespace isochron::app

@@ -1,0 +1,250 @@
+// The bar at the top: data, undo, tools, what is written, and help.
+#include "app/panel/parts/top_bar.h"
+
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/icons.h"
+#include "app/panel/parts/rows.h"
+#include "app/panel/parts/theme.h"
+#include "app/scene/mark.h"
+#include "interaction/tools/clip_tool.h"
+#include "interaction/tools/tool_table.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::ToolKind;
+
+constexpr float kWideBar = 620.0f;   ///< has room for words beside its icons
+constexpr float kNarrowBar = 400.0f; ///< below, what has a key is left out
+
+void gap_between_groups() {
+    ImGui::SameLine(0.0f, 6.0f);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddLine(
+        {corner.x, corner.y + 5.0f}, {corner.x, corner.y + kIconButton - 5.0f}, packed(Ink::line));
+    ImGui::SetCursorScreenPos({corner.x + 6.0f, corner.y});
+}
+
+void way_button(const char* id, Icon icon, const char* effect, const Commands* change,
+                Commands& commands) {
+    ImGui::BeginDisabled(!change);
+    if (icon_button(id, icon, effect) && change)
+        commands = *change;
+    ImGui::EndDisabled();
+}
+
+struct ToolFace {
+    Icon icon;
+    const char* key;
+};
+ToolFace face_of(ToolKind tool) {
+    switch (tool) {
+    case ToolKind::pick: return {Icon::pick, " (4)"};
+    case ToolKind::clip: return {Icon::clip, " (5)"};
+    case ToolKind::ruler: return {Icon::ruler, " (6)"};
+    case ToolKind::grab: break;
+    }
+    return {Icon::hand, ""};
+}
+
+/// The tool of the mouse, or of the wand that points at the panel in the room.
+void tool_buttons(const PanelModel& model, Commands& commands) {
+    const bool in_room = model.place == PanelPlace::in_room;
+    interaction::Tools tools = model.asked.tools;
+    ToolKind& held = in_room ? tools.wand : tools.mouse;
+    const ToolKind usual = in_room ? ToolKind::grab : ToolKind::pick;
+    for (const interaction::ToolRow& each : interaction::tool_table()) {
+        const ToolFace face = face_of(each.kind);
+        const bool on = held == each.kind;
+        if (icon_button(std::string(each.words).c_str(), face.icon,
+                        fmt::format("{}: {}{}", each.words, each.effect, face.key).c_str(), on))
+            held = on ? usual : each.kind;
+        if (&each != &interaction::tool_table().back())
+            ImGui::SameLine(0.0f, 2.0f);
+    }
+    if (tools != model.asked.tools)
+        commands.tools = tools;
+}
+
+void movie_button(const PanelModel& model, PanelPages& pages) {
+    if (icon_button("movie", Icon::movie, "make a movie", model.movies.progress.has_value()))
+        ImGui::OpenPopup("movies");
+    if (!ImGui::BeginPopup("movies"))
+        return;
+    pages.movie = movie_section(model);
+    if (pages.movie)
+        ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+/// Moves to a place from which `width` is left to the end of the line.
+void go_to_end(float width) {
+    const float end = ImGui::GetWindowContentRegionMax().x;
+    ImGui::SameLine(std::max(ImGui::GetCursorPosX(), end - width));
+}
+
+} // namespace
+
+void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
+    const bool in_room = model.place == PanelPlace::in_room;
+    const float whole = ImGui::GetWindowWidth();
+    ImGui::SetCursorPosY((ImGui::GetWindowHeight() - kIconButton) / 2);
+    if (!in_room && pages.offers_files) {
+        if (icon_button("open", Icon::open, "open other data (Ctrl + O)"))
+            pages.files = true;
+        gap_between_groups();
+    }
+    way_button("undo", Icon::undo, "undo (Ctrl + Z)", model.ways.undo, commands);
+    ImGui::SameLine(0.0f, 2.0f);
+    way_button("redo", Icon::redo, "redo (Ctrl + Shift + Z)", model.ways.redo, commands);
+    gap_between_groups();
+    tool_buttons(model, commands);
+    gap_between_groups();
+    if (icon_button("picture", Icon::picture, "save a picture of every window (P)"))
+        commands.screenshot = true;
+    if (in_room)
+        return;
+    if (model.movies.offered && whole >= kNarrowBar) {
+        ImGui::SameLine(0.0f, 2.0f);
+        if (icon_button("record", Icon::record,
+                        model.recording ? "end the recording of this session"
+                                        : "record this session, to replay it",
+                        model.recording))
+            pages.movie = MovieWish::record;
+        ImGui::SameLine(0.0f, 2.0f);
+        movie_button(model, pages);
+    }
+    constexpr float kSearch = 170.0f, kGap = 4.0f;
+    const bool words = whole >= kWideBar;
+    go_to_end(kIconButton + kGap + (words ? kSearch : kIconButton));
+    if (words) {
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0.0f, 0.5f});
+        if (ImGui::Button("      search    Ctrl + K", {kSearch, kIconButton}))
+            pages.search = true;
+        ImGui::PopStyleVar();
+        draw_icon(*ImGui::GetWindowDrawList(), Icon::search,
+                  {corner.x + 15.0f, corner.y + kIconButton / 2}, 17.0f, packed(Ink::dim));
+        tip("find a command, see its key, and run it (Ctrl + K)");
+    } else if (icon_button("search", Icon::search,
+                           "find a command, see its key, and run it (Ctrl + K)")) {
+        pages.search = true;
+    }
+    ImGui::SameLine(0.0f, kGap);
+    if (icon_button("help", Icon::help, "help: keys, mouse and devices (F1)"))
+        pages.help = true;
+}
+
+std::optional<MovieWish> movie_section(const PanelModel& model) {
+    std::optional<MovieWish> wish;
+    if (model.movies.progress) {
+        ImGui::ProgressBar(*model.movies.progress, {160.0f, 0.0f});
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel"))
+            wish = MovieWish::give_up;
+        tip("stop and delete the movie");
+        return wish;
+    }
+    ImGui::BeginDisabled(model.asked.known_steps(model.info.steps()) < 2);
+    if (ImGui::Button("all steps, this view"))
+        wish = MovieWish::series;
+    ImGui::EndDisabled();
+    tip("movie of all steps with this view, at the playback speed; saved in the screenshot folder");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!model.movies.recorded);
+    if (ImGui::Button("recording so far"))
+        wish = MovieWish::recording;
+    ImGui::EndDisabled();
+    tip(model.movies.recorded ? "movie of this session; saved in the screenshot folder"
+                              : "movie of this session; needs a recording");
+    return wish;
+}
+
+namespace {
+
+void clip_line(const PanelModel& model, Commands& commands) {
+    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color_of(Ink::dim), "clip across");
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::SameLine();
+        ImGui::PushID(axis);
+        if (ImGui::Button(kAxes[static_cast<std::size_t>(axis)], {26.0f, 0.0f}))
+            commands.clip = snapped(model.asked.clip, axis, model.data);
+        tip("clip plane across this axis; again: the other side (7)");
+        ImGui::PopID();
+    }
+    if (!model.asked.clip.shown)
+        return;
+    ImGui::SameLine();
+    if (icon_button("flip", Icon::flip, "cut away the other side", false,
+                    ImGui::GetFrameHeight())) {
+        interaction::ClipPlane other = model.asked.clip;
+        other.normal = -other.normal;
+        commands.clip = other;
+    }
+    ImGui::SameLine();
+    if (icon_button("no clip", Icon::remove, "remove the clip plane (Delete)", false,
+                    ImGui::GetFrameHeight()))
+        commands.clip = interaction::ClipPlane{};
+}
+
+void ruler_line(const PanelModel& model, Commands& commands) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(color_of(Ink::dim), "%s",
+                       model.asked.ruler.places.size() < interaction::kMostRulerPlaces
+                           ? "click two places on surfaces"
+                           : "ruler");
+    if (model.asked.ruler.places.empty())
+        return;
+    ImGui::SameLine();
+    if (icon_button("no ruler", Icon::remove, "remove the ruler (Delete)", false,
+                    ImGui::GetFrameHeight()))
+        commands.ruler = interaction::Ruler{};
+}
+
+/// The place that the user picked.
+void mark_line(const PanelModel& model, Commands& commands) {
+    const interaction::MarkedPoint& point = *model.asked.mark.point;
+    ImGui::AlignTextToFramePadding();
+    const std::string words = mark_text(point, model.info);
+    fitted_text(words.substr(0, words.find('\n')), 200.0f, color_of(Ink::text));
+    ImGui::SameLine();
+    if (ImGui::Button("isovalue here"))
+        commands.isovalue = point.value;
+    tip("set the isovalue to that of the picked place");
+    ImGui::SameLine();
+    if (icon_button("no mark", Icon::remove, "remove the mark (Delete)", false,
+                    ImGui::GetFrameHeight()))
+        commands.mark = interaction::Mark{};
+}
+
+} // namespace
+
+bool has_tool_strip(const PanelModel& model) {
+    const ToolKind tool =
+        model.place == PanelPlace::in_room ? model.asked.tools.wand : model.asked.tools.mouse;
+    return tool == ToolKind::clip || tool == ToolKind::ruler || model.asked.clip.shown ||
+           !model.asked.ruler.places.empty() || model.asked.mark.point;
+}
+
+void tool_strip(const PanelModel& model, Commands& commands) {
+    const ToolKind tool =
+        model.place == PanelPlace::in_room ? model.asked.tools.wand : model.asked.tools.mouse;
+    if (tool == ToolKind::clip || model.asked.clip.shown)
+        clip_line(model, commands);
+    if (tool == ToolKind::ruler || !model.asked.ruler.places.empty())
+        ruler_line(model, commands);
+    if (model.asked.mark.point)
+        mark_line(model, commands);
+}
+
+} // namespace isochron::app

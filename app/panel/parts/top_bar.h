@@ -1,0 +1,31 @@
+// The bar at the top: data, undo, tools, what is written, and help.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "interaction/commands.h"
+
+#include <optional>
+
+namespace isochron::app {
+
+/// What the user asks for from a bar that no command is for.
+struct PanelPages {
+    bool offers_files = false;                        ///< the user can open other data
+    bool files = false, help = false, search = false; ///< opened in this frame
+    std::optional<MovieWish> movie{};                 ///< likewise
+};
+
+/// Lays it out in the current window.
+void top_bar(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
+
+/// Buttons that start movies, and the progress of the movie that is being made.
+/// @return what the user wants
+std::optional<MovieWish> movie_section(const PanelModel& model);
+
+/// What can be done with the chosen tool, and with what tools have made: a line for each in the
+/// current window.
+void tool_strip(const PanelModel& model, interaction::Commands& commands);
+/// Whether there is anything in it.
+bool has_tool_strip(const PanelModel& model);
+
+} // namespace isochron::app

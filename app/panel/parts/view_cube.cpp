@@ -1,0 +1,163 @@
+// A cube in the picture's corner that shows how the data lie; a click on it turns them.
+#include "app/panel/parts/view_cube.h"
+
+#include "app/config/first_placement.h"
+#include "app/panel/panel_words.h"
+#include "app/panel/parts/theme.h"
+#include "interaction/navigation/axis_views.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <imgui.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::AxisView;
+
+constexpr float kSide = 92.0f;     ///< of its window, panel pixels
+constexpr float kHalfEdge = 25.0f; ///< of the cube: its corners stay in the window
+constexpr float kCornerReach = 7.0f;
+constexpr double kSeen = 0.08;   ///< cosine from which on a face is drawn
+constexpr double kLegible = 0.4; ///< likewise, with its name
+
+/// From directions of the data to the window: x to the right, y down, z towards the viewer.
+class Turn {
+  public:
+    Turn(const PanelModel& model, const ImVec2& middle)
+        : turn_(glm::conjugate(glm::normalize(glm::dquat(model.head.orientation))) *
+                model.asked.room_from_physical.rotation),
+          middle_(middle) {}
+
+    double towards_viewer(const glm::dvec3& way) const { return (turn_ * way).z; }
+    ImVec2 way(const glm::dvec3& way) const {
+        const glm::dvec3 seen = turn_ * way;
+        return {static_cast<float>(seen.x), static_cast<float>(-seen.y)};
+    }
+    ImVec2 place(const glm::dvec3& corner) const {
+        const ImVec2 at = way(corner);
+        return {middle_.x + kHalfEdge * at.x, middle_.y + kHalfEdge * at.y};
+    }
+
+  private:
+    glm::dquat turn_;
+    ImVec2 middle_;
+};
+
+struct Face {
+    const AxisView* view;
+    glm::dvec3 right;
+    std::array<ImVec2, 4> corners;
+};
+
+std::vector<Face> seen_faces(const Turn& turn) {
+    std::vector<Face> faces;
+    for (std::size_t i = 0; i < interaction::kIsometric; ++i) {
+        const AxisView& view = interaction::axis_views()[i];
+        if (turn.towards_viewer(view.towards_eye) < kSeen)
+            continue;
+        const glm::dvec3 right = glm::cross(view.up, view.towards_eye);
+        Face face{&view, right, {}};
+        constexpr std::array<glm::dvec2, 4> kAround{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
+        for (std::size_t corner = 0; corner < 4; ++corner)
+            face.corners[corner] = turn.place(view.towards_eye + kAround[corner].x * right +
+                                              kAround[corner].y * view.up);
+        faces.push_back(face);
+    }
+    return faces;
+}
+
+bool is_on(const Face& face, const ImVec2& at) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const ImVec2 &a = face.corners[i], &b = face.corners[(i + 1) % 4];
+        if ((b.x - a.x) * (at.y - a.y) - (b.y - a.y) * (at.x - a.x) < 0)
+            return false;
+    }
+    return true;
+}
+
+/// The name, as if it were painted on the face.
+void paint_name(const Face& face, const Turn& turn) {
+    if (turn.towards_viewer(face.view->towards_eye) < kLegible)
+        return;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 middle = turn.place(face.view->towards_eye);
+    const ImVec2 size = ImGui::CalcTextSize(face.view->name);
+    const int first = list.VtxBuffer.Size;
+    list.AddText({middle.x - size.x / 2, middle.y - size.y / 2}, packed(Ink::text),
+                 face.view->name);
+    constexpr float kLarger = 1.25f;
+    const ImVec2 right = turn.way(face.right), down = turn.way(-face.view->up);
+    for (int i = first; i < list.VtxBuffer.Size; ++i) {
+        ImVec2& at = list.VtxBuffer[i].pos;
+        const float x = kLarger * (at.x - middle.x), y = kLarger * (at.y - middle.y);
+        at = {middle.x + x * right.x + y * down.x, middle.y + x * right.y + y * down.y};
+    }
+}
+
+/// The corner that is nearest to the viewer, if three faces meet there.
+std::optional<ImVec2> nearest_corner(const std::vector<Face>& faces, const Turn& turn) {
+    if (faces.size() != 3)
+        return std::nullopt;
+    glm::dvec3 corner(0.0);
+    for (const Face& face : faces)
+        corner += face.view->towards_eye;
+    return turn.place(corner);
+}
+
+} // namespace
+
+void view_cube(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands) {
+    if (picture.size().x < 3 * kSide || picture.size().y < 2 * kSide)
+        return;
+    const ImVec2 corner(picture.high.x - kSide - 8.0f, picture.low.y + 6.0f);
+    ImGui::SetNextWindowPos(corner);
+    ImGui::SetNextWindowSize({kSide, kSide});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::Begin("###cube", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    const bool pressed = ImGui::InvisibleButton("cube", {kSide, kSide});
+    const bool hovered = ImGui::IsItemHovered();
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const Turn turn(model, {corner.x + kSide / 2, corner.y + kSide / 2});
+    const std::vector<Face> faces = seen_faces(turn);
+    const std::optional<ImVec2> tip_of_cube = nearest_corner(faces, turn);
+    const auto near_tip = [&] {
+        const float x = mouse.x - tip_of_cube->x, y = mouse.y - tip_of_cube->y;
+        return x * x + y * y < kCornerReach * kCornerReach;
+    };
+    const AxisView* pointed = nullptr;
+    if (hovered && tip_of_cube && near_tip())
+        pointed = &interaction::axis_views()[interaction::kIsometric];
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (const Face& face : faces) {
+        if (hovered && !pointed && is_on(face, mouse))
+            pointed = face.view;
+        list.AddConvexPolyFilled(face.corners.data(), 4,
+                                 packed(pointed == face.view ? Ink::chosen : Ink::control));
+        list.AddPolyline(face.corners.data(), 4, packed(Ink::columns), ImDrawFlags_Closed, 1.2f);
+        paint_name(face, turn);
+    }
+    if (tip_of_cube)
+        list.AddCircleFilled(*tip_of_cube, 4.0f,
+                             packed(hovered && near_tip() ? Ink::accent : Ink::columns));
+    if (pointed) {
+        tip(pointed == &interaction::axis_views()[interaction::kIsometric]
+                ? "look from a corner (9)"
+                : (std::string("look from ") + pointed->name + " (8)").c_str());
+        if (pressed)
+            commands.room_from_physical = seen_from(*pointed, model.asked.room_from_physical,
+                                                    physical_center(model.info.grid), model.head);
+    }
+    ImGui::End();
+    ImGui::PopStyleVar();
+}
+
+} // namespace isochron::app

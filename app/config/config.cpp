@@ -129,6 +129,7 @@ void read_placement(TomlReader& reader, PlacementOptions& placement) {
     reader.number("size", 0.01, 100.0, placement.size);
     reader.number("height", -100.0, 100.0, placement.height);
     reader.number("distance", -100.0, 100.0, placement.distance);
+    reader.number("fill", 0.0, 1.0, placement.fill);
 }
 
 void read_root(TomlReader& reader, Config& config) {

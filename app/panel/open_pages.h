@@ -40,6 +40,7 @@ class OpenPages {
 
     void open_help() { help_ = true; }
     void open_search() { search_.open(); }
+    bool searches() const { return search_.is_open(); }
     /// What is to be pressed for the command that the user found; returned once.
     std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
     bool has_presses() const { return !presses_.empty(); }

@@ -54,11 +54,11 @@ interaction::Commands OperatorPanel::draw_alone(const Model& model, interaction:
 }
 
 stereo::Margins OperatorPanel::covered(glm::ivec2 size) const {
-    const PanelPlaces& places = over_.places();
-    if (console_ || !first_.has_window() || places == PanelPlaces{})
+    if (console_ || !first_.has_window())
         return {};
-    const glm::ivec2 low(glm::round(over_.scale() * places.picture.low));
-    const glm::ivec2 high(glm::round(over_.scale() * places.picture.high));
+    const float scale = panel_scale(first_, font_scale_, size.x);
+    const PanelBox free = places_in(PanelPlace::over, glm::vec2(size) / scale).picture;
+    const glm::ivec2 low(glm::round(scale * free.low)), high(glm::round(scale * free.high));
     if (2 * low.x > size.x || 2 * (high.y - low.y) < size.y)
         return {};
     return {.left = low.x, .top = low.y, .bottom = size.y - high.y};

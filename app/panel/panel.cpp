@@ -50,13 +50,9 @@ void title_of(const PanelModel& model, const PanelPlaces& places) {
 
 /// The icons of a folded column; each opens its section over the picture, and closes it again.
 void section_icons(std::optional<std::size_t>& open) {
-    constexpr float kMargin = 6.0f;
-    ImGui::SetCursorPos({kMargin, kMargin});
-    for (std::size_t i = 0; i < kSections; ++i) {
-        ImGui::SetCursorPosX(kMargin);
+    for (std::size_t i = 0; i < kSections; ++i)
         if (icon_button(sections()[i].name, sections()[i].icon, sections()[i].name, open == i))
             open = open == i ? std::nullopt : std::optional(i);
-    }
 }
 
 void section_over_picture(const PanelModel& model, const PanelPlaces& places, std::size_t number,
@@ -116,6 +112,8 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     begin_part("###top", places.top, Ink::bar);
     top_bar(model, pages, commands);
     end_part();
+    const ImVec2 padding = places.folded ? ImVec2(6, 6) : ImGui::GetStyle().WindowPadding;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
     begin_part("###column", places.column, Ink::paper, kPart & ~ImGuiWindowFlags_NoScrollbar);
     if (places.folded)
         section_icons(view.section);
@@ -126,6 +124,7 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     if (model.place == PanelPlace::in_room && has_tool_strip(model))
         tool_strip(model, commands);
     end_part();
+    ImGui::PopStyleVar();
     begin_part("###time", places.time, Ink::bar);
     time_bar(model, places.two_rows, commands);
     end_part();

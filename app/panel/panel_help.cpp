@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace isochron::app {
 namespace {
@@ -46,12 +47,16 @@ void controls_of(std::span<const interaction::DeviceKind> kinds,
 bool help_window(const PanelModel& model) {
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(0.96f * picture.x, 620.0f), 0.92f * picture.y});
+    ImGui::SetNextWindowSize(
+        {std::min(std::floor(0.96f * picture.x), 620.0f), 2 * std::floor(0.46f * picture.y)});
     bool open = true;
     ImGui::Begin("Keys, mouse and devices (F1)###help", &open,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
+    ImGui::BeginChild("controls"); // its lines end above the window's rounded edge
+    ImGui::Indent(4.0f);           // letters reach beyond their own place
     controls_of(model.at_hand, model.controls);
+    ImGui::EndChild();
     ImGui::End();
     return open;
 }

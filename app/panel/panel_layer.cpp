@@ -109,7 +109,14 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
     }
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     fed_ = !waiting_.empty();
-    while (!waiting_.empty() && !(shown && taker.must_wait(waiting_.front()))) {
+    // What is typed as soon as the search opens waits for its field.
+    const auto waits = [&](const WindowEvent& event) {
+        const bool typed =
+            std::holds_alternative<KeyEvent>(event) || std::holds_alternative<TextEvent>(event);
+        return (typed && pages_.searches() && !io.WantTextInput) ||
+               (shown && taker.must_wait(event));
+    };
+    while (!waiting_.empty() && !waits(waiting_.front())) {
         const WindowEvent event = waiting_.front();
         waiting_.pop_front();
         if (pages_.turn(event, has_popup()))

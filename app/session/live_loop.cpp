@@ -79,13 +79,38 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
         asked.step = steps - 1;
 }
 
+/// The panel's button: a recording from now on, in the folder of the movies; or the end of the one
+/// that goes on.
+void LiveLoop::begin_or_end_recording(Session& session) {
+    if (recorder_) {
+        recording_.post([recorder = recorder_] {
+            recorder->finish();
+            return std::string("the recording is saved");
+        });
+        recorder_.reset();
+    } else {
+        try {
+            interaction::RecordingHeader header = movies_->orders().header;
+            header.start = session.state().as_commands();
+            const auto path = free_recording_name(movies_->orders().folder);
+            record(path, header);
+            session.show_messages({fmt::format("recording to {}", path.string())});
+        } catch (const interaction::Error& error) {
+            session.show_messages({error.what()});
+        }
+    }
+    session.set_recording(recorder_ != nullptr);
+}
+
 /// Begins and ends those that the panel asks for.
 void LiveLoop::make_movies(Session& session) {
     if (!movies_)
         return;
     constexpr double kRate = 30; // as `isochron movie` has it where nothing is said
     const std::optional<MovieWish> wish = session.panel().take_wanted_movie();
-    if (wish == MovieWish::give_up)
+    if (wish == MovieWish::record)
+        begin_or_end_recording(session);
+    else if (wish == MovieWish::give_up)
         movies_->give_up();
     else if (wish == MovieWish::recording && recorder_)
         movies_->make([recorder = recorder_](const auto& path) { recorder->copy_to(path); },

@@ -102,6 +102,7 @@ class LiveLoop {
     void take_next_data(Session& session);
     void open(const std::filesystem::path& data, Session& session);
     void make_movies(Session& session);
+    void begin_or_end_recording(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
     bool closes(const Session& session, interaction::Commands& asked) const;
     std::function<void()> waker() const;

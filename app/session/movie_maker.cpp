@@ -64,6 +64,15 @@ interaction::InputState at_rest(interaction::InputState input) {
 
 } // namespace
 
+fs::path free_recording_name(const fs::path& folder) {
+    for (int number = 1;; ++number) {
+        fs::path path = folder / fmt::format("isochron_recording_{:04}.jsonl", number);
+        std::error_code ignored;
+        if (!fs::exists(path, ignored) && !fs::exists(path.string() + ".part", ignored))
+            return path;
+    }
+}
+
 MovieMaker::MovieMaker(MovieOrders orders) : orders_(std::move(orders)) {}
 
 MovieMaker::~MovieMaker() {

@@ -71,6 +71,9 @@ class MovieMaker {
     std::vector<std::string> messages_;
 };
 
+/// The first name of a recording that no file in a folder has yet: `isochron_recording_0001.jsonl`.
+std::filesystem::path free_recording_name(const std::filesystem::path& folder);
+
 /// A recording in which all steps pass once, as fast as playback would show them, seen from one
 /// place in the best quality.
 /// @param header of the session

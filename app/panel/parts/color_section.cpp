@@ -106,9 +106,11 @@ bool two_numbers(const char* label, std::array<double, 2>& ends, const FieldRang
         if (end > 0)
             ImGui::SameLine();
         ImGui::SetNextItemWidth(half);
+        ImGui::PushID(label);
         ImGui::PushID(static_cast<int>(end));
-        changed = number_field(label, ends[end], range, "%.5g") || changed;
+        changed = number_field("##end", ends[end], range, "%.5g") || changed;
         tip(effect);
+        ImGui::PopID();
         ImGui::PopID();
     }
     return changed && ends[0] < ends[1];

@@ -86,12 +86,20 @@ void axis(const Plot& plot, const std::string& unit) {
     }
 }
 
+/// Light lines have a dark rim and dark ones a light rim, so that each is seen on any columns.
+ImU32 rim_of(ImU32 color) {
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
+    const bool light = 0.3f * c.x + 0.59f * c.y + 0.11f * c.z > 0.45f;
+    return light ? IM_COL32(20, 22, 26, 230) : IM_COL32(240, 242, 245, 230);
+}
+
 void line_at(const Plot& plot, double value, ImU32 color, bool picked) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float x = plot.x_of(value), thick = picked ? 2.0f : 1.5f;
-    list.AddLine({x, plot.low.y}, {x, plot.high.y}, packed(Ink::paper), thick + 2.0f);
+    const ImU32 rim = rim_of(color);
+    list.AddLine({x, plot.low.y}, {x, plot.high.y}, rim, thick + 2.0f);
     list.AddLine({x, plot.low.y}, {x, plot.high.y}, color, thick);
-    list.AddCircleFilled({x, plot.low.y + 5.0f}, picked ? 6.0f : 4.5f, packed(Ink::paper));
+    list.AddCircleFilled({x, plot.low.y + 5.0f}, picked ? 6.0f : 4.5f, rim);
     list.AddCircleFilled({x, plot.low.y + 5.0f}, picked ? 5.0f : 3.5f, color);
 }
 

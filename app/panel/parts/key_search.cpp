@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -153,22 +154,26 @@ std::vector<interaction::WindowEvent> KeySearch::draw(const PanelBox& picture) {
     if (!shown_)
         return {};
     constexpr float kWidth = 460.0f, kHeight = 340.0f;
+    const std::vector<const KeyCommand*> lines = found(text_);
+    const float line_height = ImGui::GetTextLineHeightWithSpacing();
+    const float height =
+        58.0f + line_height * static_cast<float>(std::max(lines.size(), std::size_t{1}));
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = std::min(kWidth, 0.96f * screen.x);
     ImGui::SetNextWindowPos({(screen.x - width) / 2, picture.low.y + 10.0f});
-    ImGui::SetNextWindowSize({width, std::min(kHeight, 0.8f * screen.y)});
+    ImGui::SetNextWindowSize({width, std::min({kHeight, height, std::floor(0.8f * screen.y)})});
     if (fresh_)
         ImGui::SetNextWindowFocus();
     ImGui::Begin("###search", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);
-    if (std::exchange(fresh_, false))
+    fresh_ = false;
+    if (!ImGui::IsAnyItemActive()) // it has the keyboard as long as the search is open
         ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1.0f);
     if (text_field("##search", "what do you want to do?", text_))
         chosen_ = 0;
     const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
-    const std::vector<const KeyCommand*> lines = found(text_);
     const int last = std::max(0, static_cast<int>(lines.size()) - 1);
     const bool moved = pressed(ImGuiKey_DownArrow) || pressed(ImGuiKey_UpArrow);
     if (pressed(ImGuiKey_DownArrow))

@@ -110,23 +110,23 @@ void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
     ImGui::PopID();
 }
 
-/// What the user should know of the isovalues; always one line, so that the controls below stay in
-/// place for the user's hand and for a replay.
+/// What the user should know of the isovalues. It takes the rest of a line, so that the controls
+/// below stay in place for the user's hand and for a replay.
 void line_on_isovalues(const PanelModel& model) {
     const auto& surfaces = model.asked.isosurfaces;
     const double asked = model.asked.isovalue();
+    const float width = ImGui::GetContentRegionAvail().x;
     if (asked < model.stats.low || asked > model.stats.high)
-        return state_note(fmt::format("outside the data's range, {} to {}",
-                                      human_number(model.stats.low),
-                                      with_unit(model.stats.high, model.info.value_unit)),
-                          color_of(Ink::warning));
+        return fitted_text(fmt::format("beyond the data's {} to {}", human_number(model.stats.low),
+                                       with_unit(model.stats.high, model.info.value_unit)),
+                           width, color_of(Ink::warning));
     if (surfaces.size() < 2)
-        return state_note(" ", color_of(Ink::dim));
+        return text(" ");
     const bool through =
         std::ranges::any_of(surfaces, [](const Isosurface& each) { return each.opacity < 1.0f; });
-    state_note(through ? "lower isovalues lie outside, translucent"
-                       : "lower isovalues lie outside and hide others",
-               color_of(Ink::dim));
+    fitted_text(through ? "lower isovalues lie outside: translucent"
+                        : "lower isovalues lie outside: they hide others",
+                width, color_of(Ink::dim));
 }
 
 void take(const ListChange& change, std::vector<Isosurface>& surfaces, std::uint32_t picked,

@@ -82,9 +82,9 @@ void use_measures() {
     ImGuiStyle& style = ImGui::GetStyle();
     style.WindowRounding = style.PopupRounding = style.ChildRounding = 5.0f;
     style.FrameRounding = style.GrabRounding = 3.0f;
-    style.WindowPadding = {12.0f, 10.0f};
+    style.WindowPadding = {12.0f, 8.0f};
     style.FramePadding = {7.0f, 3.0f};
-    style.ItemSpacing = {6.0f, 5.0f};
+    style.ItemSpacing = {6.0f, 4.0f};
     style.ItemInnerSpacing = {6.0f, 4.0f};
     style.ScrollbarSize = 9.0f;
     style.WindowMinSize = {1.0f, 1.0f};

@@ -19,7 +19,7 @@ namespace {
 
 using interaction::Commands;
 
-constexpr float kSpeedField = 58.0f, kStepField = 104.0f;
+constexpr float kSpeedField = 46.0f, kStepField = 104.0f;
 constexpr float kTrack = 16.0f; ///< its height
 
 std::uint32_t last_step(const PanelModel& model) {

@@ -1,7 +1,7 @@
 // The log of frames: its sums and its report.
 #include "app/frame/frame_log.h"
 #include "app/frame/late_frame.h"
-#include "app/panel/panel.h"
+#include "app/panel/parts/notes.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>

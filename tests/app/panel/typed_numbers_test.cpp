@@ -1,50 +1,22 @@
 // Numbers that are typed into the panel of a window, event by event.
-#include "app/panel/panel_layer.h"
-#include "stereo/context/gl_context.h"
+#include "tests/app/panel/layer_fixture.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace isochron::app {
 namespace {
 
 using interaction::Commands;
 using interaction::Key;
-using interaction::KeyEvent;
-using interaction::WindowEvent;
 
-class TypedNumbers : public testing::Test {
+class TypedNumbers : public LayerTest {
   protected:
-    TypedNumbers() {
-        for (int step = 0; step < 2000; ++step)
-            info_.times.push_back(step);
-        stats_.low = 0;
-        stats_.high = 100;
-        stats_.histogram.assign(256, 1);
-        asked_.panel = true;
-    }
-
-    Commands frame(const std::vector<WindowEvent>& events) {
-        layer_.feed(events, true);
-        time_ += interaction::Seconds(0.1);
-        return layer_.lay_out(kSize,
-                              {.info = info_,
-                               .stats = stats_,
-                               .asked = asked_,
-                               .frame = report_,
-                               .controls = controls_},
-                              time_);
-    }
     /// A click at a place of the window, and text that is typed then and entered.
     Commands typed_at(glm::vec2 at, const std::string& text) {
-        frame({interaction::MouseMoveEvent{at.x, at.y, kSize.x, kSize.y}});
-        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, true}});
-        frame({interaction::MouseButtonEvent{interaction::MouseButton::left, false}});
-        frame({});
+        click(at);
         Commands last;
         const auto see = [&](const Commands& commands) {
             if (commands.isovalue)
@@ -54,28 +26,16 @@ class TypedNumbers : public testing::Test {
         };
         for (const char character : text)
             see(frame({interaction::TextEvent{static_cast<char32_t>(character)}}));
-        see(frame({KeyEvent{Key::enter, true}, KeyEvent{Key::enter, false}}));
-        see(frame({}));
-        frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
-        frame({});
+        see(frame(
+            {interaction::KeyEvent{Key::enter, true}, interaction::KeyEvent{Key::enter, false}}));
+        see(frame());
+        press(Key::escape);
         return last;
     }
-
-    static constexpr glm::ivec2 kSize{1000, 1000};
-    std::unique_ptr<stereo::GlContext> context_ =
-        stereo::make_context(stereo::ContextKind::egl, {.size = kSize});
-    render::Gl gl_{context_->loader()};
-    PanelLayer layer_{gl_};
-    index::SeriesInfo info_;
-    index::IndexStats stats_;
-    ExplorerState asked_;
-    FrameReport report_;
-    std::vector<interaction::ControlGroup> controls_;
-    interaction::Seconds time_{0};
 };
 
 TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessTheyAreWhole) {
-    frame({});
+    frame();
     std::optional<glm::vec2> isovalue, step;
     const auto look = [&](glm::vec2 at) {
         const Commands commands = typed_at(at, "42");
@@ -84,10 +44,11 @@ TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessThey
         if (commands.step == 41u && !step)
             step = at;
     };
-    for (float y = 0.1f; y < 0.6f; y += 0.01f)
-        look({0.1f, y}); // in the column of the sections
-    for (float x = 0.2f; x < 0.5f; x += 0.02f)
-        look({x, 0.974f}); // in the bar of the time
+    const PanelPlaces places = layer_.places();
+    for (float y = 350; y < 400; y += 9) // below the histogram
+        look({130, y});
+    for (float x = 200; x < 500; x += 20)
+        look({x, (places.time.low.y + places.time.high.y) / 2});
     ASSERT_TRUE(isovalue && step);
     EXPECT_EQ(typed_at(*isovalue, "1,5").isovalue, 1.5);
     EXPECT_EQ(typed_at(*isovalue, "1.5").isovalue, 1.5);

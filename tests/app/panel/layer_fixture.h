@@ -1,0 +1,77 @@
+// The panel over a window, event by event.
+#pragma once
+
+#include "app/panel/panel_layer.h"
+#include "stereo/context/gl_context.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace isochron::app {
+
+class LayerTest : public testing::Test {
+  protected:
+    LayerTest() {
+        for (int step = 0; step < 2000; ++step)
+            info_.times.push_back(step);
+        stats_.low = 0;
+        stats_.high = 100;
+        stats_.histogram.assign(256, 1);
+        asked_.panel = true;
+    }
+
+    /// @return commands of the frame
+    interaction::Commands frame(const std::vector<interaction::WindowEvent>& events = {}) {
+        left_ = layer_.feed(events, true);
+        time_ += interaction::Seconds(0.1);
+        return layer_.lay_out(kSize,
+                              {.info = info_,
+                               .stats = stats_,
+                               .asked = asked_,
+                               .frame = report_,
+                               .movies = {.offered = true},
+                               .controls = controls_},
+                              time_);
+    }
+    void point(glm::vec2 at) {
+        frame({interaction::MouseMoveEvent{at.x / float(kSize.x), at.y / float(kSize.y), kSize.x,
+                                           kSize.y}});
+    }
+    /// A click at a place, in pixels from the top left. @return the commands that it led to
+    interaction::Commands click(glm::vec2 at) {
+        using interaction::MouseButton;
+        using interaction::MouseButtonEvent;
+        point(at);
+        interaction::Commands all = frame({MouseButtonEvent{MouseButton::left, true}});
+        merge(all, frame({MouseButtonEvent{MouseButton::left, false}}));
+        merge(all, frame());
+        return all;
+    }
+    void press(interaction::Key key, std::uint8_t modifiers = 0) {
+        frame({interaction::KeyEvent{key, true, modifiers},
+               interaction::KeyEvent{key, false, modifiers}});
+        frame();
+    }
+    void type(std::string_view text) {
+        for (const char character : text)
+            frame({interaction::TextEvent{static_cast<char32_t>(character)}});
+    }
+
+    static constexpr glm::ivec2 kSize{1280, 800};
+    std::unique_ptr<stereo::GlContext> context_ =
+        stereo::make_context(stereo::ContextKind::egl, {.size = {64, 64}});
+    render::Gl gl_{context_->loader()};
+    PanelLayer layer_{gl_};
+    index::SeriesInfo info_;
+    index::IndexStats stats_;
+    ExplorerState asked_;
+    FrameReport report_;
+    std::vector<interaction::ControlGroup> controls_;
+    interaction::Seconds time_{0};
+    std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use
+};
+
+} // namespace isochron::app

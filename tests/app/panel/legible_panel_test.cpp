@@ -1,0 +1,210 @@
+// Every text of the panel can be read: none is cut, lies on another one, or fades into what is
+// behind it, in any size of the window and in both themes.
+#include "tests/app/panel/drawn_text.h"
+
+#include "app/panel/panel_layer.h"
+#include "interaction/controls/controls.h"
+#include "stereo/context/gl_context.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Background;
+using interaction::Key;
+using interaction::KeyEvent;
+using interaction::MouseButton;
+using interaction::MouseButtonEvent;
+using interaction::MouseMoveEvent;
+using interaction::WindowEvent;
+
+struct Shape {
+    glm::ivec2 size;
+    float scale;
+    PanelPlace place = PanelPlace::over;
+};
+void PrintTo(const Shape& shape, std::ostream* out) {
+    *out << shape.size.x << " x " << shape.size.y << " at " << shape.scale << ", place "
+         << static_cast<int>(shape.place);
+}
+
+class LegiblePanel : public testing::TestWithParam<Shape> {
+  protected:
+    LegiblePanel() {
+        for (int step = 0; step < 64; ++step)
+            info_.times.push_back(0.2 * step);
+        info_.grid.vertices = {64, 64, 64};
+        info_.array = "vorticity";
+        info_.value_unit = "1/s";
+        info_.time_unit = "s";
+        info_.length_unit = "m";
+        stats_.low = 0.017;
+        stats_.high = 40.25;
+        for (std::uint64_t bin = 0; bin < 256; ++bin)
+            stats_.histogram.push_back(1 + 7 * bin * (256 - bin));
+        asked_.panel = true;
+        asked_.set_isovalue(9.21);
+        report_.shown = index::SurfacesQuery{0, {9.21}};
+        report_.footprint = render::Footprint::surface;
+        report_.final = true;
+    }
+
+    PanelModel model() {
+        return {.place = GetParam().place,
+                .info = info_,
+                .stats = stats_,
+                .asked = asked_,
+                .frame = report_,
+                .arrays = {.names = arrays_, .color_names = arrays_},
+                .colors = {.range = {0.0, 40.0}},
+                .work = {.at_hand_steps = {3, 4, 5, 6, 20}},
+                .notes = notes_,
+                .recording = recording_,
+                .movies = {.offered = true, .recorded = true},
+                .controls = controls_,
+                .at_hand = {interaction::DeviceKind::mouse, interaction::DeviceKind::keyboard}};
+    }
+    void frame(const std::vector<WindowEvent>& events = {}) {
+        layer_.feed(events, true);
+        time_ += interaction::Seconds(0.1);
+        layer_.lay_out(GetParam().size, model(), time_);
+    }
+    void click(glm::vec2 at) {
+        const glm::vec2 part = at / (glm::vec2(GetParam().size) / GetParam().scale);
+        frame({MouseMoveEvent{part.x, part.y, 100, 100}});
+        frame({MouseButtonEvent{MouseButton::left, true}});
+        frame({MouseButtonEvent{MouseButton::left, false}});
+        frame({MouseMoveEvent{-1, -1, 100, 100}});
+        frame();
+    }
+    /// Lays out a few frames in each theme, and reads them.
+    /// @param page a page lies over other parts, which it may hide
+    void expect_legible(const std::string& what, bool page = false) {
+        for (const Background background : {Background::dark, Background::light}) {
+            asked_.look.background = background;
+            for (int i = 0; i < 5; ++i) // windows take some to know their size
+                frame();
+            const ImFont& font = *ImGui::GetIO().Fonts->Fonts.front();
+            const ReadText read = read_text(*ImGui::GetDrawData(), font);
+            EXPECT_GT(read.runs, 3u) << what;
+            for (const TextFault& fault : read.faults)
+                if (!page || fault.fault != kHidden)
+                    ADD_FAILURE() << what << ", " << interaction::name_of(background) << ": '"
+                                  << fault.text << "' " << fault.fault << " (" << fault.window
+                                  << ")";
+        }
+    }
+    /// The sections, one after the other where they are folded.
+    void expect_legible_sections(const std::string& what) {
+        expect_legible(what);
+        const PanelPlaces places = layer_.places();
+        if (GetParam().place == PanelPlace::in_room)
+            for (int page = 0; page < 4; ++page) {
+                click({50.0f + 100.0f * static_cast<float>(page), places.column.low.y + 20});
+                expect_legible(fmt::format("{}, page {}", what, page));
+            }
+        if (!places.folded)
+            return;
+        for (int icon = 0; icon < 4; ++icon) {
+            const glm::vec2 at(20, places.column.low.y + 20 + 33 * static_cast<float>(icon));
+            click(at);
+            expect_legible(fmt::format("{}, section {}", what, icon));
+            click(at);
+        }
+    }
+    bool over() const { return GetParam().place == PanelPlace::over; }
+
+    std::unique_ptr<stereo::GlContext> context_ =
+        stereo::make_context(stereo::ContextKind::egl, {.size = {64, 64}});
+    render::Gl gl_{context_->loader()};
+    PanelLayer layer_{gl_, GetParam().scale};
+    index::SeriesInfo info_;
+    index::IndexStats stats_;
+    ExplorerState asked_;
+    FrameReport report_;
+    PanelNotes notes_;
+    bool recording_ = false;
+    std::vector<std::string> arrays_{"vorticity"};
+    std::vector<interaction::ControlGroup> controls_ = interaction::Controls::documentation();
+    interaction::Seconds time_{0};
+};
+
+TEST_P(LegiblePanel, AsItOpens) {
+    expect_legible_sections("at first");
+    asked_.step = 63;
+    info_.time_unit = "hours since 2009-09-09 17:00";
+    expect_legible("with dates");
+}
+
+TEST_P(LegiblePanel, WithSeveralSurfacesAndAColorMap) {
+    arrays_ = {"vorticity", "a rather long name of an array, as files have them", "pressure"};
+    info_.value_unit = "kg m-1 s-2";
+    asked_.isosurfaces = {{1.25, {0.9f, 0.6f, 0.0f}, 0.45f},
+                          {10.123456, {0.34f, 0.7f, 0.9f}, 1.0f},
+                          {33.5, {0.0f, 0.62f, 0.45f}, 0.0f}};
+    asked_.picked = 1;
+    asked_.coloring.by = interaction::ColorBy::value;
+    expect_legible_sections("with a map");
+    asked_.coloring.range = {0.0, 40.0};
+    asked_.coloring.bands = 7;
+    expect_legible_sections("with a range of its own");
+    asked_.set_isovalue(100);
+    asked_.stereo = "side_by_side";
+    expect_legible_sections("out of the range");
+}
+
+TEST_P(LegiblePanel, WithWhatToolsHaveMade) {
+    asked_.tools.mouse = asked_.tools.wand = interaction::ToolKind::clip;
+    asked_.clip.shown = true;
+    asked_.ruler.places = {{1, 2, 3}};
+    asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, 0, 12.25};
+    expect_legible_sections("with tools");
+}
+
+TEST_P(LegiblePanel, WithMessagesAndStatistics) {
+    notes_.failure = "/data/flow.isochron: block 17 cannot be read: Input/output error";
+    notes_.message = "saved isochron_0001.png";
+    notes_.messages = 1;
+    expect_legible("with messages");
+    if (!over())
+        return;
+    notes_ = {};
+    report_.footprint = render::Footprint::gaussian;
+    report_.final = false;
+    report_.candidates = 123456;
+    click(layer_.places().picture.low + glm::vec2(30, 22));
+    expect_legible("with statistics");
+}
+
+TEST_P(LegiblePanel, WithItsPages) {
+    if (GetParam().place == PanelPlace::in_room)
+        return;
+    constexpr auto kControl = static_cast<std::uint8_t>(interaction::Modifier::control);
+    frame({KeyEvent{Key{'K'}, true, kControl}, KeyEvent{Key{'K'}, false, kControl}});
+    expect_legible("with the search", true);
+    frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
+    frame({KeyEvent{Key::f1, true}, KeyEvent{Key::f1, false}});
+    expect_legible("with help", true);
+    frame({KeyEvent{Key::f1, true}, KeyEvent{Key::f1, false}});
+    layer_.pages().introduce();
+    expect_legible("with the introduction");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, LegiblePanel,
+                         testing::Values(Shape{{640, 480}, 1}, Shape{{1280, 800}, 1},
+                                         Shape{{2560, 1440}, 2},
+                                         Shape{{480, 900}, 1, PanelPlace::whole},
+                                         Shape{{1000, 1350}, 2.5f, PanelPlace::in_room}));
+
+} // namespace
+} // namespace isochron::app

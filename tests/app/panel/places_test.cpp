@@ -1,0 +1,88 @@
+// Where the panel's parts lie, and which commands its search knows.
+#include "app/panel/parts/key_search.h"
+#include "app/panel/parts/places.h"
+#include "interaction/controls/desktop_emulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Action;
+
+double share_of_picture(glm::vec2 size) {
+    const glm::vec2 picture = places_in(PanelPlace::over, size).picture.size();
+    return double(picture.x) * double(picture.y) / (double(size.x) * double(size.y));
+}
+
+TEST(PanelPlaces, LeaveMostOfTheWindowToThePicture) {
+    EXPECT_GE(share_of_picture({1280, 800}), 0.68);
+    EXPECT_GE(share_of_picture({640, 480}), 0.60);
+    EXPECT_FALSE(places_in(PanelPlace::over, {1280, 800}).folded);
+    EXPECT_TRUE(places_in(PanelPlace::over, {640, 480}).folded);
+}
+
+TEST(PanelPlaces, FillThePanelWithoutGapsOrOverlaps) {
+    for (const PanelPlace place : {PanelPlace::over, PanelPlace::whole, PanelPlace::in_room})
+        for (const glm::vec2 size : {glm::vec2(300, 240), glm::vec2(400, 540), glm::vec2(640, 480),
+                                     glm::vec2(1280, 720), glm::vec2(1280, 800)}) {
+            SCOPED_TRACE(testing::Message() << int(place) << ' ' << size.x << ' ' << size.y);
+            const PanelPlaces places = places_in(place, size);
+            EXPECT_EQ(places.top.high.y, places.column.low.y);
+            EXPECT_EQ(places.column.high.y, places.time.low.y);
+            EXPECT_EQ(places.time.high, size);
+            EXPECT_EQ(places.column.high.x, places.picture.low.x);
+            EXPECT_EQ(places.picture.high, glm::vec2(size.x, places.time.low.y));
+            EXPECT_EQ(places.picture.size().x > 0, place == PanelPlace::over);
+        }
+}
+
+/// What keys do at once, by the emulation that reads them.
+std::set<Action> actions_of(const KeyCommand& command) {
+    interaction::DesktopEmulation emulation({});
+    emulation.poll(interaction::Seconds(0));
+    const std::vector<interaction::WindowEvent> events = presses_of(command);
+    emulation.feed(events);
+    std::set<Action> actions;
+    const interaction::InputState state = emulation.poll(interaction::Seconds(0.1));
+    const interaction::DeviceState* keys = state.find("keys");
+    for (int action = 0; keys && action < static_cast<int>(Action::count); ++action)
+        if (keys->buttons & interaction::bit(static_cast<Action>(action)))
+            actions.insert(static_cast<Action>(action));
+    actions.erase(Action::shift);
+    actions.erase(Action::control);
+    return actions;
+}
+
+TEST(SearchedCommands, AreListedOnceAndPressTheKeyThatDoesThem) {
+    std::set<std::string> seen;
+    std::set<Action> done;
+    for (const KeyCommand& command : key_commands()) {
+        EXPECT_TRUE(seen.insert(command.words + command.name).second) << command.words;
+        const std::set<Action> actions = actions_of(command);
+        EXPECT_LE(actions.size(), 1u) << command.words;
+        done.insert(actions.begin(), actions.end());
+    }
+    for (const Action action : {Action::play, Action::redo, Action::orthographic, Action::snap_clip,
+                                Action::quality_paper, Action::undo, Action::next_surface})
+        EXPECT_TRUE(done.contains(action)) << static_cast<int>(action);
+}
+
+TEST(SearchedCommands, AreFoundByAnyOfTheirWordsInAnyOrderAndByTheirKey) {
+    const auto first = [](const char* text) {
+        const auto all = found(text);
+        return all.empty() ? std::string() : all.front()->name;
+    };
+    EXPECT_EQ(first("projection PARALLEL"), "0");
+    EXPECT_EQ(first("screenshot"), "P");
+    EXPECT_EQ(first("redo"), "Ctrl + Shift + Z");
+    EXPECT_EQ(first("no such thing"), "");
+    EXPECT_EQ(found("").size(), key_commands().size());
+}
+
+} // namespace
+} // namespace isochron::app

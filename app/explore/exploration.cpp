@@ -158,7 +158,7 @@ void Exploration::open_session() {
 void Exploration::set_start() {
     const std::size_t steps = file_->info().steps();
     if (job_.size() == 1)
-        session_->fill_window();
+        session_->set_home(filling_window(*session_, config_, file_->info()));
     if (earlier_) {
         session_->set_state(state_of(*earlier_, session_->state(),
                                      held_hash(*file_, earlier_->data_hash), steps, "--resume"));

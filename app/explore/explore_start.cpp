@@ -92,6 +92,24 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
         warn_beyond(*options.isovalue, file.array(first_array(options, file)));
 }
 
+ExplorerState filling_window(Session& session, const Config& config,
+                             const index::SeriesInfo& info) {
+    ExplorerState home = session.home();
+    const stereo::Windows& windows = session.outputs().windows();
+    const stereo::Screen& screen = config.installation.windows.front().viewports.front().screen;
+    if (config.placement.fill <= 0 || !config.devices.empty() || config.openxr.enabled ||
+        !screen.carried_by_head || !screen.fit_aspect || windows.room() ||
+        !windows.first().has_window())
+        return home;
+    const glm::ivec2 size = windows.first().framebuffer_size();
+    const stereo::Margins panel = session.panel().covered(size);
+    home.room_from_physical =
+        filling(info, config.placement, screen,
+                {config.installation.viewers.front().position, {1, 0, 0, 0}},
+                glm::max(size - glm::ivec2(panel.left, panel.top + panel.bottom), 1));
+    return home;
+}
+
 ExplorerState first_look(const Session& session, const ExploreOptions& options,
                          const Config& config,
                          const std::shared_ptr<const index::IndexFile>& file) {

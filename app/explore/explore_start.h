@@ -30,6 +30,10 @@ void check_start(const ExploreOptions& options, const index::IndexFile& file, st
 void check_outputs(const ExploreOptions& options, const ClusterJob& job,
                    const index::IndexFile& file);
 
+/// The session's start, with the data filling the window, seen from a corner, where mouse and
+/// keyboard play the head and the configuration asks for that.
+ExplorerState filling_window(Session& session, const Config& config, const index::SeriesInfo& info);
+
 /// The session's state as the options ask for it: showing the array that they name, if any, with
 /// first surfaces that suit the step that they name.
 /// @throws index::Error when the index lacks the array

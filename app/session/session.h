@@ -55,7 +55,6 @@ class Session {
     FrameSharing& frames() { return *frames_; }
     /// Whether the user wants to close a window of this process or of another one.
     bool should_close() const;
-
     const ExplorerState& state() const { return state_; }
     /// @throws index::Error when the index lacks the array of the surfaces
     void set_state(const ExplorerState& state);
@@ -71,9 +70,7 @@ class Session {
     /// @throws index::Error when the index has no such array
     void expect_array(const std::string& name) const { arrays_.expect(name); }
     const ExplorerState& home() const { return home_; }
-    /// Lets the data fill the window, seen from a corner, if the configuration asks for that: so
-    /// the session begins, and Home returns there.
-    void fill_window();
+    void set_home(const ExplorerState& home) { state_ = home_ = home; } ///< before the first frame
     /// Continues with the same data that have more steps. The command `steps` makes them visible.
     void grow(std::shared_ptr<const index::IndexFile> file);
     const History& history() const { return history_; }

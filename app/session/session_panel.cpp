@@ -99,12 +99,6 @@ stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
                           : stereo::Margins{};
 }
 
-glm::ivec2 SessionPanel::free_picture(const ExplorerState& state) const {
-    const stereo::Margins margins = covered(state);
-    const glm::ivec2 size = outputs_.windows()[0].framebuffer_size() / places(state);
-    return glm::max(size - glm::ivec2(margins.left, margins.top + margins.bottom), 1);
-}
-
 bool SessionPanel::head_is_emulated() const {
     const stereo::Screen& screen = config_.installation.windows.front().viewports.front().screen;
     return config_.devices.empty() && !config_.openxr.enabled && screen.carried_by_head &&

@@ -73,8 +73,6 @@ class SessionPanel {
     }
     /// Pixels that it covers at the edges of the first window, in each eye's part.
     stereo::Margins covered(const ExplorerState& state) const;
-    /// Size of what it leaves free of the first window, in each eye's part.
-    glm::ivec2 free_picture(const ExplorerState& state) const;
     /// Whether mouse and keyboard play the head, before a screen that it carries along.
     bool head_is_emulated() const;
     /// Where the panel in the room stands beside such a screen, in the head's frame: so far away

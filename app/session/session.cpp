@@ -51,18 +51,6 @@ void Session::set_state(const ExplorerState& state) {
     picker_.set_file(arrays_.held(state_));
 }
 
-void Session::fill_window() {
-    if (config_.placement.fill <= 0 || !panel_.head_is_emulated() || outputs_.room() ||
-        !outputs_.windows().first().has_window())
-        return;
-    const stereo::Installation& installation = config_.installation;
-    home_.room_from_physical =
-        filling(arrays_.file()->info(), config_.placement,
-                installation.windows.front().viewports.front().screen,
-                {installation.viewers.front().position, {1, 0, 0, 0}}, panel_.free_picture(home_));
-    state_.room_from_physical = home_.room_from_physical;
-}
-
 void Session::grow(std::shared_ptr<const index::IndexFile> file) {
     arrays_.set_file(file);
     picker_.set_file(arrays_.held(state_));

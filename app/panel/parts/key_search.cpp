@@ -61,6 +61,20 @@ constexpr std::pair<Action, const char*> kWords[]{
     {Action::first_tools, "tool: pick and mark"},
     {Action::clip_tool, "tool: clip plane"},
     {Action::ruler_tool, "tool: ruler, measures a length"},
+    {Action::loop, "loop: begin again at the end, on, off"},
+    {Action::ping_pong, "play to and fro: on, off"},
+    {Action::range_first, "the range that plays begins at this step"},
+    {Action::range_last, "the range that plays ends at this step"},
+    {Action::range_all, "the range that plays is all steps"},
+    {Action::first_step, "go to the first step"},
+    {Action::last_step, "go to the last step"},
+    {Action::skip_more, "skip more steps while time plays"},
+    {Action::skip_fewer, "skip fewer steps while time plays"},
+    {Action::save_time, "bookmark this time, or take its bookmark away"},
+    {Action::next_time, "go to the next bookmark of time"},
+    {Action::previous_time, "go to the previous bookmark of time"},
+    {Action::save_session, "save the session now"},
+    {Action::flip_clip, "clip plane: cut away the other side"},
 };
 
 std::string name_of_key(Key key) {

@@ -49,10 +49,13 @@ std::set<Action> actions_of(const KeyCommand& command) {
     emulation.feed(events);
     std::set<Action> actions;
     const interaction::InputState state = emulation.poll(interaction::Seconds(0.1));
-    const interaction::DeviceState* keys = state.find("keys");
-    for (int action = 0; keys && action < static_cast<int>(Action::count); ++action)
-        if (keys->buttons & interaction::bit(static_cast<Action>(action)))
-            actions.insert(static_cast<Action>(action));
+    for (int number = 0; number < static_cast<int>(Action::count); ++number) {
+        const auto action = static_cast<Action>(number);
+        const interaction::DeviceState* keys =
+            state.find(interaction::is_of_more_keys(action) ? "more_keys" : "keys");
+        if (keys && (keys->buttons & interaction::bit(action)) != 0)
+            actions.insert(action);
+    }
     actions.erase(Action::shift);
     actions.erase(Action::control);
     return actions;
@@ -68,7 +71,8 @@ TEST(SearchedCommands, AreListedOnceAndPressTheKeyThatDoesThem) {
         done.insert(actions.begin(), actions.end());
     }
     for (const Action action : {Action::play, Action::redo, Action::orthographic, Action::snap_clip,
-                                Action::quality_paper, Action::undo, Action::next_surface})
+                                Action::quality_paper, Action::undo, Action::next_surface,
+                                Action::range_first, Action::ping_pong, Action::flip_clip})
         EXPECT_TRUE(done.contains(action)) << static_cast<int>(action);
 }
 

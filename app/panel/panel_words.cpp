@@ -31,12 +31,6 @@ void tooltip(const char* words) {
 
 } // namespace
 
-void state_note(const std::string& line, const ImVec4& color) {
-    ImGui::TextColored(color, "%s", line.c_str());
-    if (ImGui::IsItemHovered())
-        tooltip(line.c_str());
-}
-
 void tip(const char* words) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         tooltip(words);

@@ -11,9 +11,6 @@ namespace isochron::app {
 void text(const std::string& line);
 /// Text that is wrapped to several lines.
 void note(const std::string& line, const ImVec4& color);
-/// A note on something that changes by itself. It always takes one line, so that the controls below
-/// stay in place for the user's hand and for a replay. A tip under the mouse shows all of it.
-void state_note(const std::string& line, const ImVec4& color);
 /// A tip under the mouse on the control that was laid out last: what it does, and its key.
 void tip(const char* words);
 

@@ -1,5 +1,6 @@
 // The explorer and its desktop: data to choose, files that are dropped, sizes, a display that goes.
 #include "tests/app/commands/explore_fixture.h"
+#include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 
 #include "app/session/kept/recording_file.h"
@@ -7,6 +8,8 @@
 #include "stereo/image_file.h"
 
 #include <algorithm>
+#include <gmock/gmock.h>
+
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -104,11 +107,12 @@ TEST_F(ExploreWindow, WritesThePictureThatIsSeenBesideThePanel) {
 
 TEST_F(ExploreWindow, SaysAtOnceThatASessionCannotBeKept) {
     folder_.write("none", "a file where a folder should be");
-    setenv("XDG_STATE_HOME", file("none").c_str(), 1);
-    EXPECT_EQ(
-        Program({"explore", file("sphere.isochron"), "--size", "320", "240", "--seconds", "0.2"})
-            .exit_status(),
-        0);
+    const ChildResult result =
+        run_child(test_support::binary_root() + "/isochron",
+                  {"explore", file("sphere.isochron"), "--size", "320", "240", "--seconds", "0.2"},
+                  folder_.path(), {.environment = {"XDG_STATE_HOME=" + file("none")}});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, testing::HasSubstr("this session is not saved: " + file("none")));
 }
 
 TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {

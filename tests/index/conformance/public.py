@@ -190,14 +190,19 @@ def hdf5(path):
         return Volume(f"--array /{name}", file[name][...].astype("f8") * scale, None, None)
 
 
+def with_all_arrays(reader):
+    """A reader of legacy files, which else reads the first array of each kind."""
+    for kind in ("Scalars", "Vectors", "Normals", "Tensors", "ColorScalars", "TCoords", "Fields"):
+        getattr(reader, f"ReadAll{kind}On")()
+    return reader
+
+
 def vtk_image(path):
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
     vtk.vtkObject.GlobalWarningDisplayOff()
     if path.endswith(".vtk"):
-        reader = vtk.vtkDataSetReader()
-        for kind in ("Scalars", "Vectors", "Normals", "Tensors", "ColorScalars", "TCoords", "Fields"):
-            getattr(reader, f"ReadAll{kind}On")()
+        reader = with_all_arrays(vtk.vtkDataSetReader())
     else:
         reader = vtk.vtkXMLImageDataReader() if path.endswith(".vti") else vtk.vtkXMLRectilinearGridReader()
     reader.SetFileName(path)
@@ -222,9 +227,7 @@ def mesh(path):
     from vtk.util.numpy_support import vtk_to_numpy
     vtk.vtkObject.GlobalWarningDisplayOff()
     if path.endswith(".vtk"):
-        reader = vtk.vtkUnstructuredGridReader()
-        for kind in ("Scalars", "Vectors", "Normals", "Tensors", "ColorScalars", "TCoords", "Fields"):
-            getattr(reader, f"ReadAll{kind}On")()
+        reader = with_all_arrays(vtk.vtkUnstructuredGridReader())
     elif path.endswith((".vtu", ".vts")):
         reader = vtk.vtkXMLUnstructuredGridReader() if path.endswith(".vtu") else vtk.vtkXMLStructuredGridReader()
     else:

@@ -25,6 +25,8 @@ void merge(Commands& into, const Commands& later) {
     // A later list has its own isovalues, and an isovalue belonged to the surface picked before.
     if (later.isosurfaces || later.picked)
         into.isovalue.reset();
+    if (later.step && !later.fraction) // it is that step itself
+        into.fraction.reset();
     each_field([](const Field&, auto& a, const auto& b) { combine(a, b); }, into, later);
 }
 

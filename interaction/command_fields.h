@@ -42,6 +42,8 @@ template <class Visit, Of<Bookmark>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"name"}, r.name...);
     visit(Field{"step"}, r.step...);
+    visit(Field{.key = "fraction", .low = 0, .high = kFractions - 1, .may_lack = true},
+          r.fraction...);
 }
 
 template <class Visit, Of<Viewpoint>... Records>
@@ -78,6 +80,33 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"background"}, r.background...);
     visit(Field{"material"}, r.material...);
     visit(Field{"occlusion", 0, 1}, r.occlusion...);
+    visit(Field{.key = "light", .low = -180, .high = 180, .may_lack = true}, r.light...);
+}
+
+template <class Visit, Of<SurfaceExport>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"format"}, r.format...);
+    visit(Field{"steps"}, r.steps...);
+    visit(Field{"clipped"}, r.clipped...);
+}
+
+template <class Visit, Of<WrittenPictures>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"legend"}, r.legend...);
+    visit(Field{"scale_bar"}, r.scale_bar...);
+    visit(Field{"box"}, r.box...);
+    visit(Field{"marks"}, r.marks...);
+    visit(Field{.key = "width", .low = 0, .high = kLargestPicture}, r.width...);
+    visit(Field{.key = "height", .low = 0, .high = kLargestPicture}, r.height...);
+    visit(Field{.key = "rate", .low = kSlowestMovie, .high = kFastestMovie}, r.rate...);
+    visit(Field{.key = "folder", .most = kLongestArrayName}, r.folder...);
+    visit(Field{.key = "surfaces", .may_lack = true}, r.surfaces...);
+}
+
+template <class Visit, Of<ExportWork>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"goes_on"}, r.goes_on...);
+    visit(Field{.key = "percent", .low = 0, .high = 100}, r.percent...);
 }
 
 template <class Visit, Of<RoomPanel>... Records>
@@ -91,6 +120,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"position"}, r.position...);
     visit(Field{"step"}, r.step...);
     visit(Field{"value"}, r.value...);
+    visit(Field{.key = "fraction", .low = 0, .high = kFractions - 1, .may_lack = true},
+          r.fraction...);
 }
 
 template <class Visit, Of<HapticPulse>... Records>

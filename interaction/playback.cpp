@@ -12,16 +12,17 @@ double entry(const StepTrack& track, std::uint32_t place, bool reverse) {
     return reverse ? std::nextafter(track.start(place + 1), 0.0) : track.start(place);
 }
 
-struct Moment {
+struct Way {
     double time;
     bool reverse;
 };
 
 /// Goes to and fro: the places between the ends are shown on both ways, the ends once in a round.
-Moment swung(const StepTrack& track, const Moment& from, double distance) {
+/// @param to_start the way down goes to the time at which the track begins
+Way swung(const StepTrack& track, const Way& from, double distance, bool to_start) {
     // One round as a line: all places on the way up, then those between the ends on the way down.
     const double up = track.duration(), top = track.start(track.last());
-    const double round = up + top - track.start(1);
+    const double round = up + top - (to_start ? 0.0 : track.start(1));
     double at = (from.reverse ? up + top - from.time : from.time) + distance;
     at -= round * std::floor(at / round);
     const bool down = at >= up;
@@ -30,48 +31,71 @@ Moment swung(const StepTrack& track, const Moment& from, double distance) {
 
 } // namespace
 
-Playback::Result Playback::advance(std::span<const double> times, std::uint32_t step,
+double Playback::gap_in(std::span<const double> times) {
+    const std::pair known{times.size(), times.back()};
+    if (gap_of_ != known) {
+        gap_ = gap_between(times);
+        gap_of_ = known;
+    }
+    return gap_;
+}
+
+Playback::Result Playback::advance(std::span<const double> times, const Moment& from,
                                    const PlaybackState& state, Seconds elapsed,
-                                   const StepRange& range) {
+                                   const StepRange& range, bool blends) {
+    const auto stays = [&](std::uint32_t step) {
+        return Result{step, false, state.reverse, from.fraction};
+    };
     if (times.empty())
-        return {step, false, state.reverse};
+        return stays(from.step);
     const StepTrack track(times, range, state);
     const double round = track.duration();
     if (!(round > 0.0) || !std::isfinite(round) || track.places() < 2)
-        return {step, false, state.reverse};
-    step = std::min(step, static_cast<std::uint32_t>(times.size() - 1));
+        return stays(from.step);
+    const std::uint32_t step = std::min(from.step, static_cast<std::uint32_t>(times.size() - 1));
     const std::uint32_t end = state.reverse ? 0 : track.last();
     const bool starts = state.playing && !was_playing_;
     was_playing_ = state.playing;
+    blends = blends && state.every == 1;
+    const double gap = blends ? gap_in(times) : 0.0;
 
     const bool turned_at_rest = state.reverse != reverse_ && (starts || !state.playing);
     reverse_ = state.reverse;
     std::uint32_t place = track.place_of(step, state.reverse);
     const bool ends = !state.loop && !state.ping_pong;
-    if (starts && ends && place == end) {
+    const bool at_end = place == end && (!blends || !state.reverse || from.fraction == 0);
+    if (starts && ends && at_end) {
         place = track.last() - end;
-        time_ = entry(track, place, state.reverse);
+        time_ = blends ? track.start(place) : entry(track, place, state.reverse);
+    } else if (blends) {
+        if (track.moment_at(time_, gap) != Moment(step, from.fraction))
+            time_ = track.time_of({step, from.fraction}, state.reverse);
     } else if (turned_at_rest || track.place_at(time_) != place) {
         time_ = entry(track, place, state.reverse);
     }
     if (!state.playing)
-        return {step, false, state.reverse};
+        return stays(step);
 
+    const auto shown = [&](bool playing, bool reverse) {
+        const Moment now =
+            blends ? track.moment_at(time_, gap) : Moment(track.step(track.place_at(time_)));
+        return Result{now.step, playing, reverse, now.fraction};
+    };
     const double distance = track_rate(state, times) * std::max(elapsed.count(), 0.0);
     if (state.ping_pong) {
-        const Moment now = swung(track, {time_, state.reverse}, distance);
+        const Way now = swung(track, {time_, state.reverse}, distance, blends);
         time_ = now.time;
         reverse_ = now.reverse;
-        return {track.step(track.place_at(time_)), true, now.reverse};
+        return shown(true, now.reverse);
     }
     time_ += state.reverse ? -distance : distance;
     if (state.loop) {
         time_ -= round * std::floor(time_ / round);
-        return {track.step(track.place_at(time_)), true, state.reverse};
+        return shown(true, state.reverse);
     }
     time_ = std::clamp(time_, 0.0, round);
-    place = track.place_at(time_);
-    return {track.step(place), place != end, state.reverse};
+    const bool goes_on = blends && state.reverse ? time_ > 0.0 : track.place_at(time_) != end;
+    return shown(goes_on, state.reverse);
 }
 
 } // namespace isochron::interaction

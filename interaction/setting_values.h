@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -49,6 +50,26 @@ struct PlaybackState {
     bool operator==(const PlaybackState&) const = default;
 };
 
+/// What is shown between two steps.
+enum class BetweenSteps : std::uint8_t {
+    hold, ///< the step before
+    blend ///< the surface of the linear blend of both
+};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<BetweenSteps>{"hold", "blend"};
+
+inline constexpr std::uint32_t kFractions = 65536; ///< of the time from a step to the next one
+
+/// A step and so many fractions of the way to the next one.
+struct Moment {
+    std::uint32_t step = 0;
+    std::uint32_t fraction = 0; ///< below kFractions
+
+    constexpr Moment() = default;
+    constexpr Moment(std::uint32_t of_step, std::uint32_t n = 0) : step(of_step), fraction(n) {}
+    auto operator<=>(const Moment&) const = default; ///< the earlier one is less
+};
+
 /// The steps that playing keeps to, counted from 0. A series that grows has new steps at its end:
 /// a range without `last` has them, too.
 struct StepRange {
@@ -61,6 +82,8 @@ struct StepRange {
 struct Bookmark {
     std::string name;
     std::uint32_t step = 0;
+    std::uint32_t fraction = 0; ///< of the way to the next step, below kFractions
+    Moment moment() const { return {step, fraction}; }
     bool operator==(const Bookmark&) const = default;
 };
 inline constexpr std::size_t kMostBookmarks = 256;
@@ -119,12 +142,14 @@ struct Coloring {
 
 /// What is behind the data.
 enum class Background : std::uint8_t {
-    dark,    ///< the configuration's color
-    light,   ///< nearly white, as paper
-    gradient ///< from a dark floor to a lighter sky, which stands still in the room
+    dark,     ///< the configuration's color
+    light,    ///< nearly white, as paper
+    gradient, ///< from a dark floor to a lighter sky, which stands still in the room
+    gray      ///< lifted so far that surfaces of dark colors are seen against it
 };
 template <>
-inline constexpr std::array<std::string_view, 3> kNames<Background>{"dark", "light", "gradient"};
+inline constexpr std::array<std::string_view, 4> kNames<Background>{"dark", "light", "gradient",
+                                                                    "gray"};
 
 /// How surfaces shine.
 enum class Material : std::uint8_t {
@@ -142,7 +167,48 @@ struct Look {
     Background background = Background::dark;
     Material material = Material::satin;
     float occlusion = 0.6f; ///< how much darker the surface is where it is surrounded by itself
+    /// Where the key light comes from in the room: the angle to the right of the way from the data
+    /// to the viewer, and the height above the floor, degrees. Empty: as the program has it.
+    std::optional<std::array<double, 2>> light = {};
     bool operator==(const Look&) const = default;
+};
+
+/// Which steps are exported.
+enum class ExportedSteps : std::uint8_t {
+    shown, ///< the moment that is shown
+    range  ///< all steps of the range that plays
+};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<ExportedSteps>{"shown", "range"};
+
+/// How surfaces are exported as files for other programs.
+struct SurfaceExport {
+    std::string format = "ply"; ///< by its name (index/export/surface_writer.h)
+    ExportedSteps steps = ExportedSteps::shown;
+    bool clipped = true; ///< without what a shown clip plane cuts away
+    bool operator==(const SurfaceExport&) const = default;
+};
+
+/// What a picture or movie that is written shows beside the data, and how it is written.
+struct WrittenPictures {
+    bool legend = true;
+    bool scale_bar = false;              ///< and the data's axes, where the window shows them
+    bool box = true;                     ///< the data's box, where the window shows it
+    bool marks = true;                   ///< mark, ruler and the outline of the clip plane
+    std::uint32_t width = 0, height = 0; ///< [pixel], 0: as it is seen
+    double rate = 30.0;      ///< pictures a second of a movie, kSlowestMovie to kFastestMovie
+    std::string folder = {}; ///< empty: the one that the program was started with
+    SurfaceExport surfaces;  ///< how surfaces are exported to the same folder
+    bool operator==(const WrittenPictures&) const = default;
+};
+inline constexpr std::uint32_t kLargestPicture = 16384; ///< [pixel] along each side
+inline constexpr double kSlowestMovie = 1.0, kFastestMovie = 240.0;
+
+/// The export that goes on in the background, or is asked for.
+struct ExportWork {
+    bool goes_on = false;      ///< setting it begins an export, clearing it cancels the export
+    std::uint32_t percent = 0; ///< of it that is written, 0 to 100
+    bool operator==(const ExportWork&) const = default;
 };
 
 /// The panel that stands in the room.
@@ -154,9 +220,10 @@ struct RoomPanel {
 
 /// A place in the data that the user picked, and the value there.
 struct MarkedPoint {
-    glm::dvec3 position{0.0}; ///< physical space
-    std::uint32_t step = 0;   ///< shown when it was picked
-    double value = 0;         ///< of the data there
+    glm::dvec3 position{0.0};   ///< physical space
+    std::uint32_t step = 0;     ///< shown when it was picked
+    double value = 0;           ///< of the data there
+    std::uint32_t fraction = 0; ///< as of a Moment; shown with the step
     bool operator==(const MarkedPoint&) const = default;
 };
 /// The one place that is marked, or none.

@@ -42,6 +42,10 @@ struct SettingsOf {
     // Time.
     Holds<std::uint32_t> steps{}; ///< number that the session shows; 0: all that the index has
     Holds<std::uint32_t> step{};
+    /// How far time is on the way to the next step, in parts of kFractions; a command with a step and
+    /// without it sets it to 0.
+    Holds<std::uint32_t> fraction{};
+    Holds<BetweenSteps> between{};
     Holds<bool> follow{}; ///< show the last step whenever a new one arrives
     Holds<PlaybackState> playback{};
     Holds<StepRange> play_range{};
@@ -63,6 +67,8 @@ struct SettingsOf {
     Holds<Tools> tools{};
     Holds<ClipPlane> clip{};
     Holds<Ruler> ruler{};
+    Holds<WrittenPictures> pictures{};
+    Holds<ExportWork> exporting{};
     Holds<bool> leaving{}; ///< the program asks the user whether to quit
 
     bool operator==(const SettingsOf&) const = default;
@@ -81,6 +87,9 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
     visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
     visit(Field{.key = "step", .dragged = true}, r.step...);
+    visit(Field{.key = "fraction", .low = 0, .high = kFractions - 1, .dragged = true},
+          r.fraction...);
+    visit(Field{"between"}, r.between...);
     visit(Field{.key = "follow"}, r.follow...);
     visit(Field{"playback"}, r.playback...);
     visit(Field{.key = "play_range", .dragged = true}, r.play_range...);
@@ -99,6 +108,8 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "clip", .dragged = true}, r.clip...);
     visit(Field{"ruler"}, r.ruler...);
     visit(Field{"orthographic"}, r.orthographic...);
+    visit(Field{.key = "pictures", .dragged = true}, r.pictures...);
+    visit(Field{.key = "exporting", .undone = false}, r.exporting...);
     visit(Field{.key = "leaving", .undone = false}, r.leaving...);
 }
 
@@ -109,6 +120,10 @@ using SettingValue = T;
 struct Settings : SettingsOf<SettingValue> {
     double isovalue() const { return isosurfaces[picked].isovalue; }
     void set_isovalue(double isovalue) { isosurfaces[picked].isovalue = isovalue; }
+    /// The moment that is shown.
+    Moment moment() const { return {step, blends() ? fraction : 0}; }
+    /// Whether steps are blended; pictures as in the paper never are.
+    bool blends() const { return between == BetweenSteps::blend && quality != QualityMode::paper; }
     bool operator==(const Settings&) const = default;
 };
 

@@ -1,8 +1,12 @@
 // The steps that playing goes through, and when each of them is shown.
 #include "interaction/step_track.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace isochron::interaction {
 namespace {
@@ -48,6 +52,35 @@ std::uint32_t StepTrack::place_at(double time) const {
             high = middle;
     }
     return std::max(low, 1u) - 1;
+}
+
+Moment StepTrack::moment_at(double time, double gap) const {
+    const std::uint32_t place = place_at(time), at = step(place);
+    if (place >= last() || every_ != 1 || times_[at + 1] - times_[at] > gap)
+        return at;
+    const double begin = start(place);
+    const double share = std::clamp((time - begin) / (start(place + 1) - begin), 0.0, 1.0);
+    const auto fraction = static_cast<std::uint32_t>(std::lround(share * kFractions));
+    return fraction == kFractions ? Moment(at + 1) : Moment(at, fraction);
+}
+
+double StepTrack::time_of(const Moment& moment, bool reverse) const {
+    const std::uint32_t place = place_of(moment.step, reverse);
+    if (step(place) != moment.step || place >= last())
+        return start(place);
+    return std::lerp(start(place), start(place + 1),
+                     static_cast<double>(moment.fraction) / kFractions);
+}
+
+double gap_between(std::span<const double> times) {
+    if (times.size() < 2)
+        return 0.0;
+    std::vector<double> apart(times.size());
+    std::adjacent_difference(times.begin(), times.end(), apart.begin());
+    const auto middle = apart.begin() + 1 + static_cast<std::ptrdiff_t>((times.size() - 1) / 2);
+    std::nth_element(apart.begin() + 1, std::min(middle, apart.end() - 1), apart.end());
+    constexpr double kMost = 3.0;
+    return kMost * *std::min(middle, apart.end() - 1);
 }
 
 double period(std::span<const double> times) {
@@ -114,26 +147,46 @@ StepRange marked_at(std::uint32_t step, const StepRange& range) {
     return !range.first || step < *range.first ? StepRange{step, {}} : StepRange{range.first, step};
 }
 
-std::optional<std::uint32_t> next_bookmark(std::span<const Bookmark> bookmarks,
-                                           std::uint32_t step) {
-    std::optional<std::uint32_t> first, next;
+std::optional<Moment> next_bookmark(std::span<const Bookmark> bookmarks, Moment now, bool blends) {
+    if (!blends)
+        now.fraction = kFractions - 1;
+    std::optional<Moment> first, next;
     for (const Bookmark& each : bookmarks) {
-        first = std::min(first.value_or(each.step), each.step);
-        if (each.step > step)
-            next = std::min(next.value_or(each.step), each.step);
+        first = std::min(first.value_or(each.moment()), each.moment());
+        if (each.moment() > now)
+            next = std::min(next.value_or(each.moment()), each.moment());
     }
     return next ? next : first;
 }
 
-std::optional<std::uint32_t> previous_bookmark(std::span<const Bookmark> bookmarks,
-                                               std::uint32_t step) {
-    std::optional<std::uint32_t> last, previous;
+std::optional<Moment> previous_bookmark(std::span<const Bookmark> bookmarks, Moment now,
+                                        bool blends) {
+    if (!blends)
+        now.fraction = 0;
+    std::optional<Moment> last, previous;
     for (const Bookmark& each : bookmarks) {
-        last = std::max(last.value_or(each.step), each.step);
-        if (each.step < step)
-            previous = std::max(previous.value_or(each.step), each.step);
+        last = std::max(last.value_or(each.moment()), each.moment());
+        if (each.moment() < now)
+            previous = std::max(previous.value_or(each.moment()), each.moment());
     }
     return previous ? previous : last;
+}
+
+std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, const Moment& at) {
+    if (std::erase_if(bookmarks, [&](const Bookmark& each) { return each.moment() == at; }) > 0 ||
+        bookmarks.size() == kMostBookmarks)
+        return bookmarks;
+    const auto after =
+        std::ranges::find_if(bookmarks, [&](const Bookmark& each) { return each.moment() > at; });
+    bookmarks.insert(after, {name_of(at), at.step, at.fraction});
+    return bookmarks;
+}
+
+std::string name_of(const Moment& moment) {
+    if (moment.fraction == 0)
+        return fmt::format("step {}", moment.step + 1);
+    return fmt::format("step {:.2f}",
+                       moment.step + 1 + static_cast<double>(moment.fraction) / kFractions);
 }
 
 PlaybackState counted_in(SpeedUnit unit, PlaybackState state, std::span<const double> times) {

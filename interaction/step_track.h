@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace isochron::interaction {
 
@@ -29,6 +31,12 @@ class StepTrack {
     double duration() const { return start(places_); }
     /// The place that is shown at a time.
     std::uint32_t place_at(double time) const;
+    /// The moment at a time where steps are blended, rounded once. Only steps next to each other
+    /// are: others are held, and so are the last one and those before a gap.
+    /// @param gap times between steps above this are gaps
+    Moment moment_at(double time, double gap) const;
+    /// When a moment of the track comes. @param reverse as `place_of`
+    double time_of(const Moment& moment, bool reverse) const;
 
   private:
     std::span<const double> times_;
@@ -40,6 +48,9 @@ inline constexpr double kRoundSeconds = 10.0; ///< [s] of one whole series at sp
 
 /// How far time that plays moves on a `StepTrack` in a second.
 double track_rate(const PlaybackState& state, std::span<const double> times);
+
+/// Steps farther apart than this are not blended: three times the median distance.
+double gap_between(std::span<const double> times);
 
 /// Physical duration of one round: last minus first time plus one mean step; 0 for one step.
 double period(std::span<const double> times);
@@ -61,10 +72,19 @@ StepRange ended_at(std::uint32_t step, StepRange range);
 /// For one button: begins a range at the step, then ends it there, then takes all steps again.
 StepRange marked_at(std::uint32_t step, const StepRange& range);
 
-/// The step of the next bookmark after a step, or before it; behind the last one comes the first.
-std::optional<std::uint32_t> next_bookmark(std::span<const Bookmark> bookmarks, std::uint32_t step);
-std::optional<std::uint32_t> previous_bookmark(std::span<const Bookmark> bookmarks,
-                                               std::uint32_t step);
+/// The moment of the next bookmark after a moment, or before it; behind the last one comes the first.
+/// @param blends time stops between steps, too; else all moments of a step are the same
+std::optional<Moment> next_bookmark(std::span<const Bookmark> bookmarks, Moment now,
+                                    bool blends = true);
+std::optional<Moment> previous_bookmark(std::span<const Bookmark> bookmarks, Moment now,
+                                        bool blends = true);
+
+/// The bookmarks with a moment in addition, or without it if it is among them; the same ones if there
+/// are kMostBookmarks of other moments.
+std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, const Moment& at);
+
+/// `step 4`, or between two steps `step 4.50`: as people count, from 1.
+std::string name_of(const Moment& moment);
 
 /// The same number of pictures a second, counted in another unit.
 PlaybackState counted_in(SpeedUnit unit, PlaybackState state, std::span<const double> times);

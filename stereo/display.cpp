@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -25,6 +26,10 @@ glm::ivec2 corner_in_target(std::size_t number, glm::ivec2 size) {
     const glm::ivec2 next = size.x > size.y ? glm::ivec2(0, size.y) : glm::ivec2(size.x, 0);
     return static_cast<int>(number) * next;
 }
+
+/// Half a turn of a picture in its plane, of clip space.
+const glm::mat4 kTurned(glm::vec4(-1, 0, 0, 0), glm::vec4(0, -1, 0, 0), glm::vec4(0, 0, 1, 0),
+                        glm::vec4(0, 0, 0, 1));
 
 constexpr glm::vec4 kBlack{0.0f, 0.0f, 0.0f, 1.0f};
 
@@ -61,8 +66,8 @@ render::View Display::view_in(const Viewport& viewport, const ViewerPose& viewer
     return viewer.parallel > 0 && viewport.screen.fit_aspect
                ? parallel_view_of(viewport.screen, viewer.head, viewer.parallel, options_.far_plane,
                                   size)
-               : view_of(viewport.screen, viewer.head, eye, viewer.eye_separation,
-                         options_.near_plane, options_.far_plane, size);
+               : view_of(viewport.screen, viewer.head, eye, viewer.eyes, options_.near_plane,
+                         options_.far_plane, size);
 }
 
 std::vector<render::View> Display::views_in_target(std::size_t number,
@@ -106,6 +111,8 @@ std::vector<render::View> Display::views_in_window(std::span<const ViewerPose> v
         for (const Eye eye : eyes_of(mode_)) {
             views.push_back(view_in(viewport, viewers[viewport.viewer], eye));
             views.back().corner = region_of(viewport, place_of(eye, mode_)).corner;
+            if (viewport.upside_down)
+                views.back().clip_from_eye = kTurned * views.back().clip_from_eye;
         }
     return views;
 }
@@ -157,8 +164,10 @@ std::optional<interaction::Pose> Display::ray_at(std::span<const ViewerPose> vie
     for (const Viewport& viewport : window_.viewports)
         for (const Eye place : eyes_of(mode_)) {
             const Region region = region_of(viewport, place);
-            const glm::vec2 local = (at * glm::vec2(composed_.size()) - glm::vec2(region.corner)) /
-                                    glm::vec2(region.size);
+            glm::vec2 local = (at * glm::vec2(composed_.size()) - glm::vec2(region.corner)) /
+                              glm::vec2(region.size);
+            if (viewport.upside_down)
+                local = 1.0f - local;
             if (!(local.x >= 0 && local.x <= 1 && local.y >= 0 && local.y <= 1))
                 continue;
             const ViewerPose& viewer = viewers[viewport.viewer];
@@ -166,7 +175,7 @@ std::optional<interaction::Pose> Display::ray_at(std::span<const ViewerPose> vie
                 return parallel_ray_through(viewport.screen, viewer.head, viewer.parallel,
                                             region.size, local);
             return ray_through(viewport.screen, viewer.head,
-                               shared ? Eye::center : place_of(place, mode_), viewer.eye_separation,
+                               shared ? Eye::center : place_of(place, mode_), viewer.eyes,
                                region.size, local);
         }
     return std::nullopt;
@@ -198,17 +207,19 @@ void Display::compose_into(const render::RenderTarget& target, Eye buffer) const
             target.bind();
             gl_->Viewport(region.corner.x, region.corner.y, region.size.x, region.size.y);
             multiplex_.draw(shown_at(Eye::left, i), shown_at(Eye::right, i), mode_, region.corner,
-                            target.size().y);
+                            target.size().y, viewport.upside_down);
             continue;
         }
         for (const Eye place : right_buffer_ ? std::vector{buffer} : eyes_of(mode_)) {
             const Region region = region_of(viewport, place);
-            const glm::ivec2 end = region.corner + region.size;
+            glm::ivec2 begin = region.corner, end = region.corner + region.size;
+            if (viewport.upside_down)
+                std::swap(begin, end); // mirrored in both axes
             const EyePicture eye = shown_at(place, i);
             const glm::ivec2 from = eye.corner, to = eye.corner + eye.size;
             gl_->BlitNamedFramebuffer(eye.target->framebuffer(), target.framebuffer(), from.x,
-                                      from.y, to.x, to.y, region.corner.x, region.corner.y, end.x,
-                                      end.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+                                      from.y, to.x, to.y, begin.x, begin.y, end.x, end.y,
+                                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
         }
     }
 }

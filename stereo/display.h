@@ -29,7 +29,7 @@ namespace isochron::stereo {
 /// Where a viewer's eyes are in one frame.
 struct ViewerPose {
     interaction::Pose head;
-    float eye_separation = 0; ///< [m]
+    Eyes eyes; ///< in the head's frame
     /// If not 0, desktop screens show a parallel projection, the same to both eyes. At this
     /// distance [m] things are as large as in perspective.
     float parallel = 0;

@@ -83,7 +83,8 @@ class Headset : public interaction::TrackedInput {
     virtual std::vector<HeadsetEye> eyes() = 0;
     /// Ends the current frame, if there is one.
     /// @param pictures null: show nothing
-    /// @param again shows the pictures of the previous frame again, which the headset still has
+    /// @param again shows the pictures of an earlier frame again, which the headset still has, from
+    /// where they were drawn
     virtual void end_frame(const HeadsetPictures* pictures, bool again) = 0;
 
     /// Vibrates a hand's controller if it can. @param amplitude 0 to 1

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/reader/reader_pool.h"
+#include "index/system/memory_limit.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
 #include "render/gl/gl.h"
@@ -12,9 +13,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -26,6 +29,10 @@ namespace {
 
 using image_module::PictureFormat;
 
+/// Address space that the picture module takes [bytes]. With less, a library of it (log4cplus) waits
+/// for good for threads that cannot start.
+constexpr std::uint64_t kModuleAddresses = 512 << 20;
+
 /// A function of the picture module. @throws index::Error naming the picture, and the package that
 /// is missing where the library of pictures is
 template <typename Function>
@@ -35,8 +42,14 @@ Function* picture_function(const char* name, const std::filesystem::path& pictur
     } catch (const index::Error& error) {
         throw index::Error(fmt::format("{}: {}", picture.string(), error.what()));
     }
+    static std::atomic<bool> loaded = false;
+    if (!loaded && index::addresses_left() < kModuleAddresses)
+        throw std::bad_alloc();
     try {
-        return reinterpret_cast<Function*>(index::module_symbol("isochron_images", name));
+        Function* function =
+            reinterpret_cast<Function*>(index::module_symbol("isochron_images", name));
+        loaded = true;
+        return function;
     } catch (const index::Error& error) {
         throw index::Error(fmt::format("{}: pictures need the package {}: {}", picture.string(),
                                        ISOCHRON_PICTURE_PACKAGE, error.what()));

@@ -5,11 +5,13 @@
 #include "interaction/commands.h"
 #include "stereo/stereo_mode.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,9 @@ struct Viewport {
     glm::vec2 size{1.0f};
     std::size_t viewer = 0; ///< who sees it: index into the installation's viewers
     Screen screen;
+    /// The display hangs upside down: its pixels show the picture turned by 180 degrees. The screen's
+    /// corners are where the viewer sees them.
+    bool upside_down = false;
     bool operator==(const Viewport&) const = default;
 };
 
@@ -65,12 +70,24 @@ struct Window {
     bool operator==(const Window&) const = default;
 };
 
+/// Where a viewer's eyes are in the frame of the head: X to the right, Y up, -Z ahead.
+struct Eyes {
+    /// Of eyes that lie on both sides of the head's origin, as most do.
+    Eyes(float apart = 0) : separation(apart) {}
+    float separation;             ///< [m] from one eye to the other
+    glm::vec3 middle{0.0f};       ///< [m] between them
+    glm::vec3 across{1.0f, 0, 0}; ///< unit vector from the left eye to the right one
+    bool operator==(const Eyes&) const = default;
+};
+
 /// A viewer in the room.
 struct Viewer {
     std::string name = "viewer";
     std::string head = "head";            ///< the device that tracks the head
     glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< of the head until it is tracked [m]
     float eye_separation = 0.063f;        ///< meters, 0 to 0.1
+    /// Measured places of the eyes in the head's frame [m], `eye_separation` apart; both or none.
+    std::optional<glm::vec3> left_eye, right_eye;
     bool operator==(const Viewer&) const = default;
 };
 
@@ -94,6 +111,18 @@ inline float eye_separation_of(const Viewer& viewer, const Installation& install
     if (first == viewer.eye_separation || first <= 0.0f)
         return live;
     return std::min(viewer.eye_separation * (live / first), interaction::kWidestEyes);
+}
+
+/// A viewer's eyes when they are this far apart [m]: both move along their line from the middle.
+inline Eyes eyes_of_viewer(const Viewer& viewer, float separation) {
+    Eyes eyes(separation);
+    if (!viewer.left_eye || !viewer.right_eye)
+        return eyes;
+    eyes.middle = 0.5f * (*viewer.left_eye + *viewer.right_eye);
+    const glm::vec3 across = *viewer.right_eye - *viewer.left_eye;
+    if (const float apart = glm::length(across); apart > 0)
+        eyes.across = across / apart;
+    return eyes;
 }
 
 } // namespace isochron::stereo

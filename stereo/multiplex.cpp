@@ -40,7 +40,7 @@ bool Multiplex::shows(StereoMode mode) {
 }
 
 void Multiplex::draw(const EyePicture& left, const EyePicture& right, StereoMode mode,
-                     glm::ivec2 corner, int window_height) const {
+                     glm::ivec2 corner, int window_height, bool upside_down) const {
     const render::Gl& gl = program_.gl();
     for (const GLenum capability : {GL_DEPTH_TEST, GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST})
         gl.Disable(capability);
@@ -51,8 +51,13 @@ void Multiplex::draw(const EyePicture& left, const EyePicture& right, StereoMode
     const auto place = [&](const char* name, glm::ivec2 at) {
         gl.ProgramUniform2i(program, gl.GetUniformLocation(program, name), at.x, at.y);
     };
-    place("left_from_window", left.corner - corner);
-    place("right_from_window", right.corner - corner);
+    // A turned picture begins with its last pixel, and goes backwards.
+    const auto begin = [&](const EyePicture& eye) {
+        return upside_down ? eye.corner + eye.size - 1 + corner : eye.corner - corner;
+    };
+    place("left_from_window", begin(left));
+    place("right_from_window", begin(right));
+    gl.ProgramUniform1i(program, gl.GetUniformLocation(program, "way"), upside_down ? -1 : 1);
     gl.ProgramUniform1i(program, gl.GetUniformLocation(program, "window_height"), window_height);
     gl.BindTextureUnit(0, left.target->color_texture());
     gl.BindTextureUnit(1, right.target->color_texture());

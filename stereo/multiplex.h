@@ -38,8 +38,9 @@ class Multiplex {
     /// viewport's size
     /// @param corner of the viewport in the bound target, pixels from its lower left
     /// @param window_height of the bound target, as rows are counted from its top
+    /// @param upside_down the pictures are turned by 180 degrees, each in its place
     void draw(const EyePicture& left, const EyePicture& right, StereoMode mode, glm::ivec2 corner,
-              int window_height) const;
+              int window_height, bool upside_down = false) const;
 
   private:
     render::Program program_;

@@ -114,16 +114,16 @@ bool finite(glm::vec3 v) {
 
 } // namespace
 
-glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separation) {
+glm::vec3 eye_position(const interaction::Pose& head, Eye eye, const Eyes& eyes) {
     const float side = eye == Eye::left ? -0.5f : eye == Eye::right ? 0.5f : 0.0f;
-    return head.position + head.orientation * glm::vec3(side * eye_separation, 0.0f, 0.0f);
+    return head.position + head.orientation * (eyes.middle + side * eyes.separation * eyes.across);
 }
 
-render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
-                     float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels) {
+render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye, const Eyes& eyes,
+                     float near_plane, float far_plane, glm::ivec2 pixels) {
     const Plane plane = plane_in_room(screen, head, pixels);
-    return view_from(in_front(plane, eye_position(head, eye, eye_separation)), plane, near_plane,
-                     far_plane, pixels);
+    return view_from(in_front(plane, eye_position(head, eye, eyes)), plane, near_plane, far_plane,
+                     pixels);
 }
 
 render::View parallel_view_of(const Screen& screen, const interaction::Pose& head, float distance,
@@ -143,10 +143,9 @@ std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction
 }
 
 interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
-                              float eye_separation, glm::ivec2 pixels, glm::vec2 at) {
+                              const Eyes& eyes, glm::ivec2 pixels, glm::vec2 at) {
     const Plane plane = plane_in_room(screen, head, pixels);
-    return ray_from(in_front(plane, eye_position(head, eye, eye_separation)), place_on(plane, at),
-                    plane);
+    return ray_from(in_front(plane, eye_position(head, eye, eyes)), place_on(plane, at), plane);
 }
 
 interaction::Pose parallel_ray_through(const Screen& screen, const interaction::Pose& head,
@@ -210,7 +209,9 @@ std::vector<std::string> problems(const Screen& screen, glm::vec3 viewer) {
                                     screen.carried_by_head ? "the head" : "a viewer at", viewer.x,
                                     viewer.y, viewer.z));
     if (plane_of(screen).up.y < -0.5)
-        found.push_back("it is upside down: upper_left is below lower_left");
+        found.push_back("it is upside down: upper_left is below lower_left, as the viewer sees "
+                        "them; for a display that hangs upside down give the corners that the "
+                        "viewer sees, and upside_down = true in its viewport");
     return found;
 }
 

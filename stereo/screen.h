@@ -26,16 +26,16 @@ constexpr float kNearestEye = 0.01f;
 constexpr double kSquareCorner = 1.0;
 
 /// Where an eye is in the room: half the separation away from the head, along its right axis.
-/// @param eye_separation [m], 0 puts both eyes at the head's position
-glm::vec3 eye_position(const interaction::Pose& head, Eye eye, float eye_separation);
+/// @param eyes 0: both at the head's position
+glm::vec3 eye_position(const interaction::Pose& head, Eye eye, const Eyes& eyes);
 
 /// Generalized perspective projection (R. Kooima, "Generalized Perspective Projection", 2009): the
 /// screen's corners are projected to the corners of clip space, wherever the eye is in front of it.
 /// The view has the screen's axes, so both eyes of a screen look in the same direction.
 /// @param near_plane, far_plane distances along the screen's normal [m], 0 < near < far
 /// @param pixels size of the picture; `fit_aspect` screens take its aspect
-render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye,
-                     float eye_separation, float near_plane, float far_plane, glm::ivec2 pixels);
+render::View view_of(const Screen& screen, const interaction::Pose& head, Eye eye, const Eyes& eyes,
+                     float near_plane, float far_plane, glm::ivec2 pixels);
 
 /// Distance of the eye of a parallel projection from its screen [m]: within a volume of 1.5 m sizes
 /// differ by less than 0.4 %.
@@ -56,7 +56,7 @@ std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction
 /// @param at fractions of the picture from the lower left
 /// @param pixels size of the picture, as for `view_of`
 interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
-                              float eye_separation, glm::ivec2 pixels, glm::vec2 at);
+                              const Eyes& eyes, glm::ivec2 pixels, glm::vec2 at);
 
 /// The same for a parallel projection; the ray starts at the head's distance from the screen.
 interaction::Pose parallel_ray_through(const Screen& screen, const interaction::Pose& head,

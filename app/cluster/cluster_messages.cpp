@@ -170,11 +170,11 @@ MessageBytes encoded(const FramePlan& plan) {
                {"all_at_rest", plan.all_at_rest},
                {"moves_finest", plan.moves_finest},
                {"resolution", plan.resolution},
-               {"mesh_level", plan.mesh_level}};
+               {"mesh_level", plan.mesh_level},
+               {"moved", plan.moved},
+               {"ahead", plan.ahead}};
     if (plan.in_parts)
         value["in_parts"] = *plan.in_parts;
-    if (plan.unseen)
-        value["unseen"] = *plan.unseen;
     return bytes_of(value);
 }
 
@@ -197,12 +197,12 @@ FramePlan decode_plan(std::span<const std::byte> bytes) {
         resolution_from(members.at("resolution"))};
     if (const json* in_parts = members.find("in_parts"))
         plan.in_parts = footprint_from(*in_parts);
-    if (const json* unseen = members.find("unseen"))
-        plan.unseen = footprint_from(*unseen);
+    plan.ahead = boolean(members.at("ahead"), "ahead");
     plan.mesh_level = natural(members.at("mesh_level"), "mesh_level", index::kMeshLevels - 1);
+    plan.moved = boolean(members.at("moved"), "moved");
     members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
                   "shows_parts", "holds_finer", "all_at_rest", "moves_finest", "resolution",
-                  "unseen", "mesh_level"});
+                  "ahead", "mesh_level", "moved"});
     return plan;
 }
 

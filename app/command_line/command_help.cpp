@@ -66,7 +66,9 @@ OptionReference reference_of(const CLI::Option& option) {
 } // namespace
 
 void show_examples(CLI::App& program) {
-    program.formatter(std::make_shared<HelpWithExamples>());
+    auto help = std::make_shared<HelpWithExamples>();
+    help->label("SUBCOMMAND", "COMMAND");
+    program.formatter(help);
 }
 
 void add_examples(CLI::App& command, std::vector<std::string> lines) {

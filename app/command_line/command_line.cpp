@@ -3,8 +3,11 @@
 
 #include "app/command_line/cancel.h"
 #include "app/command_line/command_help.h"
+#include "app/command_line/memory_shortage.h"
 #include "app/text.h"
 #include "app/version.h"
+
+#include "index/system/memory_limit.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,6 +23,7 @@
 #include <new>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace isochron::app {
@@ -59,6 +63,11 @@ Option& Option::values(int count) {
 
 Option& Option::repeatable() {
     option_->allow_extra_args(false);
+    return *this;
+}
+
+Option& Option::value_optional() {
+    option_->expected(0, 1);
     return *this;
 }
 
@@ -341,6 +350,7 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
                 int argc, const char* const* argv) {
     // A file that may not grow further (ulimit -f) is an error of the call that writes, with a line.
     std::signal(SIGXFSZ, SIG_IGN);
+    prepare_for_shortage(text.name);
     int status = 0;
     try {
         status = parse_and_run(text, commands, argc, argv);
@@ -351,11 +361,15 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
     } catch (const UsageError& error) {
         return fail(text.name, error.what(), 2);
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "%s: there is not enough memory\n", text.name);
-        return 1;
+        return fail(text.name, index::shortage_of_memory(), 1);
     } catch (const std::filesystem::filesystem_error& error) {
         const std::string path = error.path1().empty() ? "." : error.path1().string();
         return fail(text.name, fmt::format("{}: {}", path, error.code().message()), 1);
+    } catch (const std::system_error& error) { // std::thread has no other cause
+        if (error.code() != std::errc::resource_unavailable_try_again)
+            return fail(text.name, error.what(), 1);
+        return fail(text.name,
+                    fmt::format("a thread cannot be started: {}", index::shortage_of_memory()), 1);
     } catch (const std::exception& error) {
         return fail(text.name, error.what(), 1);
     }

@@ -51,6 +51,8 @@ class Option {
     Option& values(int count);
     /// Takes one value each time that it is given, and may be given several times.
     Option& repeatable();
+    /// May be given without a value: then the variable is an empty text.
+    Option& value_optional();
     /// Takes several values with commas between them.
     Option& comma_separated();
     /// Help shows the value that the variable has now.

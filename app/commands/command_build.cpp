@@ -46,10 +46,9 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
         text += fmt::format("note: {}\n", note);
     const index::IndexStats& stats = file.stats();
     if (const std::uint64_t all = info.grid.vertex_count() * info.steps(); stats.nan_values == all)
-        text +=
-            fmt::format("note: none of the {} values is there, all are missing: no surface can be "
-                        "found\n",
-                        grouped(all));
+        text += fmt::format("note: all {} values are missing: no surface can be "
+                            "found\n",
+                            grouped(all));
     return text;
 }
 
@@ -68,7 +67,8 @@ std::string shell_word(const std::string& word) {
 /// Opens the files. Where they leave the choice among several arrays, tells the command for each.
 BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& arguments) {
     try {
-        return open_sources(files, arguments);
+        ProgressBar bar;
+        return open_sources(files, arguments, bar.progress());
     } catch (const index::Error&) {
         std::string start = "isochron build";
         for (const std::string& file : arguments.files)
@@ -128,9 +128,9 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     if (asked.append) {
         std::error_code ignored;
         if (!fs::exists(asked.out, ignored))
-            throw index::Error(fmt::format("{}: there is no index yet to append to; the first time "
-                                           "build it without --append",
-                                           asked.out.string()));
+            throw index::Error(fmt::format(
+                "{}: there is no index to append to yet; build it once without --append",
+                asked.out.string()));
         team.together([&] { file.emplace(asked.out, team.rank() == 0); });
         team.together([&] {
             held = index::IndexFile::open(asked.out);

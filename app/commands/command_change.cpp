@@ -25,6 +25,8 @@ struct ChangeArguments {
     std::optional<double> to_isovalue;
     std::int64_t step = 0;
     std::optional<std::int64_t> to_step;
+    std::uint32_t fraction = 0;
+    std::optional<std::uint32_t> to_fraction;
     std::uint32_t repeats = 5;
     std::optional<std::string> array;
     bool json = false, force = false;
@@ -53,7 +55,7 @@ Difference sorted(const index::CellChange& change) {
 }
 
 void run_change(const ChangeArguments& arguments) {
-    if (!arguments.to_step && !arguments.to_isovalue)
+    if (!arguments.to_step && !arguments.to_isovalue && !arguments.to_fraction)
         throw UsageError("--to-step or --to-isovalue is missing");
     const auto file = array_called(open_index(arguments.file), arguments.array);
     index::expect_narrow_ids(*file);
@@ -62,8 +64,11 @@ void run_change(const ChangeArguments& arguments) {
         if (!out.empty())
             outputs.push_back({out, OutputKind::ids, file->info().grid.cell_count()});
     guard_outputs(outputs, {{arguments.file}, file.get()}, arguments.force);
-    const index::Query from{index::step_named(*file, arguments.step), arguments.isovalue};
-    const index::Query to{index::step_named(*file, arguments.to_step.value_or(arguments.step)),
+    const index::Query from{index::instant_named(*file, arguments.step, arguments.fraction),
+                            arguments.isovalue};
+    const std::uint32_t same_fraction = arguments.to_step ? 0 : arguments.fraction;
+    const index::Query to{index::instant_named(*file, arguments.to_step.value_or(arguments.step),
+                                               arguments.to_fraction.value_or(same_fraction)),
                           arguments.to_isovalue.value_or(arguments.isovalue)};
     warn_beyond(from.isovalue, *file);
     if (to.isovalue != from.isovalue)
@@ -87,27 +92,29 @@ void run_change(const ChangeArguments& arguments) {
     if (!arguments.removed.empty())
         write_ids(arguments.removed, found.removed);
     if (arguments.json) {
-        const nlohmann::ordered_json j{{"file", arguments.file.string()},
-                                       {"array", file->info().array},
-                                       {"step", std::uint32_t{from.step}},
-                                       {"isovalue", from.isovalue},
-                                       {"to_step", std::uint32_t{to.step}},
-                                       {"to_isovalue", to.isovalue},
-                                       {"added", found.added.size()},
-                                       {"removed", found.removed.size()},
-                                       {"searched_anew", whole},
-                                       {"change_ms", middle->count()}};
+        const nlohmann::ordered_json j{
+            {"file", arguments.file.string()},  {"array", file->info().array},
+            {"step", std::uint32_t{from.step}}, {"fraction", from.step.fraction},
+            {"isovalue", from.isovalue},        {"to_step", std::uint32_t{to.step}},
+            {"to_fraction", to.step.fraction},  {"to_isovalue", to.isovalue},
+            {"added", found.added.size()},      {"removed", found.removed.size()},
+            {"searched_anew", whole},           {"change_ms", middle->count()}};
         fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
+    const auto at = [](index::Instant moment) {
+        return moment.between() ? fmt::format("{} + {}/65536", moment.step, moment.fraction)
+                                : fmt::format("{}", moment.step);
+    };
     fmt::print("isovalue {} at step {} to isovalue {} at step {}\n"
                "added            {}\n"
                "removed          {}\n"
                "found by         {}\n"
                "time             {:.4f} ms (median of {})\n",
-               from.isovalue, std::uint32_t{from.step}, to.isovalue, std::uint32_t{to.step},
-               grouped(found.added.size()), grouped(found.removed.size()),
-               whole ? "a search for all of the second set: little stays" : "what differs alone",
+               from.isovalue, at(from.step), to.isovalue, at(to.step), grouped(found.added.size()),
+               grouped(found.removed.size()),
+               whole ? "a full search of the second set: little stays the same"
+                     : "a search of only what differs",
                middle->count(), times.size());
 }
 
@@ -129,6 +136,15 @@ void add_change(Command& program) {
     command.option("--to-isovalue", arguments->to_isovalue, "To this isovalue (default: the same)");
     command.option("--to-step", arguments->to_step, "To this step (default: the same)");
     command
+        .option("--fraction", arguments->fraction,
+                "From so many 65536ths of the way to the next step, as `query --fraction`")
+        .between(0u, 65535u)
+        .shows_default();
+    command
+        .option("--to-fraction", arguments->to_fraction,
+                "To so many of them (default: the same, or 0 with --to-step)")
+        .between(0u, 65535u);
+    command
         .option("--added", arguments->added,
                 "Write the ids of the cells that become active, as `query --ids` does")
         .type_name("OUT.bin");
@@ -145,10 +161,10 @@ void add_change(Command& program) {
         .between(1u, 1000u)
         .shows_default();
     command.flag("--json", arguments->json, "Print one JSON object");
-    command.footer(
-        "JSON keys: file, array, step, isovalue, to_step, to_isovalue, added, removed (numbers "
-        "of cells), searched_anew\n(true if that was cheaper than finding the changes), "
-        "change_ms (median).");
+    command.footer("JSON keys: file, array, step, fraction, isovalue, to_step, to_fraction, "
+                   "to_isovalue, added, removed (numbers "
+                   "of cells), searched_anew\n(true if that was cheaper than finding the changes), "
+                   "change_ms (median).");
     command.on_run([arguments] { run_change(*arguments); });
 }
 

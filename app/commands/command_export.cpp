@@ -3,16 +3,19 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/step_range.h"
 #include "app/command_line/subcommands.h"
+#include "app/commands/mesh_cuts.h"
+#include "app/commands/mesh_packing.h"
+#include "app/commands/simplified.h"
 #include "app/indexing/open_index.h"
+#include "app/output/export_request.h"
 #include "app/output/guarded_outputs.h"
 #include "app/text.h"
-#include "app/version.h"
 #include "index/error.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"
 #include "index/formats/length_units.h"
+#include "index/system/memory_limit.h"
 #include "index/system/new_file.h"
-#include "render/gl/srgb.h"
 #include "render/passes/color_map.h"
 
 #include <fmt/format.h>
@@ -25,6 +28,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -37,8 +41,10 @@ struct ExportArguments {
     std::string out, format, steps, precision = "single", color_map = "viridis";
     std::vector<double> isovalues, range;
     std::optional<std::string> array, color_by, unit;
+    MeshCuts cuts;
     double rate = 10;
-    bool no_normals = false, force = false, json = false;
+    std::uint32_t fraction = 0;
+    bool no_normals = false, quantize = false, compress = false, force = false, json = false;
 };
 
 std::vector<std::string> format_names() {
@@ -69,13 +75,9 @@ Target target_of(const ExportArguments& arguments) {
     const index::SurfaceFormat& format = by_name ? *by_name : *by_extension;
     if (folder)
         return {&format, out / (arguments.file.stem().string() + std::string(format.extension))};
+    if (by_name && !out.has_extension()) // or no program could tell what the file is
+        return {&format, out.string() + std::string(format.extension)};
     return {&format, out};
-}
-
-std::array<std::uint8_t, 3> bytes_of(const glm::vec3& srgb) {
-    const glm::vec3 scaled = glm::round(glm::clamp(srgb, 0.0f, 1.0f) * 255.0f);
-    return {static_cast<std::uint8_t>(scaled.x), static_cast<std::uint8_t>(scaled.y),
-            static_cast<std::uint8_t>(scaled.z)};
 }
 
 /// What the values of an array are to look like.
@@ -100,15 +102,7 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
         throw UsageError(
             fmt::format("--range: expected LOW below HIGH, got {} {}", range[0], range[1]));
     return {.array = number, .color_of = [range, colors = render::color_map(*map)](float value) {
-                const double share =
-                    std::clamp((value - range[0]) / (range[1] - range[0]), 0.0, 1.0);
-                const double place =
-                    std::isnan(share) ? 0 : share * static_cast<double>(colors.size() - 1);
-                const auto low = static_cast<std::size_t>(place);
-                const glm::vec3 color =
-                    glm::mix(colors[low], colors[std::min(low + 1, colors.size() - 1)],
-                             static_cast<float>(place - static_cast<double>(low)));
-                return bytes_of(render::srgb_from_linear(color));
+                return color_at(colors, (value - range[0]) / (range[1] - range[0]));
             }};
 }
 
@@ -120,7 +114,7 @@ double factor_between(const std::string& from, const std::string& to) {
             fmt::format("--unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to));
     if (!source)
         throw UsageError(fmt::format(
-            "--unit {}: the data have {}; isochron build --length-unit says it", to,
+            "--unit {}: the data have {}; build the index with --length-unit", to,
             from.empty() ? "no unit of length" : "the unit " + from + ", which is not a length"));
     return *source / *wanted;
 }
@@ -129,30 +123,30 @@ index::ExportRequest request_of(const ExportArguments& arguments, const index::I
                                 const index::SurfaceFormat& format) {
     const index::SeriesInfo& info = file.info();
     index::ExportRequest request;
-    index::ExportPlan& plan = request.plan;
-    plan.note = fmt::format("{}, {} of {}, content {:016x}", kProgram, one_line(info.array),
-                            one_line(arguments.file.filename().string()), file.content_hash());
-    plan.length_unit = one_line(info.length_unit);
-    plan.time_unit = one_line(info.time_unit);
+    index::ExportPlan& plan = request.plan = plan_of(file, arguments.file.filename().string());
     if (arguments.unit) {
         plan.unit_factor = factor_between(info.length_unit, *arguments.unit);
         plan.length_unit = *arguments.unit;
+        plan.meters = *index::meters_in(plan.length_unit);
     }
-    plan.meters = index::meters_in(plan.length_unit).value_or(1);
     plan.double_precision = arguments.precision == "double";
     plan.normals = !arguments.no_normals;
+    plan.quantized = arguments.quantize;
+    plan.packing = arguments.compress ? mesh_packing() : nullptr;
     plan.rate = arguments.rate;
     plan.steps = arguments.steps.empty()
                      ? steps_of(fmt::format("0:{}", info.steps() - 1), "--steps", info.steps())
                      : steps_of(arguments.steps, "--steps", info.steps());
+    plan.fraction = arguments.fraction;
+    if (plan.fraction > 0) // each step must have a next one
+        index::instant_named(file, plan.steps.back(), plan.fraction);
     for (const double isovalue : arguments.isovalues) {
         if (!std::isfinite(isovalue))
             throw UsageError(fmt::format("--isovalue: expected a number, got {}", isovalue));
         const std::size_t number = request.surfaces.size();
         request.surfaces.push_back({.isovalue = isovalue,
-                                    .name = one_line(fmt::format("{} {}{}", info.array, isovalue,
-                                                                 with_space(info.value_unit))),
-                                    .color = bytes_of(render::surface_palette()[number])});
+                                    .name = surface_name(info, isovalue),
+                                    .color = color_bytes(render::surface_palette()[number])});
         warn_beyond(isovalue, file);
     }
     if (arguments.color_by) {
@@ -163,19 +157,44 @@ index::ExportRequest request_of(const ExportArguments& arguments, const index::I
     return request;
 }
 
+void check(const ExportArguments& arguments, const index::SurfaceFormat& format) {
+    if (arguments.precision == "double" && !format.with_doubles)
+        throw UsageError(fmt::format("--precision double: {} has single precision alone; ply, obj, "
+                                     "vtp and csv have both",
+                                     format.name));
+    if ((arguments.quantize || arguments.compress) && !format.with_quantized)
+        throw UsageError(fmt::format("{}: is for glb and glb-animation, not {}",
+                                     arguments.quantize ? "--quantize" : "--compress",
+                                     format.name));
+    for (const auto& [option, given] :
+         {std::pair("--crop", arguments.cuts.crop.has_value()),
+          std::pair("--clip", !arguments.cuts.clip.empty()),
+          std::pair("--simplify", arguments.cuts.simplify.has_value())})
+        if (given && format.of_cells)
+            throw UsageError(
+                fmt::format("{}: is for triangles, and {} holds cells", option, format.name));
+    if (arguments.cuts.simplify && !can_simplify())
+        throw UsageError("--simplify: this build is without meshoptimizer (libmeshoptimizer-dev)");
+    if (arguments.compress && !mesh_packing())
+        throw UsageError("--compress: this build is without meshoptimizer (libmeshoptimizer-dev)");
+}
+
 void print(const ExportArguments& arguments, const std::vector<fs::path>& files,
-           const index::ExportRequest& request, const index::ExportCount& count) {
+           const index::ExportRequest& request, const index::ExportCount& count, double moved) {
     if (arguments.json) {
         nlohmann::ordered_json names = nlohmann::ordered_json::array();
         for (const fs::path& file : files)
             names.push_back(file.string());
-        const nlohmann::ordered_json j{{"files", names},
-                                       {"steps", request.plan.steps},
-                                       {"isovalues", arguments.isovalues},
-                                       {"cells", count.cells},
-                                       {"vertices", count.vertices},
-                                       {"triangles", count.triangles},
-                                       {"empty_steps", count.empty_steps}};
+        nlohmann::ordered_json j{{"files", names},
+                                 {"steps", request.plan.steps},
+                                 {"fraction", request.plan.fraction},
+                                 {"isovalues", arguments.isovalues},
+                                 {"cells", count.cells},
+                                 {"vertices", count.vertices},
+                                 {"triangles", count.triangles},
+                                 {"empty_steps", count.empty_steps}};
+        if (arguments.cuts.simplify)
+            j["error"] = moved;
         fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
@@ -184,9 +203,13 @@ void print(const ExportArguments& arguments, const std::vector<fs::path>& files,
                files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
                request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
                grouped(count.cells), grouped(count.vertices), grouped(count.triangles));
+    if (arguments.cuts.simplify)
+        fmt::print("simplified: the surface has moved by at most {}\n",
+                   with_unit(moved, request.plan.length_unit));
     if (!count.empty_steps.empty())
         fmt::print(stderr,
-                   "isochron: no cell has the isovalue in {} of {} steps, the first is {}\n",
+                   "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
+                   "step {}\n",
                    count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
 }
 
@@ -195,12 +218,14 @@ void run_export(const ExportArguments& arguments) {
         throw UsageError(fmt::format("--isovalue: expected at most {} of them, got {}",
                                      index::kMostSurfaces, arguments.isovalues.size()));
     const Target target = target_of(arguments);
-    if (arguments.precision == "double" && !target.format->with_doubles)
-        throw UsageError(fmt::format("--precision double: {} has single precision alone; ply, obj, "
-                                     "vtp and csv have both",
-                                     target.format->name));
-    const auto file = array_called(open_index(arguments.file), arguments.array);
-    const index::ExportRequest request = request_of(arguments, *file, *target.format);
+    check(arguments, *target.format);
+    // Each value is looked at twice, soon after each other: to find cells and to place vertices.
+    constexpr std::uint64_t kMostKept = std::uint64_t{128} << 20; // [byte]
+    const std::uint64_t kept = std::min(kMostKept, index::memory_limit() / 4);
+    const auto file = array_called(open_index(arguments.file, kept), arguments.array);
+    index::ExportRequest request = request_of(arguments, *file, *target.format);
+    double moved = 0;
+    request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan.unit_factor, moved);
     const std::vector<fs::path> files =
         index::files_of_export(*target.format, target.name, request.plan, request.surfaces.size());
     std::vector<Output> outputs;
@@ -220,7 +245,7 @@ void run_export(const ExportArguments& arguments) {
                                            bar.show(phase, fraction);
                                        });
     }
-    print(arguments, files, request, count);
+    print(arguments, files, request, count, moved);
 }
 
 } // namespace
@@ -244,6 +269,12 @@ void add_export(Command& program) {
         .option("--steps", arguments->steps,
                 "Steps, from 0: `7`, `0:63` with both ends, or `0:63:4` (default: all)")
         .type_name("FIRST:LAST[:STRIDE]");
+    command
+        .option(
+            "--fraction", arguments->fraction,
+            "Between each step and the next: so many 65536ths of the way, as `query --fraction`")
+        .between(0u, 65535u)
+        .shows_default();
     command
         .option("-o,--out", arguments->out,
                 "Output: a file; with several steps each has its number: surface_0007.ply. Or a "
@@ -274,6 +305,28 @@ void add_export(Command& program) {
     command.option("--rate", arguments->rate, "Steps a second in glb-animation and usda")
         .positive()
         .shows_default();
+    command
+        .option("--crop", arguments->cuts.crop,
+                "Only triangles within a box of the grid's vertices, both ends included")
+        .type_name("X0:X1,Y0:Y1,Z0:Z1");
+    command
+        .option("--clip", arguments->cuts.clip,
+                "Only triangles on one side of a plane: a point on it and the normal, which points "
+                "to what is cut away, in the data's coordinates")
+        .values(6)
+        .type_name("X Y Z NX NY NZ");
+    command
+        .option("--simplify", arguments->cuts.simplify,
+                "Fewer triangles: the surface may move by this distance, in the unit of the file")
+        .positive()
+        .type_name("ERROR");
+    command.flag("--quantize", arguments->quantize,
+                 "In glTF, coordinates of 16 bits and normals of 8 (KHR_mesh_quantization): a "
+                 "vertex moves by less than 1/130,000 of the surface's longest side");
+    command.flag(
+        "--compress", arguments->compress,
+        "In glTF, pack vertices and triangles without loss (EXT_meshopt_compression); with "
+        "--quantize files are smaller still");
     command.flag("--no-normals", arguments->no_normals, "Write no normals");
     command.flag("--force", arguments->force, "Replace files that exist");
     command.flag("--json", arguments->json, "Print one JSON object");
@@ -284,7 +337,9 @@ void add_export(Command& program) {
         formats +
         "Each file appears whole or not at all. Triangles are counter-clockwise as seen "
         "from the side of\nlower values, to which normals point. JSON keys: files, steps, "
-        "isovalues, cells, vertices,\ntriangles, empty_steps.");
+        "fraction, isovalues, cells, vertices,\ntriangles, empty_steps, error (with --simplify: "
+        "the "
+        "distance moved at most).");
     command.on_run([arguments] { run_export(*arguments); });
 }
 

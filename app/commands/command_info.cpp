@@ -1,4 +1,5 @@
 // `isochron info`: what an index holds, or what files of values are.
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
@@ -13,20 +14,23 @@
 #include <fmt/ranges.h>
 
 #include <memory>
+#include <optional>
 
 namespace isochron::app {
 namespace {
 
 struct InfoArguments {
     BuildArguments sources;
-    bool json = false, tree = false;
+    bool json = false, tree = false, measure_time = false;
 };
 
 /// Describes files, even where they leave open which array is meant: only `info` needs no choice.
 void describe_sources(BuildArguments arguments, bool in_json) {
     arguments.read.any_array = true;
     const auto files = expand_patterns(arguments.files);
-    const BuildSources sources = open_sources(files, arguments);
+    std::optional<ProgressBar> bar(std::in_place);
+    const BuildSources sources = open_sources(files, arguments, bar->progress());
+    bar.reset(); // its line ends before the description
     const std::string name = fmt::format("{}", fmt::join(arguments.files, " "));
     if (in_json)
         fmt::print("{}", source_json(name, *sources.volume));
@@ -44,10 +48,12 @@ void run_info(const InfoArguments& given) {
                           !(std::filesystem::exists(first, ignored) && index::is_index(first)));
     if (is_data && given.tree)
         throw UsageError(fmt::format("--tree: {} is not an index", first));
+    if (is_data && given.measure_time)
+        throw UsageError(fmt::format("--measure-time: {} is not an index", first));
     if (is_data)
         return describe_sources(arguments, given.json);
     const auto file = array_called(open_index(first), arguments.read.array);
-    const IndexReport report{first, *file, given.tree};
+    const IndexReport report{first, *file, given.tree, given.measure_time};
     if (given.json)
         fmt::print("{}", as_json(report));
     else
@@ -66,6 +72,10 @@ void add_info(Command& program) {
     command.flag("--tree", arguments->tree,
                  "Print the number of cells stored at every time node: of the paper's tree if "
                  "there is one, else of the cells tier");
+    command.flag(
+        "--measure-time", arguments->measure_time,
+        "Measure how well the blend of two steps stands for what lies between them, and say "
+        "what `explore` shows there: the blend, or the step before (hold)");
     command.flag("--json", arguments->json, "Print one JSON object");
     add_reading_options(command, arguments->sources);
     command.footer(

@@ -1,13 +1,15 @@
-// `isochron movie`: a recording becomes a movie.
+// `isochron movie`: a recording, or all steps of an index, become a movie.
 #include "app/command_line/cancel.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/explore/replay_source.h"
+#include "app/explore/series_movie.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"
 #include "app/session/kept/recording_file.h"
 #include "index/error.h"
+#include "index/file/index_series.h"
 #include "index/file/sections/file_layout.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
@@ -33,6 +35,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MovieOptions : ReplaySource {
+    SeriesMovie series;
     std::string out, eyes = "window";
     double rate = 30;
     bool force = false, background = false;
@@ -153,6 +156,18 @@ void check_output(const MovieOptions& options) {
     index::NewFile{out};
 }
 
+/// Options that only one kind of source has. @throws UsageError
+void check_source(const MovieOptions& options, bool of_index) {
+    if (!of_index &&
+        (options.series.isovalue || !options.series.steps.empty() || options.series.between))
+        throw UsageError(fmt::format(
+            "{}: a recording has its own isovalues, steps and moments between them; --isovalue, "
+            "--steps and --between go with an index",
+            options.recording));
+    if (of_index && options.data)
+        throw UsageError("--data goes with a recording; an index is the data itself");
+}
+
 /// For the program that started this one: `42 %`.
 void tell(double done) {
     fmt::print("{} %\n", static_cast<int>(100 * done));
@@ -172,8 +187,14 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (options.background)
         go_to_background();
     check_output(options);
-    const interaction::Recording recording = read_recording(options.recording);
-    if (recording.frames.empty())
+    const bool of_index = index::is_index(options.recording);
+    check_source(options, of_index);
+    interaction::Recording recording;
+    if (of_index)
+        recording.header = header_of_series(options);
+    else
+        recording = read_recording(options.recording);
+    if (recording.frames.empty() && !of_index)
         throw interaction::Error(options.recording + ": it has no frames");
     Config config = config_of(options, recording.header);
     config.pictures.only_kept = true;
@@ -183,10 +204,14 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     session.set_data_name(data_name(options, recording.header),
                           other_data(recording.header, *file));
     session.set_state(start_of(recording.header, session.state(), file->info().steps(), replay));
+    if (of_index)
+        recording =
+            steps_seen(session, config, *file, recording.header, options.series, options.rate);
     const PictureNames names = picture_names(config.installation);
     BackgroundWork writing;
     const Reads reads = reads_of(options, file.get());
-    Movies movies(options, names, {options.rate, hash_of(options.recording)}, reads, writing);
+    Movies movies(options, names, {options.rate, of_index ? "" : hash_of(options.recording)}, reads,
+                  writing);
     Clock clock(recording, options.rate);
     {
         const CancelOnSignal signals;
@@ -213,15 +238,28 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
 void add_movie(Command& program) {
     auto options = std::make_shared<MovieOptions>();
     Command command = program.subcommand(
-        "movie", "Make a movie of a recording with ffmpeg, or write its frames.");
+        "movie", "Make a movie of a recording, or of all steps of an index, with ffmpeg, or write "
+                 "its frames.");
     command.examples({"isochron movie walk.jsonl -o walk.mp4",
-                      "isochron movie walk.jsonl -o frames/ --stereo side_by_side"});
-    add_replay_source(command, *options);
+                      "isochron movie run42.isochron --isovalue 100 -o frames/"});
+    add_replay_source(
+        command, *options,
+        "Recording made by `explore --record`; or an index: all its steps, seen as "
+        "the explorer shows them first, in 10 s, or longer if every step needs a frame");
     command
         .option(
             "-o,--out", options->out,
             "Movie to write: .mp4, .mkv or .mov (H.264), .gif, or a folder for its frames (.png)")
         .required();
+    command.option("--isovalue", options->series.isovalue,
+                   "Of an index: the surface to show (default: as the explorer shows it first)");
+    command.option("--steps", options->series.steps,
+                   "Of an index: FIRST:LAST[:STRIDE], counted from 0 (default: all steps)");
+    command
+        .option("--between", options->series.between,
+                "Of an index, between two steps: hold the step before, or blend both (default: as "
+                "`isochron info` advises)")
+        .one_of(interaction::all_names<interaction::BetweenSteps>());
     command.option("--rate", options->rate, "Frames per second").positive().shows_default();
     command
         .option("--eyes", options->eyes,

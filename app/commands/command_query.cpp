@@ -8,7 +8,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/search/layer_search.h"
-#include "index/volume/time_unit.h"
+#include "index/volume/instant_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,6 +24,7 @@ struct QueryArguments {
     std::filesystem::path file, ids;
     double isovalue = 0;
     std::int64_t step = 0;
+    std::uint32_t fraction = 0;
     std::uint32_t repeats = 5;
     std::uint32_t level = 0;
     std::string method;
@@ -90,9 +91,9 @@ std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
         if (index::kSearchMethodNames[i] != arguments.method)
             continue;
         if (!index::can_search(file, method))
-            throw index::Error(fmt::format("{}: has no {} to search in; isochron info tells what "
-                                           "it has",
-                                           arguments.file.string(), arguments.method));
+            throw index::Error(
+                fmt::format("{}: has no search structure {}; isochron info lists those it has",
+                            arguments.file.string(), arguments.method));
         return method;
     }
     return std::nullopt;
@@ -108,7 +109,8 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"file", arguments.file.string()},
         {"array", info.array},
         {"step", arguments.step},
-        {"time", info.times[result.set->query.step]},
+        {"fraction", arguments.fraction},
+        {"time", index::time_at(info.times, result.set->query.step)},
         {"time_unit", info.time_unit},
         {"isovalue", arguments.isovalue},
         {"value_unit", info.value_unit},
@@ -146,20 +148,17 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
                     const Measured& result) {
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
-    const std::uint64_t false_positives = result.set->candidates - active;
     std::string text =
-        fmt::format("isovalue {}{} at step {} (time {}){}\n"
+        fmt::format("isovalue {}{} at step {}{} (time {}){}\n"
                     "active cells     {}\n",
                     arguments.isovalue, with_space(info.value_unit), arguments.step,
-                    index::time_text(info.times, result.set->query.step, info.time_unit),
+                    arguments.fraction > 0 ? fmt::format(" + {}/65536", arguments.fraction) : "",
+                    index::instant_text(info.times, result.set->query.step, info.time_unit),
                     arguments.level > 0 ? fmt::format(", level of detail {}", arguments.level) : "",
                     grouped(active));
-    text += fmt::format("found by         {}: {} candidates, {} false positives{}\n",
+    text += fmt::format("found by         {}: {} cells tested, {} of them not active\n",
                         name_of(result.set->method), grouped(result.set->candidates),
-                        grouped(false_positives),
-                        active ? fmt::format(" ({:.2f} % of the active cells)",
-                                             100.0 * double(false_positives) / double(active))
-                               : "");
+                        grouped(result.set->candidates - active));
     const auto times = [](const Times& t) {
         return fmt::format("search {:.3f} ms, shading {:.3f} ms", t.search.count(),
                            t.shading.count());
@@ -178,17 +177,17 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
 
 void run_query(const QueryArguments& arguments) {
     const auto file = array_called(open_index(arguments.file), arguments.array);
-    const std::uint32_t step = index::step_named(*file, arguments.step);
+    const index::Instant at = index::instant_named(*file, arguments.step, arguments.fraction);
     warn_beyond(arguments.isovalue, *file);
     if (arguments.level >= file->detail_levels())
         throw index::Error(fmt::format("{}: level {}, expected 0 to {}", arguments.file.string(),
                                        arguments.level, file->detail_levels() - 1));
     if (arguments.level > 0 && !arguments.method.empty())
-        throw UsageError("--method: is for level 0");
+        throw UsageError("--method is for level 0 only");
     if (!arguments.ids.empty())
         guard_outputs({{arguments.ids, OutputKind::ids, file->info().grid.cell_count()}},
                       {{arguments.file}, file.get()}, arguments.force);
-    const Measured result = measure(file, {step, arguments.isovalue}, method_of(arguments, *file),
+    const Measured result = measure(file, {at, arguments.isovalue}, method_of(arguments, *file),
                                     arguments.level, arguments.repeats);
     if (!arguments.ids.empty())
         write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
@@ -216,6 +215,12 @@ void add_query(Command& program) {
         .required();
     command.option("--step", arguments->step, "Step, from 0").required();
     command
+        .option("--fraction", arguments->fraction,
+                "Between two steps: so many 65536ths of the way to the next step, where values are "
+                "blended linearly and compared exactly")
+        .between(0u, 65535u)
+        .shows_default();
+    command
         .option("--ids", arguments->ids,
                 "Write the cell ids: u32 (u64 where there are 2^32 cells or more), little-endian, "
                 "ascending; id = (z * (ny - 1) + y) * (nx - 1) + x")
@@ -240,7 +245,7 @@ void add_query(Command& program) {
                                          index::kSearchMethodNames.end()));
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
-        "JSON keys: file, array, step, time, time_unit, isovalue (null unless finite), "
+        "JSON keys: file, array, step, fraction, time, time_unit, isovalue (null unless finite), "
         "value_unit,\n"
         "level (of detail), method (cells, bricks, tree or scan) of the first run, active_cells, "
         "id_bits (32, or 64 "

@@ -2,6 +2,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/explore/cluster_job.h"
+#include "app/explore/control_options.h"
 #include "app/explore/replay_source.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options : ReplaySource {
-    std::optional<std::string> out, report;
+    std::optional<std::string> out, report, control;
     std::size_t every = 0;
     bool stamps = false, from_devices = false, test_pattern = false, force = false;
     std::string eyes = "window";
@@ -62,6 +63,8 @@ void check(const Options& options) {
         throw UsageError("--out writes nothing without --every N or --stamps");
     if (options.live && (options.every > 0 || options.stamps || options.from_devices))
         throw UsageError("--live does not go with --every, --stamps or --from-devices");
+    if (options.control && !options.live)
+        throw UsageError("--control needs --live");
     if (options.test_pattern && (options.live || options.report || options.from_devices))
         throw UsageError("--test-pattern does not go with --live, --report or --from-devices");
 }
@@ -198,13 +201,16 @@ Prepared prepare(const Options& options, const ClusterJob& job) {
 }
 
 /// @return one line per frame whose recomputed commands differ
-std::vector<std::string> show(Session& session, const Prepared& all, bool live, ClusterJob& job,
-                              const FrameDone& done) {
+std::vector<std::string> show(Session& session, const Prepared& all, const Options& options,
+                              ClusterJob& job, const FrameDone& done) {
     std::vector<std::string> different;
     if (!job.leads()) {
         job.follow(session, done);
-    } else if (live) {
-        replay_live(session, all.recording, all.replay, all.config.rendering.frame_rate_limit);
+    } else if (options.live) {
+        const auto control =
+            opened_control(options.control, session, all.file, {.only_watches = true});
+        replay_live(session, all.recording, all.replay, all.config.rendering.frame_rate_limit,
+                    control.get());
     } else {
         ProgressBar bar;
         const auto frames = static_cast<double>(all.recording.frames.size());
@@ -237,6 +243,8 @@ void replay(const Options& options, ClusterJob& job) {
             start_of(all.recording.header, opened->state(), all.file->info().steps(), all.replay));
         if (options.out)
             index::make_folder(*options.out);
+        if (options.report)
+            opened->log().report_to(job.own_file(*options.report));
     });
     Session& session = *opened;
     job.require_same(start_fact(session));
@@ -249,12 +257,12 @@ void replay(const Options& options, ClusterJob& job) {
             session.outputs(), options, all.names, number, frame, [&] { return session.note(); },
             written);
     };
-    const std::vector<std::string> different = show(session, all, options.live, job, done);
+    const std::vector<std::string> different = show(session, all, options, job, done);
     session.outputs().pictures().finish();
     for (const fs::path& path : written)
         fmt::print("wrote {}\n", path.string());
     if (options.report)
-        session.log().write(job.own_file(*options.report), session.drawing(), session.reading());
+        session.log().finish_report(session.drawing(), session.reading());
     job.finish();
     if (!job.leads())
         return;
@@ -298,6 +306,7 @@ void add_replay(Command& program) {
                  "Show a test pattern that identifies eyes, walls and trackers; needs no index");
     command.flag("--live", options->live,
                  "Play in a window at the recorded speed; frames wait for nothing");
+    add_control_option(command, options->control);
     command.footer("In a cluster (mpirun -n N isochron replay ...) each process writes the "
                    "pictures of its own windows. Exit status: 0 done, 1 bad input, 2 bad usage.");
     command.on_run([options] { run_in_cluster([&](ClusterJob& job) { replay(*options, job); }); });

@@ -56,10 +56,9 @@ fs::path data_path(const ReproduceOptions& options, const PictureNote& note) {
          {fs::path(options.picture).parent_path() / note.data, fs::path(note.data)})
         if (!note.data.empty() && fs::is_regular_file(path, ignored))
             return path;
-    throw interaction::Error(
-        fmt::format("{}: it shows {} (hash {}), which is not beside it; --data "
-                    "tells where it is",
-                    options.picture, note.data, note.data_hash));
+    throw interaction::Error(fmt::format("{}: it shows {} (hash {}), which is not in the picture's "
+                                         "folder; give its path with --data",
+                                         options.picture, note.data, note.data_hash));
 }
 
 Config config_for(const ReproduceOptions& options, const PictureNote& note) {
@@ -68,6 +67,7 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
     config.pictures.samples = note.samples;
     config.pictures.ray = note.ray;
     config.pictures.caption = note.caption;
+    config.pictures.text = static_cast<float>(note.text);
     config.rendering.cell_shape = cell_shape_from_name(note.shape);
     config.openxr.enabled = false;
     if (note.footprint != render::name_of(render::Footprint::quad))

@@ -272,7 +272,7 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
     const glm::vec3 eyes = screen.carried_by_head ? glm::vec3(0.0f) : viewer.position;
     return fmt::format(
         "  viewport {}: {:.0f} x {:.0f} pixels at {:.0f}, {:.0f}; for {}\n"
-        "    screen: {:.2f} x {:.2f} m, {}, {}, {}, {:.2f} m from the viewer{}\n",
+        "    screen: {:.2f} x {:.2f} m, {}, {}, {}, {:.2f} m from the viewer{}{}\n",
         place.viewport.name.empty() ? std::to_string(place.number) : place.viewport.name, pixels.x,
         pixels.y, low.x, low.y, viewer.name, size.x, size.y,
         screen.carried_by_head ? "carried by the head" : "fixed in the room",
@@ -283,7 +283,17 @@ std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer&
         stereo::distance_to(screen, {viewer.position, {1, 0, 0, 0}}),
         screen.fit_aspect
             ? "; fitted to the window's shape"
-            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimeters.x, millimeters.y));
+            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimeters.x, millimeters.y),
+        place.viewport.upside_down ? "; hangs upside down" : "");
+}
+
+/// Where eyes are whose middle is not the head's origin.
+std::string middle_of_eyes(const stereo::Viewer& viewer) {
+    if (!viewer.left_eye || !viewer.right_eye)
+        return {};
+    const glm::vec3 middle = 500.0f * (*viewer.left_eye + *viewer.right_eye);
+    return fmt::format(" around {:.1f} {:.1f} {:.1f} mm from the head", middle.x, middle.y,
+                       middle.z);
 }
 
 /// The windows that each node opens; empty if there is one node.
@@ -333,10 +343,11 @@ std::string describe(const Config& config) {
     const stereo::Installation& installation = config.installation;
     std::string text;
     for (const stereo::Viewer& viewer : installation.viewers)
-        text += fmt::format("viewer {}: head {}, at {:g} {:g} {:g} m until it is tracked, eyes "
-                            "{:.1f} mm apart\n",
-                            viewer.name, viewer.head, viewer.position.x, viewer.position.y,
-                            viewer.position.z, 1000.0f * viewer.eye_separation);
+        text +=
+            fmt::format("viewer {}: head {}, at {:g} {:g} {:g} m until it is tracked, eyes "
+                        "{:.1f} mm apart{}\n",
+                        viewer.name, viewer.head, viewer.position.x, viewer.position.y,
+                        viewer.position.z, 1000.0f * viewer.eye_separation, middle_of_eyes(viewer));
     const stereo::Window* last = nullptr;
     for (const PlacedViewport& place : viewports_of(config)) {
         const stereo::Window& window = place.window;

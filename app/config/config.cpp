@@ -132,6 +132,12 @@ void read_placement(TomlReader& reader, PlacementOptions& placement) {
     reader.number("fill", 0.0, 1.0, placement.fill);
 }
 
+void read_time(TomlReader& reader, std::optional<interaction::BetweenSteps>& between) {
+    reader.word("between", {"auto", "hold", "blend"}, [&](const std::string& word) {
+        between = interaction::value_named<interaction::BetweenSteps>(word); // none is `auto`
+    });
+}
+
 void read_root(TomlReader& reader, Config& config) {
     int version = 1;
     reader.integer("version", 1, 1, version);
@@ -151,6 +157,7 @@ void read_root(TomlReader& reader, Config& config) {
         read_coloring(inner, config.name, config.coloring, config.color_maps);
     });
     reader.table("look", [&](TomlReader& inner) { read_look(inner, config.look); });
+    reader.table("time", [&](TomlReader& inner) { read_time(inner, config.between); });
     read_surfaces(reader, config);
     reader.table("memory", [&](TomlReader& inner) {
         inner.integer("cache_megabytes", 0, 1 << 24, config.memory.cache_megabytes);

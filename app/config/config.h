@@ -79,6 +79,8 @@ struct PictureConfig {
     int samples = 0;      ///< 0: 4, and no fewer than on the displays
     bool ray = false;     ///< they show the wand's ray, too
     bool caption = false; ///< they show isovalue and time
+    /// Height of words, see `text_height`; a window at a desk has its own. No key of a file.
+    float text = 0;
     /// No window shows the pictures: each is drawn once, directly as the picture to keep. No key
     /// of a file.
     bool only_kept = false;
@@ -117,6 +119,9 @@ struct Config {
     interaction::Coloring coloring;
     std::vector<LoadedColorMap> color_maps; ///< beside those that the program knows
     interaction::Look look;
+    /// The table `time`: what is shown between two steps at first; empty: what the data's own steps
+    /// advise, in `explore`, else `hold`.
+    std::optional<interaction::BetweenSteps> between;
 };
 
 /// @param name stands before the line number in messages

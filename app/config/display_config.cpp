@@ -12,6 +12,7 @@ namespace isochron::app {
 namespace {
 
 constexpr int kFarthestPixel = 65536; ///< from a desktop's corner
+constexpr float kFarthestEye = 0.5f;  ///< [m] from the head's origin
 constexpr float kThinnest = 1e-3f;    ///< [m] a narrower screen is a mistake
 
 void read_screen(TomlReader& reader, stereo::Screen& screen) {
@@ -54,6 +55,7 @@ int read_viewport(TomlReader& reader, const std::vector<std::string>& viewers,
     reader.given_word("viewer", viewers, [&](const std::string& word) {
         viewport.viewer = std::ranges::find(viewers, word) - viewers.begin();
     });
+    reader.flag("upside_down", viewport.upside_down);
     int line = reader.line();
     reader.table("projection", [&](TomlReader& inner) {
         line = inner.line();
@@ -116,6 +118,36 @@ void read_windows(TomlReader& reader, stereo::Installation& installation, Displa
         installation.windows = std::move(windows);
 }
 
+/// Measured places of the eyes; what is written of one eye alone, or beside `eye_separation`, is a
+/// mistake.
+void read_eyes(TomlReader& reader, stereo::Viewer& viewer) {
+    glm::vec3 left(0.0f), right(0.0f);
+    reader.vector("left_eye", left);
+    reader.vector("right_eye", right);
+    const bool has_left = reader.has("left_eye"), has_right = reader.has("right_eye");
+    if (!has_left && !has_right)
+        return;
+    if (!has_left || !has_right)
+        reader.fail(has_left ? "right_eye" : "left_eye", "missing, both eyes are given or none");
+    if (reader.has("eye_separation"))
+        reader.fail("eye_separation", "left_eye and right_eye say how far apart the eyes are");
+    for (const auto& [key, eye] : {std::pair("left_eye", left), std::pair("right_eye", right)})
+        if (!(glm::length(eye) <= kFarthestEye))
+            reader.fail(key,
+                        fmt::format("the eye is {:.4g} m from the head, expected at most {:g}: "
+                                    "meters in the frame of the head (x right, y up, z back)",
+                                    glm::length(eye), kFarthestEye));
+    const float apart = glm::length(right - left);
+    if (!(apart <= interaction::kWidestEyes))
+        reader.fail("right_eye", fmt::format("the eyes are {:.4g} m apart, expected at most {:g}",
+                                             apart, interaction::kWidestEyes));
+    if (left.x > right.x)
+        reader.fail("left_eye", "the left eye is right of the right one: x points to the right");
+    viewer.left_eye = left;
+    viewer.right_eye = right;
+    viewer.eye_separation = apart;
+}
+
 void read_viewer(TomlReader& reader, stereo::Viewer& viewer) {
     reader.text("name", viewer.name);
     reader.text("head", viewer.head);
@@ -123,6 +155,7 @@ void read_viewer(TomlReader& reader, stereo::Viewer& viewer) {
         reader.fail("head", "expected the name of the device that tracks the head");
     reader.vector("position", viewer.position);
     reader.number("eye_separation", 0.0, 0.1, viewer.eye_separation);
+    read_eyes(reader, viewer);
 }
 
 void read_viewers(TomlReader& reader, stereo::Installation& installation, DisplayPlaces& places) {

@@ -32,13 +32,18 @@ std::string numbers(const glm::vec3& v) {
 }
 
 std::string text_of(const stereo::Viewer& viewer) {
+    const std::string eyes =
+        viewer.left_eye && viewer.right_eye
+            ? fmt::format("left_eye = {}\n"
+                          "right_eye = {}\n",
+                          numbers(*viewer.left_eye), numbers(*viewer.right_eye))
+            : fmt::format("eye_separation = {}\n", viewer.eye_separation);
     return fmt::format("\n[[viewers]]\n"
                        "name = {}\n"
                        "head = {}\n"
                        "position = {}\n"
-                       "eye_separation = {}\n",
-                       quoted(viewer.name), quoted(viewer.head), numbers(viewer.position),
-                       viewer.eye_separation);
+                       "{}",
+                       quoted(viewer.name), quoted(viewer.head), numbers(viewer.position), eyes);
 }
 
 std::string text_of(const stereo::Viewport& viewport, const stereo::Viewer& viewer) {
@@ -49,9 +54,11 @@ std::string text_of(const stereo::Viewport& viewport, const stereo::Viewer& view
     text += fmt::format("position = {}\n"
                         "size = {}\n"
                         "viewer = {}\n"
+                        "{}"
                         "\n[windows.viewports.projection]\n"
                         "carried_by = \"{}\"\n",
                         numbers(viewport.position), numbers(viewport.size), quoted(viewer.name),
+                        viewport.upside_down ? "upside_down = true\n" : "",
                         screen.carried_by_head ? "head" : "room");
     if (screen.fit_aspect)
         text += "fit_aspect = true\n";

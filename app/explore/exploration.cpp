@@ -3,10 +3,12 @@
 
 #include "app/config/tracker_setup.h"
 #include "app/config/user_folders.h"
+#include "app/explore/control_options.h"
 #include "app/explore/explore_start.h"
 #include "app/explore/explored_data.h"
 #include "app/explore/kept_session.h"
 #include "app/explore/live_setup.h"
+#include "app/explore/loading.h"
 #include "app/explore/pattern_exploration.h"
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
@@ -21,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -49,20 +52,18 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     const CancelOnSignal signals;
     Config config = configure(options);
     if (config.rendering.context != stereo::ContextKind::glfw)
-        throw UsageError("file is required: an index made by `isochron build`");
+        throw UsageError("file is required: the data to show, an index or volume files");
     config.openxr.enabled = false; // nobody chooses a file in a headset
     const stereo::Windows windows = open_windows(options, config, job, nullptr);
     display = stereo::open_display();
     const auto wake = std::make_shared<stereo::Wake>();
     const WakeOnSignal ends(wake, stereo::Wake::call);
+    PageWindowOptions page = page_options(config);
+    page.wake = wake;
     const auto chosen =
         choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
-                              .window = {.ended = [] { return CancelOnSignal::received() != 0; },
-                                         .background = config.rendering.background,
-                                         .frame_rate_limit = config.rendering.frame_rate_limit,
-                                         .font_scale = config.panel.font_scale,
-                                         .wake = wake}});
+                              .window = page});
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
 }
@@ -70,6 +71,7 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
 } // namespace
 
 void explore(const ExploreOptions& options, ClusterJob& job) {
+    check_control(options.control);
     ExploreOptions now = with_index(options);
     if (now.test_pattern)
         return explore_test_pattern(now, job);
@@ -80,12 +82,27 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
             return;
         now = with_data(std::move(now), *chosen);
     }
+    std::optional<ExploreOptions> before; // of the data that were shown last
+    std::string said;
     for (;;) {
         Exploration exploration(now, job);
         display = stereo::open_display();
+        if (exploration.canceled()) {
+            said = fmt::format("canceled: {} is not opened", now.data_name);
+            if (!before) {
+                print_safely(fmt::format("isochron: {}\n", said), stderr);
+                return;
+            }
+            now = *std::exchange(before, std::nullopt);
+            continue;
+        }
+        exploration.say(std::exchange(said, {}));
         const auto next = exploration.run();
         if (!next)
             return;
+        before = now;
+        before->report.reset(); // it is written
+        before->resume = false;
         now = with_data(std::move(now), *next);
     }
 }
@@ -99,6 +116,8 @@ Exploration::Exploration(ExploreOptions options, ClusterJob& job)
     job_.require_same(facts_of(config_, *file_));
     job_.set_limits(config_.cluster.limits);
     job_.together([this] { open_session(); });
+    if (!session_)
+        return;
     job_.require_same(start_fact(*session_));
     job_.tell_shared_processors(session_->outputs().gl());
     job_.share_frames(*session_);
@@ -123,19 +142,51 @@ void Exploration::open_data() {
     prepare_walls(config_, job_, options_.emulate);
     if (job_.leads())
         open_trackers(config_, trackers_);
-    indexing_ = begin_indexing(options_, job_);
+    // Nobody chooses in a window of a given length.
+    indexing_ =
+        begin_indexing(options_, job_,
+                       config_.rendering.context == stereo::ContextKind::glfw && !options_.seconds);
     if (indexing_) {
         open_outputs();
-        options_.data = wait_for_index(*indexing_, *windows_, options_, config_);
+        options_.data = wait_for_index(*indexing_, *windows_, options_, config_, canceled_);
         if (!options_.data)
             return;
     }
-    file_ = open_index_to_show(*options_.data, config_.memory.cache_bytes());
+    open_index_file();
+    if (!file_)
+        return;
     if (job_.leads()) {
         warn_of_colors(config_, *file_);
         check_start(options_, *file_, indexing_ ? indexing_->state().of : file_->info().steps());
     }
     check_outputs(options_, job_, *file_);
+}
+
+/// The name of the data, as the window says it.
+std::string Exploration::short_name() const {
+    return std::filesystem::path(options_.data_name).filename().string();
+}
+
+/// Whether the window says what is being done before there is a picture.
+bool Exploration::tells() const {
+    return job_.size() == 1 && windows_ && windows_->first().has_window();
+}
+
+void Exploration::open_index_file() {
+    constexpr std::chrono::milliseconds kNobodyWaits{500};
+    IndexOpening opening([path = *options_.data, bytes = config_.memory.cache_bytes()] {
+        return open_index_to_show(path, bytes);
+    });
+    if (job_.size() == 1 && !opening.is_done(kNobodyWaits)) {
+        if (!windows_)
+            open_outputs();
+        const Waited end = wait_until([&] { return opening.is_done(); }, *windows_, short_name(),
+                                      "opening", config_);
+        canceled_ = end == Waited::canceled;
+        if (end != Waited::ready)
+            return;
+    }
+    file_ = opening.take();
 }
 
 void Exploration::open_session() {
@@ -145,12 +196,32 @@ void Exploration::open_session() {
         throw UsageError("--resume is for one process, without mpirun");
     if (!windows_)
         open_outputs();
+    const bool tell = tells();
+    if (tell) {
+        const Waited end =
+            say_what_is_done(*windows_, short_name(), "preparing to draw", config_, early_);
+        canceled_ = end == Waited::canceled;
+        if (end != Waited::ready)
+            return;
+    }
     session_.emplace(config_, file_, std::move(*windows_), index::Extract(), std::move(headset_));
     set_start();
-    if (!options_.report)
-        session_->keep_few_reports();
+    const auto leaves = [&] {
+        canceled_ = canceled_ || (tell && gives_up(session_->outputs().windows(), early_));
+        return canceled_;
+    };
+    if (!leaves() && job_.leads())
+        session_->warm_up([&] { return !leaves(); });
+    if (leaves()) {
+        session_.reset();
+        return;
+    }
+    if (job_.leads())
+        control_ = opened_control(options_.control, *session_, file_);
+    if (options_.report)
+        session_->log().report_to(job_.own_file(*options_.report));
     session_->outputs().set_screenshots(options_.screenshots);
-    session_->set_data_name(std::filesystem::path(options_.data_name).filename().string());
+    session_->set_data_name(short_name());
     if (config_.cluster.swap_group && job_.size() > 1)
         stereo::join_swap_group(session_->outputs().windows());
 }
@@ -171,8 +242,10 @@ void Exploration::set_start() {
 }
 
 std::optional<std::string> Exploration::run() {
-    if (!session_)
+    if (!session_) {
+        signals_.check();
         return std::nullopt;
+    }
     UserMemory memory(job_.size() == 1 ? user_state_folder() : std::nullopt);
     BackgroundWork remembering; // no frame waits for that disk
     LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
@@ -196,6 +269,7 @@ std::optional<std::string> Exploration::run() {
 /// Greets the user of a process that is alone, too.
 LiveOptions Exploration::live_options_with(UserMemory& memory, BackgroundWork& writing) {
     LiveOptions how = live_options(options_);
+    how.early = std::exchange(early_, {});
     if (job_.size() > 1)
         return how;
     how.why_not_open = [this](const std::filesystem::path& data) {
@@ -223,24 +297,49 @@ void Exploration::lead(LiveLoop& live) {
             {fmt::format("{} arrays: Ctrl + A shows the next one", file_->arrays())});
     if (job_.size() == 1)
         live.offer_movies(movie_orders(options_, header));
+    live.offer_surfaces(file_, options_.screenshots);
     live.watch(*options_.data, file_);
+    if (control_)
+        live.steer(*control_);
     const stereo::DisplayLoss loss([&] { save(live); });
     live.run(*session_);
 }
 
 /// Saves the session as it goes on, or says why it does not.
 void Exploration::keep(LiveLoop& live) {
+    offer_earlier();
     auto path = kept_in(options_, *file_);
     const std::string why_not = why_not_kept(path);
     if (!why_not.empty()) {
         print_safely(fmt::format("isochron: {}\n", why_not), stderr);
         session_->show_messages({why_not});
+        live.keep_no_session(why_not);
         path.reset();
     } else if (!options_.session) {
         path = claim_.emplace(*path).path();
     }
     keep_session(live, path, *options_.data, *file_, *session_, earlier_,
                  earlier_ && path == kept_in(options_, *file_));
+}
+
+/// Offers to go on with the session before, if there is one that fits.
+void Exploration::offer_earlier() {
+    const auto path = earlier_kept_in(options_, *file_);
+    if (earlier_ || !path || !std::filesystem::exists(*path))
+        return;
+    try {
+        const SavedSession before = read_session(*path);
+        session_->panel().offer_earlier(state_of(before, session_->state(),
+                                                 held_hash(*file_, before.data_hash),
+                                                 file_->info().steps(), path->string())
+                                            .as_commands());
+    } catch (const std::exception&) { // `--resume` would say what is wrong with it
+    }
+}
+
+void Exploration::say(const std::string& message) {
+    if (session_ && !message.empty())
+        session_->show_messages({message});
 }
 
 void Exploration::finish(LiveLoop& live, UserMemory& memory) {
@@ -252,8 +351,7 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
         memory.set_introduced();
     print_status(live);
     if (options_.report)
-        session_->log().write(job_.own_file(*options_.report), session_->drawing(),
-                              session_->reading());
+        session_->log().finish_report(session_->drawing(), session_->reading());
     job_.finish();
     if (options_.record && job_.leads())
         fmt::print(stderr, "recording: {}\n", *options_.record);

@@ -11,12 +11,14 @@
 #include "app/session/kept/session_file.h"
 #include "app/session/kept/user_memory.h"
 #include "app/session/live_loop.h"
+#include "app/session/session_control.h"
 #include "stereo/headset.h"
 #include "stereo/windows.h"
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -33,15 +35,23 @@ class Exploration {
     /// Runs the session until its user leaves, at once if they left before there was anything to
     /// see. @return other data that they want to see
     std::optional<std::string> run();
+    /// The user has given the data up by Escape before there was anything to see.
+    bool canceled() const { return canceled_; }
+    /// Shows a message in the session. @param message empty: none
+    void say(const std::string& message);
 
   private:
     void open_data();
+    void open_index_file();
     void open_outputs();
+    std::string short_name() const;
+    bool tells() const;
     void open_session();
     void set_start();
 
     LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);
     void lead(LiveLoop& live);
+    void offer_earlier();
     void keep(LiveLoop& live);
     void finish(LiveLoop& live, UserMemory& memory);
     void save(LiveLoop& live);
@@ -57,6 +67,9 @@ class Exploration {
     std::unique_ptr<stereo::Headset> headset_;
     std::optional<stereo::Windows> windows_;
     std::optional<Session> session_;
+    std::unique_ptr<SessionControl> control_; ///< null: nobody steers from outside
+    bool canceled_ = false;
+    std::vector<interaction::WindowEvent> early_; ///< that came before the first frame
     std::optional<SavedSession> earlier_; ///< which is resumed
     std::optional<SessionClaim> claim_;   ///< on the file to which this one is saved
 };

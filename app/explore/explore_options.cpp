@@ -3,6 +3,7 @@
 
 #include "app/config/config.h"
 #include "app/config/shipped_configs.h"
+#include "app/explore/control_options.h"
 #include "app/explore/drawing_options.h"
 #include "app/output/room_camera.h"
 #include "interaction/controls/controls.h"
@@ -60,7 +61,7 @@ void add_explore_options(Command& command, ExploreOptions& options) {
         .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", options.footprint,
-                "Footprint of settled pictures: auto (the best within the frame budget), gaussian, "
+                "Footprint once nothing moves: auto (the exact surface), gaussian, "
                 "mesh or surface")
         .one_of(settled_footprint_names());
     add_shape_option(command, options.shape);
@@ -71,8 +72,13 @@ void add_explore_options(Command& command, ExploreOptions& options) {
         .between(16, 16384);
     command.option("--isovalue", options.isovalue, "Isovalue to start with, in data units");
     command.option("--step", options.step, "Step to start at, from 0");
+    command
+        .option("--between", options.between,
+                "Between two steps: hold the step before, or blend both (key Ctrl + T)")
+        .one_of(interaction::all_names<interaction::BetweenSteps>());
     command.flag("--follow", options.follow,
                  "Show the last step, and each new one as `build --append` adds it (key End)");
+    add_control_option(command, options.control);
     command.option("--record", options.record, "Record the session to this file (JSON Lines)");
     command.flag(
         "--force", options.force,

@@ -16,7 +16,7 @@ struct ExploreOptions {
     std::string data_name;           ///< what the user knows it by
     std::string config = "desktop";
     std::optional<std::string> check_config, context, stereo, quality, footprint, shape;
-    std::optional<std::string> record, report;
+    std::optional<std::string> record, report, between, control;
     std::optional<double> isovalue, seconds;
     std::optional<std::uint32_t> step;
     std::vector<int> size;

@@ -13,6 +13,7 @@
 #include "app/session/start_state.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/file/blend_advice.h"
 #include "index/file/color_source.h"
 #include "index/system/new_file.h"
 
@@ -114,12 +115,25 @@ ExplorerState first_look(const Session& session, const ExploreOptions& options,
                          const Config& config,
                          const std::shared_ptr<const index::IndexFile>& file) {
     ExplorerState state = session.state();
+    state.pictures.scale_bar = true; // what is seen is what is written
     const std::size_t steps = file->info().steps(), number = first_array(options, *file);
     if (number > 0)
         state.apply(session.way_to_array(number), steps);
     if (const std::uint32_t step = first_step(options, steps); step > state.step)
         state.isosurfaces = first_surfaces(config, array_of(file, number), step);
+    if (!options.between && !config.between)
+        state.between = advised_between(*array_of(file, number));
     return state;
+}
+
+interaction::BetweenSteps advised_between(const index::IndexFile& file) {
+    try {
+        const auto quality = index::blend_quality(file);
+        return quality && !quality->holds() ? interaction::BetweenSteps::blend
+                                            : interaction::BetweenSteps::hold;
+    } catch (const index::Error&) {
+        return interaction::BetweenSteps::hold;
+    }
 }
 
 ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps) {
@@ -127,6 +141,8 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     state.steps = static_cast<std::uint32_t>(steps);
     state.follow = state.follow || options.follow;
     state.step = options.step || options.follow ? first_step(options, steps) : state.step;
+    if (options.between)
+        state.between = *interaction::value_named<interaction::BetweenSteps>(*options.between);
     state.panel = state.panel && !options.no_panel;
     if (options.stereo)
         state.set_stereo(*stereo::stereo_mode_from_name(*options.stereo));

@@ -42,6 +42,9 @@ ExplorerState first_look(const Session& session, const ExploreOptions& options,
 
 /// The state to begin with. @param steps that the data have now
 ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std::size_t steps);
+/// What is shown between two steps where the options do not say it: what `isochron info
+/// --measure-time` advises. Where the index cannot be read, the first search will tell.
+interaction::BetweenSteps advised_between(const index::IndexFile& file);
 
 /// @param headset mirrored by the first window; it paces the frames, not that window's display
 stereo::Windows open_windows(const ExploreOptions& options, const Config& config,

@@ -1,18 +1,21 @@
 // Data to explore: an index, or files of values that are indexed while they are shown.
 #include "app/explore/explored_data.h"
 
-#include "app/command_line/cancel.h"
 #include "app/config/series_names.h"
 #include "app/config/user_folders.h"
+#include "app/explore/loading.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
 #include "app/session/data_choice.h"
+#include "app/session/kept/user_memory.h"
 #include "index/file/index_series.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -22,6 +25,17 @@ namespace fs = std::filesystem;
 /// Most steps that are waited for: the step to start at, and all steps before it.
 std::size_t awaited_steps(const ExploreOptions& options) {
     return std::size_t{options.step.value_or(0)} + 1;
+}
+
+std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers) {
+    std::vector<ListedArray> lines;
+    for (const ArrayOffer& offer : offers)
+        lines.push_back({offer.name, offer.shape, offer.unit,
+                         offer.range
+                             ? fmt::format("{:.4g} to {:.4g}", (*offer.range)[0], (*offer.range)[1])
+                             : std::string(),
+                         offer.fault});
+    return lines;
 }
 
 } // namespace
@@ -47,7 +61,8 @@ ExploreOptions with_index(ExploreOptions options) {
     return options;
 }
 
-std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const ClusterJob& job) {
+std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const ClusterJob& job,
+                                         bool asks) {
     if (options.data || options.sources.files.empty())
         return nullptr;
     if (job.size() > 1)
@@ -58,27 +73,48 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
     if (!folder)
         throw UsageError("no folder for indexes: neither HOME nor XDG_CACHE_HOME is set; "
                          "isochron build makes an index anywhere");
-    auto indexing = std::make_unique<Indexing>(options.sources, *folder);
+    auto indexing = std::make_unique<Indexing>(options.sources, *folder, asks);
     // Nearly all data that cannot be read are refused here, before a window opens for them.
     indexing->wait_for_opening(std::chrono::milliseconds(500));
     indexing->check();
     return indexing;
 }
 
-std::optional<std::string> wait_for_index(const Indexing& indexing, const stereo::Windows& windows,
-                                          const ExploreOptions& options, const Config& config) {
+std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Windows& windows,
+                                          const ExploreOptions& options, const Config& config,
+                                          bool& canceled) {
     const auto progress = [&] {
         const Indexing::State now = indexing.state();
         const std::size_t wanted = awaited_steps(options);
-        return DataProgress{now.done || (now.index && now.steps >= wanted) ||
-                                (now.of > 0 && now.index && wanted > now.of),
-                            now.line(), static_cast<float>(now.fraction)};
+        return DataProgress{.ready = now.done || (now.index && now.steps >= wanted) ||
+                                     (now.of > 0 && now.index && wanted > now.of),
+                            .line = now.line(),
+                            .fraction = static_cast<float>(now.fraction),
+                            .arrays = listed(now.offers)};
     };
-    if (!wait_for_data(windows, fs::path(options.data_name).filename().string(), progress,
-                       {.ended = [] { return CancelOnSignal::received() != 0; },
-                        .background = config.rendering.background,
-                        .frame_rate_limit = config.rendering.frame_rate_limit,
-                        .font_scale = config.panel.font_scale}))
+    // The array that the user has chosen of the same data before is chosen at the beginning.
+    UserMemory memory(user_state_folder());
+    const fs::path data(options.data_name);
+    const auto offers = [&] { return indexing.state().offers; };
+    const ArrayChoice choice{.first =
+                                 [&] {
+                                     const auto all = offers();
+                                     const auto before = std::ranges::find(
+                                         all, memory.array_of(data), &ArrayOffer::name);
+                                     return before == all.end()
+                                                ? std::size_t{0}
+                                                : static_cast<std::size_t>(before - all.begin());
+                                 },
+                             .choose =
+                                 [&](std::size_t chosen) {
+                                     if (const auto all = offers(); chosen < all.size())
+                                         memory.remember_array(data, all[chosen].name);
+                                     indexing.choose(chosen);
+                                 }};
+    const Waited waited = wait_for_data(windows, fs::path(options.data_name).filename().string(),
+                                        progress, page_options(config), choice);
+    canceled = waited == Waited::canceled;
+    if (waited != Waited::ready)
         return std::nullopt;
     const Indexing::State now = indexing.state();
     if (!now.index)

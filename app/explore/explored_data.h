@@ -23,13 +23,18 @@ ExploreOptions with_index(ExploreOptions options);
 
 /// If files of values were given: starts to make or complete their index in the user's cache
 /// folder; else returns null.
+/// @param asks there is a window in which a user can choose an array
 /// @throws index::Error, UsageError when that cannot be, or the files cannot be opened
-std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const ClusterJob& job);
+std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const ClusterJob& job,
+                                         bool asks);
 
-/// Waits in the first window until the step to start at can be shown.
-/// @return the index; nothing: the user leaves @throws index::Error when indexing has failed
-std::optional<std::string> wait_for_index(const Indexing& indexing, const stereo::Windows& windows,
-                                          const ExploreOptions& options, const Config& config);
+/// Waits in the first window until the step to start at can be shown; where the files have arrays of
+/// several shapes, the user chooses one there.
+/// @param canceled set when Escape ended the wait
+/// @return the index; nothing: the user does not want to wait @throws index::Error when indexing has failed
+std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Windows& windows,
+                                          const ExploreOptions& options, const Config& config,
+                                          bool& canceled);
 
 /// The name to offer later among recent data; empty if it would not do: reading the data takes
 /// options, or several names.

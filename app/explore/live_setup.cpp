@@ -32,8 +32,7 @@ std::string why_not_open(const std::filesystem::path& data) {
 }
 
 std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data) {
-    return options.record ? "other data are not opened while a recording is made"
-                          : why_not_open(data);
+    return options.record ? "other data cannot be opened while you record" : why_not_open(data);
 }
 
 LiveOptions live_options(const ExploreOptions& options) {
@@ -59,8 +58,10 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     header.data = std::filesystem::absolute(path).string();
     const glm::ivec2 window = session.outputs().windows()[0].framebuffer_size();
     // An emulated installation is as large as configured.
-    if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0)
+    if (!session.outputs().windows().room() && session.outputs().windows().number(0) == 0) {
         header.window = {window.x, window.y};
+        header.text = session.panel().text_share(window);
+    }
     header.data_hash = data_hash_of(file);
     header.start = session.state().as_commands();
     return header;

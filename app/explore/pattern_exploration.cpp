@@ -21,6 +21,8 @@ void explore_test_pattern(const ExploreOptions& options, ClusterJob& job) {
     job.together([&] {
         if (options.record || options.report)
             throw UsageError("--test-pattern does not go with --record or --report");
+        if (options.control)
+            throw UsageError("--test-pattern does not go with --control");
         config = configure(options);
         prepare_walls(config, job, options.emulate);
         if (!job.leads())

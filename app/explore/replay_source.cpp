@@ -13,9 +13,8 @@ namespace isochron::app {
 
 namespace fs = std::filesystem;
 
-void add_replay_source(Command& command, ReplaySource& source) {
-    command.option("recording", source.recording, "Recording made by `explore --record`")
-        .required();
+void add_replay_source(Command& command, ReplaySource& source, const std::string& what) {
+    command.option("recording", source.recording, what).required();
     command.option("--data", source.data,
                    "Index to use instead of the recorded one (a relative path is tried from the "
                    "recording's folder, too)");
@@ -38,8 +37,8 @@ void add_replay_source(Command& command, ReplaySource& source) {
         .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", source.footprint,
-                "Footprint of settled pictures, instead of the configured one: auto (the best; "
-                "with --live the best within the frame budget), gaussian, mesh or surface")
+                "Footprint once nothing moves, instead of the configured one: auto (the exact "
+                "surface), gaussian, mesh or surface")
         .one_of(settled_footprint_names());
     command.flag(
         "--ray", source.ray,
@@ -64,8 +63,10 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
     config.rendering.context = options.live ? stereo::ContextKind::glfw : stereo::ContextKind::egl;
     if (options.context)
         config.rendering.context = *stereo::context_kind_from_name(*options.context);
-    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config)
+    if (header.window[0] >= 16 && header.window[1] >= 16 && !options.config) {
         config.installation.windows.front().size = {header.window[0], header.window[1]};
+        config.pictures.text = static_cast<float>(header.text);
+    }
     if (options.footprint)
         config.quality.settled = settled_footprint_from_name(*options.footprint);
     set_shape(config, options.shape);
@@ -91,7 +92,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
         path = (fs::path(options.recording).parent_path() / header.data).string();
         if (!fs::exists(path, ignored))
             throw interaction::Error(
-                fmt::format("{}: recorded on {}, which is not there; --data tells where it is",
+                fmt::format("{}: recorded on {}, which was not found; give its path with --data",
                             options.recording, header.data));
     }
     auto file = open_index_to_show(path, config.memory.cache_bytes());

@@ -26,7 +26,9 @@ struct ReplaySource {
 };
 
 /// Adds these options to a command. @param source lives until the command has run
-void add_replay_source(Command& command, ReplaySource& source);
+/// @param what `source.recording` is
+void add_replay_source(Command& command, ReplaySource& source,
+                       const std::string& what = "Recording made by `explore --record`");
 
 /// The recorded configuration, or the given one, with the changes that the options make.
 /// @throws ConfigError

@@ -2,7 +2,9 @@
 #include "app/frame/background_work.h"
 
 #include "index/error.h"
+#include "index/system/memory_limit.h"
 
+#include <new>
 #include <utility>
 
 namespace isochron::app {
@@ -54,6 +56,8 @@ void BackgroundWork::work(const std::stop_token& stop) {
         std::string message, failure;
         try {
             message = task();
+        } catch (const std::bad_alloc&) {
+            failure = message = index::shortage_of_memory();
         } catch (const std::exception& error) {
             failure = message = error.what();
         }

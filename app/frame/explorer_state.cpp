@@ -1,6 +1,7 @@
 // The settings of a session, and what they ask of the data.
 #include "app/frame/explorer_state.h"
 
+#include "index/export/surface_writer.h"
 #include "interaction/command_fields.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/recording/commands_json.h"
@@ -70,8 +71,15 @@ bool holds(const Field& field, const interaction::StepRange& range) {
 bool holds(const Field& field, const std::vector<interaction::Bookmark>& bookmarks) {
     return bookmarks.size() <= field.most &&
            std::ranges::all_of(bookmarks, [&](const interaction::Bookmark& bookmark) {
-               return holds(field, bookmark.step);
+               return holds(field, bookmark.step) &&
+                      holds(Field{"", 0, interaction::kFractions - 1}, bookmark.fraction);
            });
+}
+bool holds(const Field&, const interaction::WrittenPictures& pictures) {
+    return index::surface_format(pictures.surfaces.format) != nullptr;
+}
+bool holds(const Field&, const interaction::ExportWork& work) {
+    return work.percent <= 100;
 }
 bool holds(const Field&, const interaction::Similarity& similarity) {
     return interaction::is_valid(similarity);
@@ -91,7 +99,8 @@ bool holds(const Field&, const interaction::Ruler& ruler) {
            std::ranges::all_of(ruler.places, is_place);
 }
 bool holds(const Field& field, const interaction::Mark& mark) {
-    return !mark.point || holds(field, mark.point->step);
+    return !mark.point || (holds(field, mark.point->step) &&
+                           holds(Field{"", 0, interaction::kFractions - 1}, mark.point->fraction));
 }
 
 // @return false when the value is refused and `kept` unchanged
@@ -137,6 +146,8 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
                 std::min(state.picked, static_cast<std::uint32_t>(state.isosurfaces.size() - 1));
         },
         commands, state);
+    if (commands.step && !commands.fraction) // it is that step itself
+        state.fraction = 0;
     if (commands.isovalue &&
         !take({"isovalue"}, *commands.isovalue, state.isosurfaces[state.picked].isovalue))
         refused(Field{"isovalue"});
@@ -180,13 +191,20 @@ bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) 
     return apply(kept, held);
 }
 
+index::Instant ExplorerState::instant() const {
+    const interaction::Moment now = moment();
+    const index::Instant at(now.step, now.fraction);
+    return steps == 0 ? at : at.within(steps);
+}
+
 index::SurfacesQuery ExplorerState::surfaces() const {
-    index::SurfacesQuery query{step, {}};
+    index::SurfacesQuery query{instant(), {}};
     switch (coloring.by) {
     case interaction::ColorBy::surface: break;
     case interaction::ColorBy::value: query.coloring = index::CellColoring::value; break;
     case interaction::ColorBy::first_crossing:
-        query.coloring = index::CellColoring::first_crossing;
+        query.coloring = blends() ? index::CellColoring::first_blended_crossing
+                                  : index::CellColoring::first_crossing;
         break;
     }
     for (const interaction::Isosurface& surface : isosurfaces)
@@ -210,6 +228,8 @@ interaction::Commands ExplorerState::commands_to(const ExplorerState& target) co
                 command = other;
         },
         changes, *this, target);
+    if (changes.step && target.fraction != 0) // a step alone is shown without it
+        changes.fraction = target.fraction;
     return changes;
 }
 

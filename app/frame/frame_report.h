@@ -34,6 +34,8 @@ struct FrameDrawing {
     std::size_t resolution = 0;           ///< of the cells, by number: see `kCellResolutions`
     std::size_t mesh_level = 0;           ///< of a mesh: see index/extraction/simplified_meshes.h
     std::size_t triangles = 0;            ///< that are drawn of it, if it is known
+    /// The last exact picture was moved, in the place of what the footprint says.
+    bool moved = false;
     std::optional<render::Footprint> in_parts; ///< of the picture at rest in parts, if any
     bool redrawn = true;                       ///< false: nothing that the eyes see had changed
 };

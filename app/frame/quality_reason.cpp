@@ -7,7 +7,7 @@ const char* name_of(QualityReason reason) {
     switch (reason) {
     case QualityReason::moving: return "moving";
     case QualityReason::fast_mode: return "fast mode";
-    case QualityReason::best_mode: return "best mode";
+    case QualityReason::quality_mode: return "quality mode";
     case QualityReason::paper_mode: return "paper mode";
     case QualityReason::configured: return "configured";
     case QualityReason::fits: return "fits";

@@ -109,12 +109,12 @@ void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
 BuildArguments with_path_within(BuildArguments arguments) {
     const bool several = arguments.all_arrays || arguments.arrays.size() > 1;
     if (arguments.all_arrays && !arguments.arrays.empty())
-        throw UsageError("--all-arrays and --array: expected one of them");
+        throw UsageError("--all-arrays and --array: expected one of them, not both");
     if (several && arguments.read.component)
         throw UsageError("--component: with several arrays add it to a name: --array "
                          "velocity.magnitude");
     if (several && arguments.read.value_unit)
-        throw UsageError("--value-unit: expected for one array only");
+        throw UsageError("--value-unit: expected with one array only");
     if (!arguments.arrays.empty())
         arguments.read.array = arguments.arrays.front();
     const auto path = take_path_within(arguments.files);
@@ -283,8 +283,9 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group("Reading");
     command
         .flag("--times-from-names", read.times_from_names,
-              "Take the time of each file from the number in its name, or in its folder's, that "
-              "differs, the last of several: 30 of t_0030.vti, 0.25 of 0.25/p.vti")
+              "Use as time the number that differs from file to file in the names of the files, or "
+              "of their folders; of several, the last: 30 of t_0030.vti, 0.25 of 0.25/p.vti. Or "
+              "the date: 2020-01-02, 20200102T0600")
         .group("Reading");
     command
         .flag("--keep-first", read.keep_first,
@@ -293,17 +294,17 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group("Reading");
     command
         .option("--crop", arguments.crop,
-                "Read a part alone: the first and the last vertex along each axis, from 0")
+                "Read only a part: the first and the last vertex along each axis, from 0")
         .type_name("X0:X1,Y0:Y1,Z0:Z1")
         .group("Reading");
     command
         .option("--stride", arguments.stride,
-                "Read every second vertex alone, or every Nth, along all axes or each: 2 or 2,2,1")
+                "Read only every second vertex, or every Nth, along all axes or each: 2 or 2,2,1")
         .type_name("N")
         .group("Reading");
     command
         .option("--steps", arguments.steps,
-                "Read some steps alone: the first and the last, from 0, and every how many: 0:20:5")
+                "Read only some steps: the first and the last, from 0, and the stride: 0:20:5")
         .type_name("A:B[:C]")
         .group("Reading");
     command

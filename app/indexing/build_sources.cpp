@@ -4,6 +4,7 @@
 #include "app/indexing/open_index.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
+#include "index/formats/series/opening.h"
 #include "index/indexing/appended_series.h"
 
 #include <fmt/format.h>
@@ -170,12 +171,12 @@ bool is_among(const BuildSources& sources, const std::optional<std::string>& nam
 } // namespace
 
 BuildSources open_sources(const std::vector<std::filesystem::path>& files,
-                          const BuildArguments& arguments) {
+                          const BuildArguments& arguments, const index::Progress& progress) {
     BuildSources sources;
     // An index is a series too: of an older file version it becomes one of this.
     if (files.size() != 1 || !index::is_index(files.front())) {
-        const Open open = [&files](const index::ReadOptions& options) {
-            return index::open_series(files, options);
+        const Open open = [&](const index::ReadOptions& options) {
+            return index::open_series(files, options, progress);
         };
         open_arrays(open, arguments, sources);
         if (arguments.color && (arguments.color_component || !is_among(sources, arguments.color)))
@@ -216,6 +217,13 @@ std::vector<std::string> arrays_to_choose(const std::vector<std::filesystem::pat
     } catch (const index::Error&) {
         return {};
     }
+}
+
+ArraySource open_array(const std::vector<std::filesystem::path>& files,
+                       const BuildArguments& arguments, const std::string& name) {
+    return open_called(
+        [&](const index::ReadOptions& options) { return index::open_series(files, options); },
+        read_options(arguments), name);
 }
 
 BuildSources open_one_or_all(const std::vector<std::filesystem::path>& files,

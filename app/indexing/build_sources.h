@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/indexing/build_arguments.h"
+#include "index/progress.h"
 
 #include <filesystem>
 #include <memory>
@@ -27,14 +28,20 @@ struct BuildSources {
 };
 
 /// Opens files of values, or one index, which may have an older file version.
+/// @param progress of many files; may be empty
 /// @throws index::Error, UsageError
 BuildSources open_sources(const std::vector<std::filesystem::path>& files,
-                          const BuildArguments& arguments);
+                          const BuildArguments& arguments, const index::Progress& progress = {});
 
 /// The arrays among which files leave the choice, as `--array` takes them; empty where one is named,
 /// all are taken, or there are no several arrays.
 std::vector<std::string> arrays_to_choose(const std::vector<std::filesystem::path>& files,
                                           const BuildArguments& arguments);
+
+/// One array, whatever the arguments say of arrays.
+/// @param name as `--array` takes it @throws index::Error
+ArraySource open_array(const std::vector<std::filesystem::path>& files,
+                       const BuildArguments& arguments, const std::string& name);
 
 /// As `open_sources`; where files leave the choice among several arrays, it opens all of one shape,
 /// and the arguments say so.

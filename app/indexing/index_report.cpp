@@ -3,6 +3,7 @@
 
 #include "app/indexing/series_report.h"
 #include "app/text.h"
+#include "index/file/blend_advice.h"
 #include "index/search/tree_of_file.h"
 
 #include <fmt/format.h>
@@ -134,6 +135,37 @@ std::string tree_text(const index::IndexFile& file) {
     return text;
 }
 
+std::string blends_text(const index::IndexFile& file) {
+    const auto quality = index::blend_quality(file);
+    if (!quality)
+        return "not known: that takes three steps, bricks and values in the index";
+    return fmt::format(
+        "{}: between steps the surface of their blend is expected within {:.2g} "
+        "voxels (95 % of the cells){}; {:.2g} where every second step is left out{}",
+        quality->holds() ? "hold" : "blend", quality->expected(),
+        quality->lone > 0 ? fmt::format(", but {} of its parts of more than {} cells come and go",
+                                        quality->lone, index::BlendQuality::kSmallPart)
+                          : "",
+        quality->every_second,
+        quality->every_fourth ? fmt::format(", {:.2g} of every fourth", *quality->every_fourth)
+                              : "");
+}
+
+nlohmann::ordered_json blends_json(const index::IndexFile& file) {
+    const auto quality = index::blend_quality(file);
+    if (!quality)
+        return nullptr;
+    nlohmann::ordered_json j{{"advice", quality->holds() ? "hold" : "blend"},
+                             {"expected_voxels", quality->expected()},
+                             {"every_second_voxels", quality->every_second},
+                             {"every_fourth_voxels", nullptr},
+                             {"lone_parts", quality->lone},
+                             {"compared_cells", quality->cells}};
+    if (quality->every_fourth)
+        j["every_fourth_voxels"] = *quality->every_fourth;
+    return j;
+}
+
 } // namespace
 
 std::string sizes(const index::IndexFile& file) {
@@ -160,8 +192,8 @@ double staying_percent(const index::IndexFile& file) {
 }
 
 std::string staying_text(const index::IndexFile& file) {
-    return fmt::format("{:.1f} % of the chunks of 16 x 16 x 16 values are as in the step before: "
-                       "stored once, and their cells are taken over",
+    return fmt::format("{:.1f} % of the chunks of 16 x 16 x 16 values are the same as in the step "
+                       "before: stored once, and their cells are reused",
                        staying_percent(file));
 }
 
@@ -170,9 +202,9 @@ std::string first_visit_text(const index::IndexFile& file) {
     if (!file.cells() || !file.plan().tiers.has(index::Tier::bricks))
         return {};
     const auto held = file.cells()->hold();
-    return fmt::format("a first look at a step is searched by what has fewer bytes left to read: "
-                       "cells of step 0 take about {} besides the values, bricks come with these; "
-                       "another look by cells, the fastest",
+    return fmt::format("the first search of a step uses the tier with fewer bytes left to read "
+                       "(cells: about {} for step 0, besides the values; bricks are read with the "
+                       "values); later searches use cells, the fastest",
                        human_bytes(static_cast<double>(file.cells()->missing_bytes(0))));
 }
 
@@ -221,6 +253,8 @@ std::string as_text(const IndexReport& report) {
                                                        file.tree_options().lattice,
                                                        file.tree_options().max_variation)
                                          : ""));
+    if (report.blends)
+        line("between", blends_text(file));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
     text += sources_text(info.sources);
     for (const std::string& note : info.notes)
@@ -292,6 +326,8 @@ std::string as_json(const IndexReport& report) {
     j["content_hash"] = fmt::format("{:016x}", file.content_hash());
     j["sources"] = info.sources;
     j["notes"] = info.notes;
+    if (report.blends)
+        j["between"] = blends_json(file);
     if (report.tree) {
         j["tree"] = nlohmann::ordered_json::array();
         for (const auto& node : time_nodes(file))

@@ -10,7 +10,8 @@ namespace isochron::app {
 struct IndexReport {
     std::string name; ///< as the user gave it
     const index::IndexFile& file;
-    bool tree = false; ///< report the cells of every time node as well
+    bool tree = false;   ///< report the cells of every time node as well
+    bool blends = false; ///< measure how well blends stand for what lies between the steps
 };
 
 /// Sizes of the file and its parts: `4.10 MiB: volume 3.00 MiB, bricks 12 KiB, cells 1.05 MiB`.

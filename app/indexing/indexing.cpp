@@ -1,6 +1,7 @@
 // Makes an index in the background.
 #include "app/indexing/indexing.h"
 
+#include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
 #include "app/text.h"
 #include "index/error.h"
@@ -38,8 +39,8 @@ std::string Indexing::State::line() const {
                       : fmt::format("indexing: {} of {} steps, {:.0f} %", steps, of, percent);
 }
 
-Indexing::Indexing(BuildArguments arguments, std::filesystem::path folder)
-    : arguments_(std::move(arguments)), folder_(std::move(folder)),
+Indexing::Indexing(BuildArguments arguments, std::filesystem::path folder, bool asks)
+    : arguments_(std::move(arguments)), folder_(std::move(folder)), asks_(asks),
       worker_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Indexing::~Indexing() = default;
@@ -51,7 +52,8 @@ Indexing::State Indexing::state() const {
 
 void Indexing::wait_for_opening(std::chrono::milliseconds most) const {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, most, [&] { return state_.of > 0 || state_.done; });
+    changed_.wait_for(lock, most,
+                      [&] { return state_.of > 0 || state_.done || !state_.offers.empty(); });
 }
 
 void Indexing::check() const {
@@ -66,6 +68,35 @@ void Indexing::set(const std::function<void(State&)>& change) {
     changed_.notify_all();
 }
 
+void Indexing::choose(std::size_t offer) {
+    const std::scoped_lock lock(mutex_);
+    chosen_ = offer;
+    changed_.notify_all();
+}
+
+bool Indexing::waits_for_choice() const {
+    const std::scoped_lock lock(mutex_);
+    return !chosen_;
+}
+
+/// Offers arrays to the user, and reads their values meanwhile.
+std::size_t Indexing::chosen_of(const std::vector<ArrayOffer>& offers,
+                                const std::stop_token& stop) {
+    set([&](State& state) { state.offers = offers; });
+    const auto waits = [&] { return !stop.stop_requested() && waits_for_choice(); };
+    const std::vector<std::filesystem::path> files = expand_patterns(arguments_.files);
+    for (std::size_t i = 0; i < offers.size() && waits(); ++i)
+        if (const auto range = offers[i].fault.empty()
+                                   ? first_range(files, arguments_, offers[i].name, waits)
+                                   : std::nullopt)
+            set([&](State& state) { state.offers[i].range = range; });
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait(lock, stop, [&] { return chosen_.has_value(); }))
+        throw IndexingStopped();
+    state_.offers.clear();
+    return *chosen_;
+}
+
 void Indexing::run(const std::stop_token& stop) {
     std::exception_ptr failed;
     std::string failure;
@@ -73,7 +104,9 @@ void Indexing::run(const std::stop_token& stop) {
     try {
         const auto path = kept_index(
             arguments_, folder_,
-            {.opened = [&](std::size_t steps) { set([&](State& state) { state.of = steps; }); },
+            {.choose = asks_ ? [&](const auto& offers) { return chosen_of(offers, stop); }
+                             : ChooseArray(),
+             .opened = [&](std::size_t steps) { set([&](State& state) { state.of = steps; }); },
              .held =
                  [&](const std::filesystem::path& at, std::size_t steps) {
                      set([&](State& state) {

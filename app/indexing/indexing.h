@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/command_line/progress_bar.h"
+#include "app/indexing/array_offers.h"
 #include "app/indexing/build_arguments.h"
 
 #include <chrono>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace isochron::app {
 
@@ -25,20 +27,24 @@ class Indexing {
         std::size_t steps = 0;                      ///< that it has
         std::size_t of = 0;                         ///< 0: the files are not open yet
         std::string phase;
-        double fraction = 0; ///< of the whole series
-        std::string failure; ///< empty: none
-        bool done = false;   ///< it is complete, or it has failed
+        double fraction = 0;            ///< of the whole series
+        std::string failure;            ///< empty: none
+        bool done = false;              ///< it is complete, or it has failed
+        std::vector<ArrayOffer> offers; ///< the user is to choose one; empty: nothing to choose
         /// `indexing: 3 of 8 steps, 41 %`, or `opening`; empty when it is done.
         std::string line() const;
     };
 
-    Indexing(BuildArguments arguments, std::filesystem::path folder);
+    /// @param asks waits for `choose` where files have arrays of several shapes
+    Indexing(BuildArguments arguments, std::filesystem::path folder, bool asks = false);
     ~Indexing(); ///< ends the work; the steps that the index has stay
     Indexing(const Indexing&) = delete;
     Indexing& operator=(const Indexing&) = delete;
 
     State state() const;
-    /// Waits until the files are open or opening has failed, at most this long.
+    /// Goes on with one of the arrays that are offered. @param offer its number
+    void choose(std::size_t offer);
+    /// Waits until the files are open, opening has failed, or arrays are offered, at most this long.
     void wait_for_opening(std::chrono::milliseconds most) const;
     /// @throws what ended it, when it has failed
     void check() const;
@@ -46,12 +52,16 @@ class Indexing {
   private:
     void run(const std::stop_token& stop);
     void set(const std::function<void(State&)>& change);
+    std::size_t chosen_of(const std::vector<ArrayOffer>& offers, const std::stop_token& stop);
+    bool waits_for_choice() const;
 
     const BuildArguments arguments_;
     const std::filesystem::path folder_;
     mutable std::mutex mutex_;
-    mutable std::condition_variable changed_;
+    mutable std::condition_variable_any changed_;
     State state_;
+    const bool asks_;
+    std::optional<std::size_t> chosen_; ///< of the arrays that are offered
     std::exception_ptr failed_;
     std::jthread worker_; ///< the last member: starts after, and is joined before, the others
 };

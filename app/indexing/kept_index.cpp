@@ -236,8 +236,9 @@ class KeptBuild {
             const auto team = index::alone();
             if (!index::append_index(part.volume, *held_, *file, path_, part.options,
                                      progress_to(steps), *team))
-                throw index::Error(fmt::format(
-                    "{}: its cells have no levels for new steps; remove it", path_.string()));
+                throw index::Error(fmt::format("{}: new steps hold values that its cells have no "
+                                               "place for; delete it and open the data again",
+                                               path_.string()));
             held_ = index::IndexFile::open(path_);
         }
         report_held();
@@ -275,7 +276,7 @@ fs::path kept_index(const BuildArguments& given, const fs::path& folder,
                     const KeptIndexReports& reports, std::uint64_t most_bytes) {
     BuildArguments arguments = given;
     const std::vector<fs::path> files = expand_patterns(arguments.files);
-    BuildSources sources = open_one_or_all(files, arguments); // arrays are chosen in the window
+    BuildSources sources = open_chosen(files, arguments, reports.choose);
     if (reports.opened)
         reports.opened(sources.volume->info().steps());
     index::make_folder(folder);

@@ -1,6 +1,7 @@
 // Indexes of data that the user only wants to look at; they are kept in the user's cache folder.
 #pragma once
 
+#include "app/indexing/array_offers.h"
 #include "app/indexing/build_arguments.h"
 #include "index/progress.h"
 
@@ -15,6 +16,8 @@ constexpr std::uint64_t kMostKeptBytes = std::uint64_t{20} << 30;
 
 /// Callbacks that report the progress of an index, called on the thread that makes it.
 struct KeptIndexReports {
+    /// Which array to show, where files have several of different shapes. Throwing ends the work.
+    ChooseArray choose = {};
     /// The files could be opened: a series of so many steps.
     std::function<void(std::size_t steps)> opened = {};
     /// The index is at `path` and has its first steps, so that they can be shown. Called again

@@ -128,6 +128,8 @@ std::string text_of(const SeriesInfo& info) {
     for (const auto& [axis, gaps] : uneven.items())
         line("", fmt::format("along {} the mean of {:.10g} to {:.10g}{}", axis,
                              gaps[0].get<double>(), gaps[1].get<double>(), length));
+    if (info.length_unit.empty())
+        line("length unit", "none");
     line("size", fmt::format("{:.10g}{}", fmt::join(numbers(physical_size(grid)), " x "), length));
     line("origin", fmt::format("{:.10g}{}", fmt::join(numbers(grid.origin), " "), length));
     for (int axis = 0; axis < 3; ++axis)

@@ -90,8 +90,9 @@ std::vector<stereo::ViewerPose> viewer_poses(const stereo::Installation& install
         const interaction::Pose pose = head && head->pose ? *head->pose : waiting;
         constexpr double kNearest = 0.1; // [m]
         const double away = center ? glm::distance(*center, glm::dvec3(pose.position)) : 0.0;
-        found.push_back({pose, eye_separation_of(viewer, installation, eye_separation),
-                         center ? static_cast<float>(std::max(away, kNearest)) : 0.0f});
+        found.push_back(
+            {pose, eyes_of_viewer(viewer, eye_separation_of(viewer, installation, eye_separation)),
+             center ? static_cast<float>(std::max(away, kNearest)) : 0.0f});
     }
     return found;
 }

@@ -74,10 +74,10 @@ fs::path folder_described_by(const fs::path& file) {
 }
 
 /// Files of these kinds name others, in words.
-constexpr std::array<std::string_view, 26> kNamingOthers{
-    ".pvd", ".series", ".xmf",  ".xdmf", ".pvti", ".pvtr", ".pvtu", ".pvts", ".vtm",
-    ".vth", ".nhdr",   ".mhd",  ".bov",  ".h5",   ".hdf5", ".he5",  ".hdf",  ".vtkhdf",
-    ".nc",  ".nc4",    ".cgns", ".exo",  ".e",    ".ex2",  ".tif",  ".tiff"};
+constexpr std::array<std::string_view, 27> kNamingOthers{
+    ".pvd",    ".series", ".xmf",  ".xdmf", ".pvti", ".pvtr", ".pvtu", ".pvts", ".vtm",
+    ".vth",    ".vthb",   ".nhdr", ".mhd",  ".bov",  ".h5",   ".hdf5", ".he5",  ".hdf",
+    ".vtkhdf", ".nc",     ".nc4",  ".cgns", ".exo",  ".e",    ".ex2",  ".tif",  ".tiff"};
 
 /// Whether a file that may name others names this one.
 bool is_named_in(const fs::path& naming, const std::string& name) {

@@ -52,9 +52,12 @@ bool holds_ids(const fs::path& path, std::uint64_t cells) {
 
 constexpr std::size_t kLooked = 1 << 20;
 
-/// Objects whose keys stand in the order of the alphabet.
+/// Rows first, as they are written; or, of older programs, objects whose keys stand in the order of the
+/// alphabet.
 bool is_report(const fs::path& path) {
     const std::string text = beginning_of(path, kLooked);
+    if (text.starts_with("{\n \"program\": \"isochron "))
+        return text.find(",\n \"rows\": [") != std::string::npos;
     return text.starts_with("{\n \"context\": ") &&
            text.find("\n \"program\": \"isochron ") != std::string::npos;
 }
@@ -66,7 +69,7 @@ bool is_session(const fs::path& path) {
 }
 
 bool is_recording(const fs::path& path) {
-    return beginning_of(path, kLooked).find("\"isochron recording\"") != std::string::npos;
+    return names_format(path, "isochron recording");
 }
 
 bool is_manual_page(const fs::path& path) {
@@ -93,6 +96,10 @@ bool is_of_kind(const fs::path& file, const Output& output) {
 }
 
 } // namespace
+
+bool names_format(const fs::path& file, const std::string& format) {
+    return beginning_of(file, kLooked).find("\"" + format + "\"") != std::string::npos;
+}
 
 bool is_known(const fs::path& file, const Output& output) {
     std::error_code ignored;

@@ -35,6 +35,9 @@ struct Output {
 /// the file as the answer takes.
 bool is_known(const std::filesystem::path& file, const Output& output);
 
+/// Whether the first MiB of a file names a format, in quotation marks, as recordings and sessions do.
+bool names_format(const std::filesystem::path& file, const std::string& format);
+
 /// What a file is, for people: `an index`, `a folder`, `a file of 1234 bytes`.
 std::string words_for(const std::filesystem::path& file);
 

@@ -146,15 +146,15 @@ DrawLoad Outputs::draw(const Audience& audience, Scene scene, const Overlay& ove
     return of_cell;
 }
 
-bool Outputs::draw_part(PartPlace& place, const PartScene& scene) {
-    const bool whole = draw_part_at(place, scene);
+bool Outputs::draw_part(const Audience& audience, PartPlace& place, const PartScene& scene) {
+    const bool whole = draw_part_at(audience, place, scene);
     render::expect_memory(gl(), "drawing a part of a picture");
     gl_.Finish(); // so that its time is known
     return whole;
 }
 
-bool Outputs::draw_part_at(PartPlace& place, const PartScene& scene) {
-    const std::vector<stereo::HeadsetEye>& eyes = drawn_.audience.eyes;
+bool Outputs::draw_part_at(const Audience& audience, PartPlace& place, const PartScene& scene) {
+    const std::vector<stereo::HeadsetEye>& eyes = audience.eyes;
     const std::size_t windows = shows_windows() ? displays_.size() : 0;
     if (place.window >= windows) {
         place.begins =
@@ -166,7 +166,7 @@ bool Outputs::draw_part_at(PartPlace& place, const PartScene& scene) {
     stereo::Display& display = displays_[place.window];
     const ScenePlace in_window{&display.window(), place.viewport, display.mode()};
     const bool whole = display.draw_part(
-        drawn_.audience.viewers, place.viewport, place.begins,
+        audience.viewers, place.viewport, place.begins,
         [&](std::span<const render::View> views) { return scene(in_window, views); });
     place.begins = whole;
     if (whole && ++place.viewport == display.window().viewports.size())
@@ -219,21 +219,21 @@ void Outputs::present() {
         room_->present();
 }
 
-KeptPictures Outputs::kept_pictures() {
+KeptPictures Outputs::kept_pictures(const PictureNote& frame) {
     lacks_overlay_ = true;
     const auto draw = [this](stereo::Display& display) {
         draw_window(display, drawn_.scene, {}, true);
     };
-    return {gl_, windows_, config_, displays_, room_, draw, kept_differ()};
+    return {gl_, windows_, config_, displays_, room_, draw, kept_differ(frame)};
 }
 
 /// The picture to keep of the headset's mirror.
-render::Image Outputs::headset_picture() {
+render::Image Outputs::headset_picture(const PictureNote& frame) {
     const std::vector<stereo::HeadsetEye>& eyes = drawn_.audience.eyes;
     const stereo::DisplayOptions options =
         picture_options(gl_, config_, windows_[0].framebuffer_size());
     if (eyes.empty() ||
-        (options.samples == display_options(gl_, config_).samples && !kept_differ())) {
+        (options.samples == display_options(gl_, config_).samples && !kept_differ(frame))) {
         headset_display_->mirror({});
         return headset_display_->read_window();
     }
@@ -246,7 +246,10 @@ render::Image Outputs::headset_picture() {
     return picture.read_window();
 }
 
-bool Outputs::kept_differ() const {
+bool Outputs::kept_differ(const PictureNote& frame) const {
+    const auto parts = frame.state.pictures.value_or(interaction::WrittenPictures{});
+    if (!parts.legend || !parts.box || !parts.marks)
+        return true;
     return !config_.pictures.only_kept &&
            (config_.pictures.caption || (drawn_.audience.aids && !config_.pictures.ray));
 }
@@ -267,6 +270,14 @@ PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
     return frame;
 }
 
+/// The size that the user has chosen for pictures of a single window; empty: none.
+std::optional<glm::ivec2> Outputs::asked_size(const PictureNote& frame) const {
+    const auto how = frame.state.pictures.value_or(interaction::WrittenPictures{});
+    if (displays_.size() != 1 || how.width == 0 || how.height == 0)
+        return std::nullopt;
+    return glm::ivec2(how.width, how.height);
+}
+
 void Outputs::set_screenshots(const std::filesystem::path& folder) {
     screenshot_folder_ = folder;
     screenshots_taken_ = last_screenshot(folder);
@@ -274,32 +285,36 @@ void Outputs::set_screenshots(const std::filesystem::path& folder) {
 
 void Outputs::take_screenshots(const PictureNote& frame) {
     const std::string stem = screenshot_name(++screenshots_taken_);
-    const auto write = [&](const PicturePart& part, const std::string& suffix,
-                           render::Image image) {
-        write_image(std::move(image), screenshot_folder_ / fmt::format("{}{}.png", stem, suffix),
-                    text_of(noted(frame, part)));
+    each_picture(frame,
+                 [&](const std::string& suffix, render::Image image, const std::string& note) {
+                     write_image(std::move(image),
+                                 screenshot_folder_ / fmt::format("{}{}.png", stem, suffix), note);
+                 });
+}
+
+void Outputs::each_picture(const PictureNote& frame, const TakeNotedPicture& take) {
+    const auto give = [&](const PicturePart& part, const std::string& suffix, render::Image image) {
+        take(suffix, std::move(image), text_of(noted(frame, part)));
     };
     if (room_)
-        return write({.shows = "room"}, "", kept_pictures().of_room());
+        return give({.shows = "room"}, "", kept_pictures(frame).of_room());
     if (!shows_windows())
-        return write({.shows = "headset"}, "", headset_picture());
+        return give({.shows = "headset"}, "", headset_picture(frame));
     const PictureNames names = picture_names(config_.installation);
-    kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+    kept_pictures(frame).each([&](std::size_t i, const stereo::Display& display) {
         const std::size_t number = windows_.number(i);
         const PicturePart part{.window = number};
-        if (displays_[i].fills())
-            return write(part, names.windows[number].suffix, display.read_window());
+        const std::optional<glm::ivec2> asked = asked_size(frame);
+        if (displays_[i].fills() && !asked)
+            return give(part, names.windows[number].suffix, display.read_window());
         // Beside a panel the data are seen in what the panel leaves free: that is the picture.
         PictureNote seen = noted(frame, part);
-        seen.size = size_beside_panel(displays_[i]);
+        seen.size = asked.value_or(size_beside_panel(displays_[i]));
         const auto context = stereo::offscreen_beside(windows_.drawing(), seen.size);
         stereo::Display picture(gl_, windows_.drawing(), *context, display.window(),
                                 picture_options(gl_, config_, seen.size));
         draw_window(picture, drawn_.scene, {}, true);
-        write_image(picture.read_window(),
-                    screenshot_folder_ /
-                        fmt::format("{}{}.png", stem, names.windows[number].suffix),
-                    text_of(seen));
+        take(names.windows[number].suffix, picture.read_window(), text_of(seen));
     });
 }
 

@@ -116,12 +116,13 @@ class Outputs {
     };
     /// Draws a part of what a viewport still lacks. @return whether it is complete now
     using PartScene = std::function<bool(const ScenePlace&, std::span<const render::View>)>;
-    /// Draws the next part of a new picture, while the old one stays on show, for the audience of
-    /// the last frame, which wanted a picture, and windows as large as in it.
+    /// Draws the next part of a new picture, while the old one stays on show, for windows as large as
+    /// in the last frame.
+    /// @param audience the same for all parts; it wants a picture
     /// @param place where this part belongs; becomes the place of the next one
     /// @return whether the pictures of all windows, or of the headset, are complete
     /// @throws render::OutOfMemory as `draw`
-    bool draw_part(PartPlace& place, const PartScene& scene);
+    bool draw_part(const Audience& audience, PartPlace& place, const PartScene& scene);
     /// Shows the picture that was drawn in parts.
     void show_parts(const Overlay& overlay);
     /// Whether the windows hold what they showed last, with the overlay. Pictures to keep have none.
@@ -138,7 +139,8 @@ class Outputs {
     const Audience& audience() const { return drawn_.audience; } ///< of the last frame
 
     /// The last frame's pictures, drawn once more to be kept.
-    KeptPictures kept_pictures();
+    /// @param frame says which parts the pictures have
+    KeptPictures kept_pictures(const PictureNote& frame = {});
     /// Where screenshots go. They are called `isochron_0001.png`, or with several windows
     /// `isochron_0001_front.png`. Their numbers follow the highest number that is in the folder
     /// now: all processes of a cluster must ask for the folder before the first screenshot.
@@ -146,6 +148,11 @@ class Outputs {
     /// Writes a picture of the room, of the headset's mirror, or of every window of this process.
     /// @param frame note about the last frame; each picture's own note is made from it
     void take_screenshots(const PictureNote& frame);
+    /// Gets what a file name adds for a picture, and the picture's own note.
+    using TakeNotedPicture = std::function<void(const std::string& suffix, render::Image image,
+                                                const std::string& note)>;
+    /// Draws these pictures. @param frame as of `take_screenshots`
+    void each_picture(const PictureNote& frame, const TakeNotedPicture& take);
     /// Writes a picture in the background. @param note stored in the file; empty: none
     void write_image(render::Image image, const std::filesystem::path& path,
                      const std::string& note = {});
@@ -165,10 +172,12 @@ class Outputs {
     Overlay overlay_of(std::size_t window, const Overlay& overlay) const;
     void draw_window(stereo::Display& display, const Scene& scene, const Overlay& overlay,
                      bool kept = false) const;
-    bool draw_part_at(PartPlace& place, const PartScene& scene);
+    bool draw_part_at(const Audience& audience, PartPlace& place, const PartScene& scene);
     void end_headset_frame(bool again);
-    render::Image headset_picture();
-    bool kept_differ() const; ///< pictures to keep differ from the shown ones
+    render::Image headset_picture(const PictureNote& frame);
+    std::optional<glm::ivec2> asked_size(const PictureNote& frame) const;
+    bool
+    kept_differ(const PictureNote& frame) const; ///< pictures to keep differ from the shown ones
 
     const Config& config_;
     stereo::Windows windows_;

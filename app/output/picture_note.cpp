@@ -79,6 +79,8 @@ PictureNote note_from_json(const json& value) {
     note.shape = text("shape");
     note.ray = interaction::boolean(members.at("ray"), "ray");
     note.caption = interaction::boolean(members.at("caption"), "caption");
+    if (const json* share = members.find("text"))
+        note.text = interaction::number(*share, "text", 0, 1);
     note.state = interaction::commands_from(members.at("state"), "state");
     const auto frame = interaction::frame_from_json(members.at("frame"), nullptr);
     note.input = frame.input;
@@ -87,7 +89,7 @@ PictureNote note_from_json(const json& value) {
         note.movie = movie_from(*movie);
     members.done({"format", "version", "program", "drawn_with", "configuration", "data",
                   "data_hash", "part", "size", "samples", "footprint", "shape", "ray", "caption",
-                  "state", "frame", "movie", "recorded_on"});
+                  "text", "state", "frame", "movie", "recorded_on"});
     return note;
 }
 
@@ -140,6 +142,8 @@ std::string text_of(const PictureNote& note) {
                                                                          .from_panel = {},
                                                                          .latched = note.latched},
                                               nullptr)}};
+    if (note.text > 0)
+        value["text"] = note.text;
     if (note.movie)
         value["movie"] = {{"rate", note.movie->rate}, {"recording", note.movie->recording}};
     if (!note.recorded_on.empty())

@@ -26,7 +26,7 @@ struct PicturePart {
 /// How a movie continues after its first frame, which the note describes.
 struct MovieNote {
     double rate = 0;       ///< pictures per second
-    std::string recording; ///< content hash of the recording
+    std::string recording; ///< content hash of the recording; empty: made of an index
     bool operator==(const MovieNote&) const = default;
 };
 
@@ -44,6 +44,7 @@ struct PictureNote {
     std::string shape;     ///< of quads and splats
     bool ray = false;      ///< shows the wand's ray and the mark under the cursor
     bool caption = false;
+    double text = 0;                  ///< height of words, see `text_height`
     interaction::Commands state;      ///< sets everything that commands can set
     interaction::InputState input;    ///< devices
     interaction::InputState latched;  ///< heads for the views; without devices: those in `input`

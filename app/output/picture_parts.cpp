@@ -10,8 +10,9 @@ namespace isochron::app {
 void each_part(Outputs& outputs, bool each_eye, const PictureNames& names, const PictureNote& frame,
                const TakePart& take) {
     if (outputs.room())
-        return take(outputs.noted(frame, {.shows = "room"}), "", outputs.kept_pictures().of_room());
-    outputs.kept_pictures().each([&](std::size_t i, const stereo::Display& display) {
+        return take(outputs.noted(frame, {.shows = "room"}), "",
+                    outputs.kept_pictures(frame).of_room());
+    outputs.kept_pictures(frame).each([&](std::size_t i, const stereo::Display& display) {
         const std::size_t number = outputs.windows().number(i);
         if (number >=
             names.windows.size()) // the operator's window, which is not part of the installation

@@ -2,6 +2,7 @@
 #include "app/panel/event_taker.h"
 
 #include <glm/common.hpp>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <iterator>
@@ -49,15 +50,29 @@ glm::vec2 folded(glm::vec2 at, glm::ivec2 places) {
 
 bool EventTaker::must_wait(const WindowEvent& event) const {
     if (const auto* key = std::get_if<KeyEvent>(&event))
-        return clicked || (io.WantTextInput && is_read(key->key) &&
+        return clicked || ((io.WantTextInput || io.WantCaptureKeyboard) && is_read(key->key) &&
                            (changed.contains(key->key) || (typed && key->down)));
+    if (const auto* button = std::get_if<MouseButtonEvent>(&event))
+        return button->down &&
+               ((pressed | released) & 1u << static_cast<std::size_t>(button->button)) != 0;
     if (std::holds_alternative<TextEvent>(event))
         return clicked || (io.WantTextInput && !changed.empty());
     return false;
 }
 
 bool EventTaker::captures_mouse() const {
-    return io.WantCaptureMouse || panel.covers({io.MousePos.x, io.MousePos.y});
+    const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    bool drags = false; // something of the panel
+    for (std::size_t button = 0; button < std::size(io.MouseDown); ++button)
+        drags = drags || (io.MouseDown[button] && io.MouseDownOwned[button]);
+    if (drags || imgui.OpenPopupStack.Size > 0 || panel.covers({io.MousePos.x, io.MousePos.y}))
+        return true;
+    return std::any_of(imgui.Windows.begin(), imgui.Windows.end(), [&](const ImGuiWindow* window) {
+        return window->Active && !window->Hidden &&
+               (window->Flags & (ImGuiWindowFlags_NoMouseInputs | ImGuiWindowFlags_ChildWindow)) ==
+                   0 &&
+               window->OuterRectClipped.Contains(io.MousePos);
+    });
 }
 
 bool EventTaker::operator()(const KeyEvent& event) {
@@ -90,8 +105,7 @@ bool EventTaker::operator()(const MouseButtonEvent& event) {
     const std::uint32_t bit = 1u << button;
     // ImGui sees the state once per frame: delay the release of a click within one frame.
     begun = begun || event.down;
-    if (event.down)
-        pressed |= bit;
+    (event.down ? pressed : released) |= bit;
     if (!event.down && (pressed & bit))
         late_releases |= bit;
     else

@@ -33,17 +33,18 @@ struct EventTaker {
     bool popups = false; ///< a popup or page is open, which Escape closes
     bool& closes_popup;
     NumberEntry& numbers;
-    std::uint32_t pressed = 0; ///< mouse buttons that went down among these events
-    bool begun = false;        ///< a key or button went down among these events
-    bool clicked = false;      ///< one of them on the panel
-    bool typed = false;        ///< characters came among these events
+    std::uint32_t released = 0; ///< mouse buttons that went up for this frame
+    std::uint32_t pressed = 0;  ///< mouse buttons that went down among these events
+    bool begun = false;         ///< a key or button went down among these events
+    bool clicked = false;       ///< one of them on the panel
+    bool typed = false;         ///< characters came among these events
     std::set<interaction::Key>
         changed{}; ///< keys, of those that ImGui reads, with events among these
 
     /// Whether ImGui would misread the event together with the earlier ones of this frame.
     bool must_wait(const interaction::WindowEvent& event) const;
-    /// Whether the panel takes mouse events. ImGui's own answer is from the last frame, but a quick
-    /// user moves and presses within one frame.
+    /// Whether the panel takes mouse events where the mouse is now. ImGui's own answer is about the
+    /// place of the last frame, but a quick user moves and presses within one frame.
     bool captures_mouse() const;
     bool operator()(const interaction::KeyEvent& event);
     bool operator()(const interaction::TextEvent& event);

@@ -1,6 +1,8 @@
 // Characters that the user types into the panel's fields, most of which hold one number.
 #include "app/panel/number_entry.h"
 
+#include "app/panel/parts/room_keys.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -64,13 +66,28 @@ std::string text_to_be(const ImGuiInputTextState& field, const std::u32string& w
 } // namespace
 
 bool text_field(const char* id, const char* hint, std::string& words) {
-    constexpr std::size_t kLongest = 200;
+    constexpr std::size_t kLongest = 4095; // of a path
     ImGui::GetStateStorage()->SetInt(ImGui::GetID(id), kWords);
     std::array<char, kLongest + 1> characters{};
     words.copy(characters.data(), kLongest);
     const bool changed = ImGui::InputTextWithHint(id, hint, characters.data(), characters.size());
     words = characters.data();
     return changed;
+}
+
+bool finished_text(const char* id, const char* hint, std::string& words) {
+    if (RoomKeys* const keys = RoomKeys::here()) {
+        const std::string label = (words.empty() ? hint : words) + "###" + id;
+        if (ImGui::Button(label.c_str(), {ImGui::CalcItemWidth(), 0.0f}))
+            keys->open(ImGui::GetID(id), RoomKeys::Kind::words, words);
+        keys->draw(ImGui::GetID(id));
+        const auto typed = keys->take(ImGui::GetID(id));
+        if (typed)
+            words = *typed;
+        return typed.has_value();
+    }
+    text_field(id, hint, words);
+    return ImGui::IsItemDeactivatedAfterEdit();
 }
 
 void NumberEntry::type(char32_t character) {

@@ -29,15 +29,17 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     }
     // At once: what comes after it may open the next page.
     const bool escapes = pressed && key->key == Key::escape && !popup;
+    // The fields of these two pages have the keyboard all the time.
     if (escapes && search_.is_open()) {
         search_.close();
         return true;
     }
-    if (escapes && any() && !io.WantTextInput) {
-        if (files_.is_open())
-            files_.close();
-        else
-            help_ = false;
+    if (escapes && files_.is_open()) {
+        files_.close();
+        return true;
+    }
+    if (escapes && help_ && !io.WantTextInput) {
+        help_ = false;
         return true;
     }
     const bool chord =
@@ -67,23 +69,56 @@ Seconds OpenPages::introduction_ends() const {
     return newcomer_ && begun_ && introduced_at_ ? *introduced_at_ + kLeast : Seconds(0);
 }
 
-void OpenPages::lay_out(const PanelModel& model, const PanelBox& picture, Seconds time) {
-    if (help_ && model.place != PanelPlace::in_room)
-        help_ = help_window(model);
+interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox& picture,
+                                         float top, Seconds time) {
+    interaction::Commands commands;
+    turned_ = false;
+    if (help_ && model.place != PanelPlace::in_room) {
+        const HelpAnswer answer = help_window(model);
+        help_ = answer.stays;
+        if (answer.tour)
+            tour_.start();
+    }
     lay_out_files();
-    if (model.place != PanelPlace::in_room)
-        if (auto presses = search_.draw(picture); !presses.empty())
-            presses_ = std::move(presses);
-    if (!newcomer_ || any() || model.place != PanelPlace::over)
+    if (model.place == PanelPlace::in_room) {
+        if (const auto action = search_.draw_in_room(picture))
+            action_ = action;
+    } else if (auto presses = search_.draw(picture); !presses.empty()) {
+        presses_ = std::move(presses);
+    }
+    if (any() || model.place != PanelPlace::over)
+        return commands;
+    if (model.ways.undo) // the session has changed: going on now would take that back
+        earlier_.reset();
+    if (earlier_) {
+        const Answer answer = earlier_card(picture, top);
+        if (answer == Answer::yes)
+            commands = *earlier_;
+        if (answer != Answer::none)
+            earlier_.reset();
+    }
+    tour_.draw(model, picture);
+    introduce(picture, time);
+    const std::size_t cards = 4 * tour_.step() + 2 * (earlier_ ? 1 : 0) + (newcomer_ ? 1 : 0);
+    turned_ = std::exchange(cards_, cards) != cards;
+    return commands;
+}
+
+/// The hint for newcomers, who may ask for the tour there.
+void OpenPages::introduce(const PanelBox& picture, Seconds time) {
+    if (!newcomer_ || tour_.goes_on())
         return;
     if (!introduced_at_)
         introduced_at_ = time;
-    if (begun_ && time >= introduction_ends()) {
-        newcomer_ = false;
-        introduced_ = true;
+    bool held = false;
+    const Answer answer = hint_card(picture, held);
+    if (answer == Answer::yes)
+        tour_.start();
+    const bool over = begun_ && !held && time >= introduction_ends();
+    if (answer == Answer::none && !over)
         return;
-    }
-    first_use_window(picture);
+    newcomer_ = false;
+    introduced_ = true;
 }
 
 } // namespace isochron::app

@@ -2,12 +2,16 @@
 // commands, and the introduction.
 #pragma once
 
+#include "app/panel/array_window.h"
 #include "app/panel/file_window.h"
 #include "app/panel/panel.h"
 #include "app/panel/parts/key_search.h"
+#include "app/panel/parts/tour.h"
+#include "interaction/commands.h"
 #include "interaction/input/window_event.h"
 #include "interaction/pose.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -20,6 +24,9 @@ class OpenPages {
   public:
     /// Shows the four lines of introduction from now on, until the user begins.
     void introduce() { newcomer_ = true; }
+    /// Offers to go on with the session before, until the user answers or changes something.
+    /// @param earlier sets all that it had
+    void offer_earlier(interaction::Commands earlier) { earlier_ = std::move(earlier); }
     /// The user has pressed a key or a button.
     void begin() { begun_ = true; }
     /// Whether those lines have gone since the last call.
@@ -32,6 +39,7 @@ class OpenPages {
     bool offers_files() const { return static_cast<bool>(recent_); }
     /// Opens the page where the user chooses data.
     void open_files() { files_.open(recent_()); }
+    void open_files_again() { files_.open_again(); } ///< where they were left
     /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
@@ -40,10 +48,17 @@ class OpenPages {
 
     void open_help() { help_ = true; }
     void open_search() { search_.open(); }
-    bool searches() const { return search_.is_open(); }
+    /// A page with a field that takes what is typed.
+    bool takes_text() const { return search_.is_open() || files_.is_open(); }
     /// What is to be pressed for the command that the user found; returned once.
     std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
     bool has_presses() const { return !presses_.empty(); }
+
+    /// The command that the user found on the panel in the room; returned once.
+    std::optional<interaction::Action> take_action() { return std::exchange(action_, {}); }
+
+    /// Whether cards have come, gone or changed in the last layout: Dear ImGui shows new windows late.
+    bool turned() const { return turned_; }
 
     /// A page lies over the picture, which Escape closes.
     bool any() const { return help_ || files_.is_open() || search_.is_open(); }
@@ -55,19 +70,31 @@ class OpenPages {
 
     /// Lays the pages out in the current Dear ImGui frame.
     /// @param picture where the panel leaves the picture free
-    void lay_out(const PanelModel& model, const PanelBox& picture, interaction::Seconds time);
+    /// @param top where what lies over the picture may begin
+    /// @return commands of the user
+    interaction::Commands lay_out(const PanelModel& model, const PanelBox& picture, float top,
+                                  interaction::Seconds time);
     /// Lays out the choice of data alone.
     void lay_out_files();
+    ArrayWindow& arrays() { return arrays_; }
 
   private:
+    void introduce(const PanelBox& picture, interaction::Seconds time);
+
     bool help_ = false; ///< the help page is open
     FileWindow files_;
+    ArrayWindow arrays_;
     KeySearch search_;
     std::vector<interaction::WindowEvent> presses_;
+    std::optional<interaction::Action> action_;
     std::function<std::vector<std::filesystem::path>()>
         recent_; ///< empty: the user cannot open other data
     std::optional<std::filesystem::path> chosen_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
+    Tour tour_;
+    bool turned_ = false;
+    std::size_t cards_ = 0;                        ///< in the last layout
+    std::optional<interaction::Commands> earlier_; ///< of the session before, while it is offered
     std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
 };
 

@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
@@ -62,6 +63,11 @@ stereo::Margins OperatorPanel::covered(glm::ivec2 size) const {
     if (2 * low.x > size.x || 2 * (high.y - low.y) < size.y)
         return {};
     return {.left = low.x, .top = low.y, .bottom = size.y - high.y};
+}
+
+float OperatorPanel::text_share(glm::ivec2 size) const {
+    return panel_scale(first_, font_scale_, size.x) * PanelLayer::kFontPixels /
+           static_cast<float>(std::max(1, size.y));
 }
 
 bool OperatorPanel::covers(const interaction::MouseMoveEvent& cursor) const {

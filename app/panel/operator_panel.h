@@ -27,6 +27,9 @@ class OperatorPanel {
         return over_.pages().introduced();
     } ///< true once, when those lines have gone
     /// See OpenPages.
+    void offer_earlier(interaction::Commands earlier) {
+        over_.pages().offer_earlier(std::move(earlier));
+    }
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
         over_.pages().offer_files(std::move(recent));
     }
@@ -62,6 +65,8 @@ class OperatorPanel {
     /// Pixels that the panel covers at the edges of the picture; none where they would leave less
     /// than half of its width. @param size of the part of the picture that one eye has
     stereo::Margins covered(glm::ivec2 size) const;
+    /// Height of the panel's words, as a share of that part's height.
+    float text_share(glm::ivec2 size) const;
     /// Whether the panel over the picture is under the cursor.
     bool covers(const interaction::MouseMoveEvent& cursor) const;
 

@@ -1,4 +1,4 @@
-// The help page on the connected devices, and the four lines of introduction.
+// The help page on the connected devices.
 #include "app/panel/panel_help.h"
 
 #include "app/panel/panel_words.h"
@@ -44,7 +44,7 @@ void controls_of(std::span<const interaction::DeviceKind> kinds,
     }
 }
 
-bool help_window(const PanelModel& model) {
+HelpAnswer help_window(const PanelModel& model) {
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize(
@@ -53,33 +53,13 @@ bool help_window(const PanelModel& model) {
     ImGui::Begin("Keys, mouse and devices (F1)###help", &open,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
+    const bool tour = model.place == PanelPlace::over && ImGui::Button("Take the tour: six steps");
     ImGui::BeginChild("controls"); // its lines end above the window's rounded edge
     ImGui::Indent(4.0f);           // letters reach beyond their own place
     controls_of(model.at_hand, model.controls);
     ImGui::EndChild();
     ImGui::End();
-    return open;
-}
-
-void first_use_window(const PanelBox& picture) {
-    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2, picture.high.y - 14.0f},
-                            ImGuiCond_Always, {0.5f, 1.0f});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
-    ImGui::Begin("###first use", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::PushTextWrapPos(std::min(480.0f, 0.94f * picture.size().x));
-    for (const char* line :
-         {"Drag with the left button to turn the data; the wheel scales them.",
-          "Up and Down change the isovalue, or drag its line in the histogram.",
-          "Space plays the steps; Left and Right go through them.",
-          "Ctrl + K finds every command, F1 lists all keys. This hint disappears "
-          "when you begin."})
-        ImGui::TextUnformatted(line);
-    ImGui::PopTextWrapPos();
-    ImGui::End();
-    ImGui::PopStyleColor();
+    return {open && !tour, tour};
 }
 
 } // namespace isochron::app

@@ -1,8 +1,7 @@
-// The help page on the connected devices, and the four lines of introduction.
+// The help page on the connected devices.
 #pragma once
 
 #include "app/panel/panel_model.h"
-#include "app/panel/parts/places.h"
 
 #include <span>
 
@@ -12,10 +11,11 @@ namespace isochron::app {
 void controls_of(std::span<const interaction::DeviceKind> kinds,
                  std::span<const interaction::ControlGroup> groups);
 
-/// The help page, in the middle of the picture. @return false: the user closed it
-bool help_window(const PanelModel& model);
-
-/// The introduction for new users. It takes no input.
-void first_use_window(const PanelBox& picture);
+struct HelpAnswer {
+    bool stays = true; ///< the user has not closed it
+    bool tour = false; ///< the user wants the tour
+};
+/// The help page, in the middle of the picture.
+HelpAnswer help_window(const PanelModel& model);
 
 } // namespace isochron::app

@@ -1,8 +1,10 @@
 // From the wand's ray to the panel's mouse, and from its clicks to commands.
 #include "app/panel/panel_in_room.h"
 
+#include "interaction/input/actions.h"
 #include "interaction/input/device_reading.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
@@ -16,6 +18,16 @@ using interaction::Seconds;
 constexpr float kScale = 2.5f;
 constexpr double kScroll = 12.0; ///< [notch/s] of the wheel, with the stick pushed all the way
 const interaction::HapticPulse kTick{"wand", 0.01, 0.25f}, kClick{"wand", 0.02, 0.6f};
+
+/// As if the action's key were down in this frame.
+void press(interaction::Action action, interaction::InputState& input) {
+    const char* const device = interaction::is_of_more_keys(action) ? "more_keys" : "keys";
+    const auto keys = std::ranges::find(input.devices, device, &interaction::DeviceState::name);
+    if (keys != input.devices.end())
+        keys->buttons |= interaction::bit(action);
+    else
+        input.devices.push_back({device, std::nullopt, true, interaction::bit(action), {}});
+}
 
 } // namespace
 
@@ -35,6 +47,8 @@ const PanelInRoom::Outcome& PanelInRoom::update(const interaction::InputState& i
         return *outcome_;
     pointer_.update(input, touched(input, panel));
     outcome_ = {pointer_.rest_of(input), std::exchange(pending_, {})};
+    if (const auto action = std::exchange(wanted_, {}))
+        press(*action, outcome_->rest);
     const auto& carried = pointer_.carried();
     if (carried && *carried != panel.pose)
         outcome_->commands.room_panel = RoomPanel{panel.shown, *carried};
@@ -54,6 +68,7 @@ void PanelInRoom::feel(Commands& commands) {
 void PanelInRoom::leave_out() {
     outcome_.reset();
     pending_ = {};
+    wanted_.reset();
     laid_out_.reset();
 }
 
@@ -70,6 +85,7 @@ void PanelInRoom::lay_out(const PanelModel& model, Seconds time) {
     layer_.point(at, pressed,
                  static_cast<float>(touch.notches + touch.scroll * kScroll * elapsed.count()));
     pending_ = layer_.lay_out(picture_.size(), model, time);
+    wanted_ = layer_.pages().take_action();
     feel(pending_);
     if (const std::size_t digest = layer_.digest(); digest != std::exchange(digest_, digest)) {
         picture_.begin();
@@ -82,7 +98,7 @@ FrameOutlook PanelInRoom::outlook() const {
     FrameOutlook next{.final = true};
     if (laid_out_)
         next = layer_.outlook();
-    next.changed |= pending_ != Commands{}; // which the next frame obeys
+    next.changed |= wanted_ || pending_ != Commands{}; // which the next frame obeys
     return next;
 }
 

@@ -62,6 +62,7 @@ class PanelInRoom {
     interaction::PanelPointer pointer_;
     std::optional<Outcome> outcome_; ///< of the frame's input, until the panel is laid out
     interaction::Commands pending_;  ///< of the last layout, for the next `update`
+    std::optional<interaction::Action> wanted_; ///< likewise: found by the search
     std::optional<interaction::Seconds> laid_out_;
     std::size_t digest_ = 0;               ///< of the picture's contents
     std::uint32_t hovered_ = 0, held_ = 0; ///< widgets for which the hand has felt a pulse

@@ -94,7 +94,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
     for (std::size_t button = 0; button < std::size(io.MouseDown); ++button)
         if (late_releases_ & (1u << button))
             io.MouseDown[button] = false;
-    late_releases_ = 0;
+    const std::uint32_t released = std::exchange(late_releases_, 0);
     EventTaker taker{.io = io,
                      .panel = view_.places,
                      .late_releases = late_releases_,
@@ -102,18 +102,19 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                      .places = places_,
                      .popups = has_popup(),
                      .closes_popup = closes_popup_,
-                     .numbers = numbers_};
+                     .numbers = numbers_,
+                     .released = released};
     if (!io.WantTextInput) { // the field of the search has let the keyboard go
         const auto presses = pages_.take_presses();
         waiting_.insert(waiting_.end(), presses.begin(), presses.end());
     }
     waiting_.insert(waiting_.end(), events.begin(), events.end());
     fed_ = !waiting_.empty();
-    // What is typed as soon as the search opens waits for its field.
+    // What is typed as soon as a page opens waits for its field.
     const auto waits = [&](const WindowEvent& event) {
         const bool typed =
             std::holds_alternative<KeyEvent>(event) || std::holds_alternative<TextEvent>(event);
-        return (typed && pages_.searches() && !io.WantTextInput) ||
+        return (typed && pages_.takes_text() && !io.WantTextInput) ||
                (shown && taker.must_wait(event));
     };
     while (!waiting_.empty() && !waits(waiting_.front())) {
@@ -157,7 +158,7 @@ void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
 }
 
 /// What the user is told at the top of the picture, or in a panel that has no picture.
-void PanelLayer::say(const PanelModel& model, Seconds time) {
+Commands PanelLayer::say(const PanelModel& model, Seconds time) {
     const Seconds said_before = said_;
     if (std::exchange(messages_, model.notes.messages) != model.notes.messages) {
         said_ = time;
@@ -186,8 +187,12 @@ void PanelLayer::say(const PanelModel& model, Seconds time) {
         message_window({.failure = {}, .standing = {}, .message = fresh ? complaint_ : ""},
                        {{0, 0}, {screen.x, screen.y}}, 44.0f);
     }
-    pages_.lay_out(model, picture, time);
-    changed_by_words_ = said_ != said_before || stands_else; // ImGui shows a new window late
+    const PanelBox below_title{{0, view_.places.top.low.y}, {screen.x, screen.y}};
+    Commands commands = pages_.lay_out(
+        model, model.place == PanelPlace::in_room ? below_title : picture, top, time);
+    changed_by_words_ =
+        said_ != said_before || stands_else || pages_.turned(); // ImGui shows a new window late
+    return commands;
 }
 
 Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Seconds time) {
@@ -195,6 +200,8 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     use_theme(theme_for(model.asked.look));
     // A wand has no keyboard: there a click does not begin to type.
     ImGui::GetIO().ConfigDragClickToInputText = model.place != PanelPlace::in_room;
+    if (model.place == PanelPlace::in_room)
+        room_keys_.use();
     Commands commands;
     PanelPages asked{.offers_files = pages_.offers_files()};
     // The panel in the room replaces the one over the picture.
@@ -212,7 +219,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         wanted_movie_ = asked.movie;
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
-    say(model, time);
+    merge(commands, say(model, time));
     end_frame();
     changed_ |= changed_by_words_;
     return commands;
@@ -232,6 +239,15 @@ void PanelLayer::lay_out_progress(glm::ivec2 picture, const std::string& name,
     begin_frame(picture, time);
     progress_window(name, line, fraction);
     end_frame();
+}
+
+std::optional<std::size_t> PanelLayer::lay_out_arrays(glm::ivec2 picture, const std::string& name,
+                                                      const std::vector<ListedArray>& arrays,
+                                                      std::size_t first, Seconds time) {
+    begin_frame(picture, time);
+    const auto chosen = pages_.arrays().draw(name, arrays, first);
+    end_frame();
+    return chosen;
 }
 
 bool PanelLayer::has_popup() const {

@@ -5,6 +5,7 @@
 #include "app/panel/number_entry.h"
 #include "app/panel/open_pages.h"
 #include "app/panel/panel.h"
+#include "app/panel/parts/room_keys.h"
 #include "interaction/input/window_event.h"
 #include "interaction/pose.h"
 #include "render/gl/gl_objects.h"
@@ -39,6 +40,7 @@ class PanelLayer {
     void set_scale(float scale);
     float scale() const { return scale_; }
     OpenPages& pages() { return pages_; }
+    const OpenPages& pages() const { return pages_; }
 
     /// The movie that the user wants made, or given up; returned once.
     std::optional<MovieWish> take_wanted_movie() { return std::exchange(wanted_movie_, {}); }
@@ -72,6 +74,12 @@ class PanelLayer {
     void lay_out_progress(glm::ivec2 picture, const std::string& name, const std::string& line,
                           float fraction, interaction::Seconds time);
 
+    /// One frame of a window in which there is nothing but the choice of an array, see
+    /// `ArrayWindow`. @return the number of the array that the user has chosen
+    std::optional<std::size_t> lay_out_arrays(glm::ivec2 picture, const std::string& name,
+                                              const std::vector<ListedArray>& arrays,
+                                              std::size_t first, interaction::Seconds time);
+
     /// Draws the last layout onto a part of the bound framebuffer, which has the size of the
     /// layout.
     /// @param corner lower left, pixels
@@ -98,7 +106,7 @@ class PanelLayer {
     void end_frame();
     std::size_t hash_of_layout() const;
     bool has_popup() const;
-    void say(const PanelModel& model, interaction::Seconds time);
+    interaction::Commands say(const PanelModel& model, interaction::Seconds time);
     void begin_frame(glm::ivec2 picture, interaction::Seconds time);
 
     const render::Gl& gl_;
@@ -122,6 +130,7 @@ class PanelLayer {
     std::string complaint_;     ///< of `numbers_`, if nothing was said since
     bool closes_popup_ = false; ///< Escape was pressed
     OpenPages pages_;
+    RoomKeys room_keys_; ///< of the panel in the room
     std::optional<MovieWish> wanted_movie_;
     render::Program program_;
     render::VertexArray vertex_array_;

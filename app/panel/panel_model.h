@@ -42,8 +42,9 @@ struct MovieState {
 
 /// The arrays of the data.
 struct PanelArrays {
-    std::span<const std::string> names = {};                  ///< of those with surfaces
-    std::size_t asked = 0;                                    ///< number of the one asked for
+    std::span<const std::string> names = {}; ///< of those with surfaces
+    std::span<const std::string> notes = {}; ///< range and unit of each, in words; may be empty
+    std::size_t asked = 0;                   ///< number of the one asked for
     std::function<interaction::Commands(std::size_t)> way_to; ///< shows an array, by number
     std::span<const std::string> color_names = {};            ///< of those to color by
     std::size_t color = 0; ///< number of the one whose values are the colors, or would be

@@ -39,7 +39,7 @@ void measurements(const PanelModel& model) {
                      frame.gather.count()),
          color_of(Ink::dim));
     const index::ReadUse& use = model.work.reading;
-    note(fmt::format("read {}   cache {} of {}   {} of {} steps ready",
+    note(fmt::format("read {}   cache {} of {}   {} of {} steps were in memory",
                      human_bytes(static_cast<double>(use.bytes)),
                      human_bytes(static_cast<double>(use.held)),
                      human_bytes(static_cast<double>(use.budget)), use.hits, use.hits + use.misses),

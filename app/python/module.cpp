@@ -48,18 +48,19 @@ auto unlocked(F&& f) {
     return f();
 }
 
-py::array cells(RunArray& array, std::int64_t step, double isovalue) {
-    CellNumbers found = unlocked([&] { return array.cells(step, isovalue); });
+py::array cells(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue) {
+    CellNumbers found = unlocked([&] { return array.cells({step, fraction}, isovalue); });
     if (!found.are_wide)
         return flat(std::move(found.narrow));
     const auto count = static_cast<py::ssize_t>(found.wide.size());
     return frozen(owned(std::move(found.wide), {count}));
 }
 
-py::tuple change(RunArray& array, std::int64_t step, double isovalue, std::int64_t to_step,
-                 double to_isovalue) {
-    CellDifference found =
-        unlocked([&] { return array.change(step, isovalue, to_step, to_isovalue); });
+py::tuple change(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
+                 std::int64_t to_step, std::int64_t to_fraction, double to_isovalue) {
+    CellDifference found = unlocked([&] {
+        return array.change({step, fraction}, isovalue, {to_step, to_fraction}, to_isovalue);
+    });
     return py::make_tuple(flat(std::move(found.added)), flat(std::move(found.removed)));
 }
 
@@ -71,10 +72,11 @@ py::tuple as_tuple(Triangles<Number>&& mesh) {
                           owned(std::move(mesh.faces), {faces, 3}));
 }
 
-py::tuple mesh(RunArray& array, std::int64_t step, double isovalue, bool absolute) {
+py::tuple mesh(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
+               bool absolute) {
     if (absolute)
-        return as_tuple(unlocked([&] { return array.mesh(step, isovalue); }));
-    return as_tuple(unlocked([&] { return array.mesh_from_origin(step, isovalue); }));
+        return as_tuple(unlocked([&] { return array.mesh({step, fraction}, isovalue); }));
+    return as_tuple(unlocked([&] { return array.mesh_from_origin({step, fraction}, isovalue); }));
 }
 
 py::dtype type_of(const RunArray& array) {
@@ -83,12 +85,17 @@ py::dtype type_of(const RunArray& array) {
     });
 }
 
-py::array values(const RunArray& array, std::int64_t step, const Box& box) {
-    std::vector<std::byte> found = unlocked([&] { return array.values(step, box); });
+/// Stored values of a step, or scaled ones between two.
+py::array values(const RunArray& array, std::int64_t step, std::int64_t fraction, const Box& box) {
     std::vector<py::ssize_t> shape;
     for (const auto& [first, end] : box)
         shape.push_back(static_cast<py::ssize_t>(end) - first);
-    return owned(std::move(found), shape, type_of(array));
+    if (fraction == 0)
+        return owned(unlocked([&] { return array.values({step, 0}, box); }), shape, type_of(array));
+    return owned(unlocked([&] {
+                     return array.blended_values({step, fraction}, box);
+                 }),
+                 shape, py::dtype::of<double>());
 }
 
 py::object read_bytes(const RunArray& array) {
@@ -161,10 +168,11 @@ PYBIND11_MODULE(_native, module) {
     module.def("build", &build, "files"_a, "out"_a, "arrays"_a, "component"_a, "progress"_a);
 
     py::class_<RunArray>(module, "RunArray")
-        .def("cells", &cells, "step"_a, "isovalue"_a)
-        .def("change", &change, "step"_a, "isovalue"_a, "to_step"_a, "to_isovalue"_a)
-        .def("mesh", &mesh, "step"_a, "isovalue"_a, "absolute"_a)
-        .def("values", &values, "step"_a, "box"_a)
+        .def("cells", &cells, "step"_a, "fraction"_a, "isovalue"_a)
+        .def("change", &change, "step"_a, "fraction"_a, "isovalue"_a, "to_step"_a, "to_fraction"_a,
+             "to_isovalue"_a)
+        .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a)
+        .def("values", &values, "step"_a, "fraction"_a, "box"_a)
         .def("description", &description)
         .def("read_bytes", &read_bytes);
     py::class_<OpenRun, std::shared_ptr<OpenRun>>(module, "OpenRun")

@@ -76,12 +76,12 @@ Triangles<Number> unpacked(const index::CellMesh& mesh, const index::Grid& grid,
 
 } // namespace
 
-index::Query RunArray::query(std::int64_t step, double isovalue) const {
-    return {index::step_named(*file_, step), isovalue};
+index::Query RunArray::query(const Moment& at, double isovalue) const {
+    return {index::instant_named(*file_, at.step, at.fraction), isovalue};
 }
 
-CellNumbers RunArray::cells(std::int64_t step, double isovalue) {
-    const index::Query asked = query(step, isovalue);
+CellNumbers RunArray::cells(const Moment& at, double isovalue) {
+    const index::Query asked = query(at, isovalue);
     const index::Grid& grid = file_->info().grid;
     CellNumbers result;
     result.are_wide = index::has_wide_ids(grid);
@@ -92,7 +92,7 @@ CellNumbers RunArray::cells(std::int64_t step, double isovalue) {
     };
     index::CellSet set = searches_.with(make, [&](index::SearchInto& search) {
         index::CellSet found;
-        search(index::step_of_query(*file_, asked.step), isovalue, {}, found);
+        search(index::step_of_query(*file_, asked.step, {&isovalue, 1}), isovalue, {}, found);
         return found;
     });
     if (result.are_wide) {
@@ -105,9 +105,9 @@ CellNumbers RunArray::cells(std::int64_t step, double isovalue) {
     return result;
 }
 
-CellDifference RunArray::change(std::int64_t step, double isovalue, std::int64_t to_step,
+CellDifference RunArray::change(const Moment& at, double isovalue, const Moment& to_moment,
                                 double to_isovalue) {
-    const index::Query from = query(step, isovalue), to = query(to_step, to_isovalue);
+    const index::Query from = query(at, isovalue), to = query(to_moment, to_isovalue);
     index::expect_narrow_ids(*file_);
     const auto make = [this] { return std::make_unique<index::ChangeSearch>(file_); };
     bool whole = false;
@@ -118,56 +118,57 @@ CellDifference RunArray::change(std::int64_t step, double isovalue, std::int64_t
                      : CellDifference{sorted(change.added), sorted(change.removed)};
     });
     if (whole) {
-        const std::vector<std::uint32_t> before = cells(step, isovalue).narrow,
-                                         after = cells(to_step, to_isovalue).narrow;
+        const std::vector<std::uint32_t> before = cells(at, isovalue).narrow,
+                                         after = cells(to_moment, to_isovalue).narrow;
         std::ranges::set_difference(after, before, std::back_inserter(result.added));
         std::ranges::set_difference(before, after, std::back_inserter(result.removed));
     }
     return result;
 }
 
-index::CellMesh RunArray::packed_mesh(std::int64_t step, double isovalue) {
-    const index::Query asked = query(step, isovalue);
+index::CellMesh RunArray::packed_mesh(const Moment& at, double isovalue) {
+    const index::Query asked = query(at, isovalue);
     const auto make = [this] { return std::make_unique<index::SurfaceMeshes>(file_); };
     return meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
         return *meshes.make_packed(asked); // which nobody stops
     });
 }
 
-Triangles<float> RunArray::mesh_from_origin(std::int64_t step, double isovalue) {
+Triangles<float> RunArray::mesh_from_origin(const Moment& at, double isovalue) {
     const index::Grid& grid = file_->info().grid;
-    return unpacked<float>(packed_mesh(step, isovalue), grid, grid.origin);
+    return unpacked<float>(packed_mesh(at, isovalue), grid, grid.origin);
 }
 
-Triangles<double> RunArray::mesh(std::int64_t step, double isovalue) {
-    return unpacked<double>(packed_mesh(step, isovalue), file_->info().grid, glm::dvec3(0.0));
+Triangles<double> RunArray::mesh(const Moment& at, double isovalue) {
+    return unpacked<double>(packed_mesh(at, isovalue), file_->info().grid, glm::dvec3(0.0));
 }
 
-std::vector<std::byte> RunArray::values(std::int64_t step, const Box& box) const {
-    const std::uint32_t at = index::step_named(*file_, step);
-    const index::SeriesInfo& info = file_->info();
-    const std::size_t value_bytes = index::size_of(info.type);
+std::vector<std::byte> RunArray::values(const Moment& moment, const Box& box) const {
+    const index::Instant at = index::instant_named(*file_, moment.step, moment.fraction);
+    // Part of a step is read by its chunks, whatever is faster for a search.
+    const index::StepView step =
+        file_->referral() ? index::step_of(*file_, at) : index::step_in_chunks(*file_, at);
+    const std::size_t value_bytes = index::size_of(step.type());
     std::size_t count = 1;
     for (const auto& [first, end] : box)
         count *= end - first;
     std::vector<std::byte> result(count * value_bytes);
     if (count == 0)
         return result;
-    if (file_->referral()) {
-        const auto& n = info.grid.vertices;
-        const index::LoadedStep whole = file_->load(at);
-        copy_shared(whole.values.step_bytes(at), {}, {n[2], n[1], n[0]}, box, value_bytes, result);
+    if (!step.by_chunks()) {
+        const auto& n = step.grid().vertices;
+        copy_shared(step.whole({}).values.step_bytes(at), {}, {n[2], n[1], n[0]}, box, value_bytes,
+                    result);
         return result;
     }
     constexpr std::uint32_t kEdge = index::kChunkEdge;
-    const index::ChunkStore& store = file_->chunks();
-    const index::ChunkGrid& grid = store.grid();
+    const index::ChunkGrid& grid = step.chunk_grid();
     const std::vector<std::uint32_t> places = places_of(grid, box);
     const std::uint32_t first = box[0][0] / kEdge, end = (box[0][1] + kEdge - 1) / kEdge;
     const auto copy_of_layer = [&](std::size_t number, unsigned) {
         const std::uint32_t layer = first + static_cast<std::uint32_t>(number);
-        store.fetch(at, layer, places, {});
-        const std::vector<index::ChunkPtr> chunks = store.chunks(at, layer, places);
+        step.fetch(layer, places, {});
+        const std::vector<index::ChunkPtr> chunks = step.chunks(layer, places, {});
         for (std::size_t i = 0; i < places.size(); ++i) {
             const auto [x, y] = grid.at(places[i]);
             const auto& size = chunks[i]->size;
@@ -177,6 +178,18 @@ std::vector<std::byte> RunArray::values(std::int64_t step, const Box& box) const
     };
     index::parallel_for(end - first, index::thread_count(0), copy_of_layer, {});
     return result;
+}
+
+std::vector<double> RunArray::blended_values(const Moment& at, const Box& box) const {
+    const std::vector<std::byte> stored = values(at, box);
+    const index::Blend blend(file_->info().type, file_->info().scaling, 1);
+    return index::visit_value_type(blend.type(), [&]<class T>(std::type_identity<T>) {
+        std::vector<double> scaled(stored.size() / sizeof(T));
+        const auto* const first = reinterpret_cast<const T*>(stored.data());
+        std::transform(first, first + scaled.size(), scaled.begin(),
+                       [&](T value) { return blend.scaling()(static_cast<double>(value)); });
+        return scaled;
+    });
 }
 
 OpenRun::OpenRun(const std::filesystem::path& path) {

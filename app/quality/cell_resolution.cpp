@@ -14,12 +14,17 @@ CellResolution::CellResolution(double least) {
         shares_[kBeforeCells] = 1;
 }
 
-void CellResolution::learn(std::size_t step, double share) {
-    constexpr double kNewestShare = 0.15, kLeast = 0.2, kMost = 2;
+double CellResolution::learn(std::size_t step, double share) {
+    constexpr double kNewestShare = 0.15, kMost = 1.3;
+    /// By number: cells take their time in however few pixels.
+    constexpr std::array<double, kCellResolutions.size()> kLeast{1.0, 0.5, 0.35, 0.3};
     if (step == 0)
-        return;
+        return 1;
+    if (share < kLeast[step] || share > kMost)
+        return shares_[step];
     const double newest = std::exchange(measured_[step], true) ? kNewestShare : 1;
-    shares_[step] += newest * (std::clamp(share, kLeast, kMost) - shares_[step]);
+    shares_[step] += newest * (share - shares_[step]);
+    return share;
 }
 
 std::size_t CellResolution::choose(const std::optional<Milliseconds>& expected, Milliseconds budget,

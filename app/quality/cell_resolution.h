@@ -22,7 +22,9 @@ class CellResolution {
     explicit CellResolution(double least = 0);
 
     /// @param step number of a resolution @param share of the expected cost of all pixels
-    void learn(std::size_t step, double share);
+    /// @return the share that is thought right: `share`, unless fewer pixels can hardly save or cost
+    /// so much. Then the expected cost of all pixels was wrong, and nothing is learnt here.
+    double learn(std::size_t step, double share);
     double share(std::size_t step) const { return shares_[step]; }
 
     /// @param expected cost of drawing in all pixels; empty: not known

@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace isochron::app {
 namespace {
 
-constexpr double kUp = 1.4;   ///< a number of cells is chosen once it fits so many times
+constexpr double kUp = 1.2;   ///< a number of cells is chosen once it fits so many times
 constexpr double kDown = 0.9; ///< and given up once less than this share of it fits
-constexpr int kMostSteps = 2; ///< most steps of growth at a time: twice as many cells
+constexpr int kMostSteps = 8; ///< most steps of growth at a time: 16 times as many cells
 /// Where less is seen than this share of what was seen when the number was chosen, the number does
 /// not grow.
 constexpr double kAsMuchSeen = 0.9;
@@ -22,7 +23,10 @@ constexpr double kStay = 0.25; ///< [levels] a wish stays until it is this far o
 /// How many levels finer than a pixel the voxels are at rest, at first and in the end: where cells
 /// share a pixel, its light changes with the next level until the cells are far below a pixel.
 constexpr double kFinerAtFirst = 0.5, kFinerAtLast = 2;
-constexpr double kUnseen = 2; ///< how many levels coarser unseen regions may be
+constexpr double kUnseen = 2; ///< how many levels coarser unseen regions may be at rest
+/// Regions that no eye sees even if it turns by so much [rad] have no part in what moves.
+constexpr double kTurned = 15 * std::numbers::pi / 180;
+constexpr std::uint64_t kEighths = 8; ///< all cells over the least by which they are recognized
 constexpr double kNearest = -8, kFarthest = 8;
 constexpr int kParts = index::DetailQuery::kPartsOfLevel;
 
@@ -38,6 +42,23 @@ double pixels_at_one_meter(const render::View& view, double voxel) {
                             glm::vec2(glm::length(glm::vec3(view.clip_from_eye[0])),
                                       glm::length(glm::vec3(view.clip_from_eye[1])));
     return voxel * std::max(scale.x, scale.y);
+}
+
+/// The same perspective, each side of it turned outwards by kTurned.
+glm::mat4 widened(const glm::mat4& clip_from_eye) {
+    glm::mat4 wide = clip_from_eye;
+    if (clip_from_eye[3][3] == 1.0f) // parallel
+        return wide;
+    for (int axis = 0; axis < 2; ++axis) {
+        constexpr double kMost = 89 * std::numbers::pi / 180;
+        const double scale = clip_from_eye[axis][axis], shift = clip_from_eye[2][axis];
+        const double high = std::min(std::atan((1 + shift) / scale) + kTurned, kMost);
+        const double low = std::max(std::atan((shift - 1) / scale) - kTurned, -kMost);
+        const double width = std::tan(high) - std::tan(low);
+        wide[axis][axis] = static_cast<float>(2 / width);
+        wide[2][axis] = static_cast<float>((std::tan(high) + std::tan(low)) / width);
+    }
+    return wide;
 }
 
 /// Whether a box in index space may be seen: not all of its corners lie beyond one side.
@@ -81,10 +102,13 @@ DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& gr
 void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
     ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
     std::vector<bool> seen(ideal_.size());
+    beside_.assign(ideal_.size(), true);
     const glm::vec3 spacing = placement.spacing();
     for (const render::View& view : views) {
         const glm::mat4 clip_from_index =
             view.clip_from_eye * view.eye_from_room * placement.room_from_index;
+        const glm::mat4 wide_from_index =
+            widened(view.clip_from_eye) * view.eye_from_room * placement.room_from_index;
         const glm::vec3 eye(glm::inverse(placement.room_from_index) *
                             glm::vec4(view.eye_in_room(), 1.0f));
         for (std::size_t i = 0; i < ideal_.size(); ++i) {
@@ -97,6 +121,8 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
                                    : glm::length(glm::mat3(placement.room_from_index) * beside);
             const bool is_seen = may_be_seen(clip_from_index, low, high);
             seen[i] = seen[i] || is_seen;
+            if (beside_[i] && may_be_seen(wide_from_index, low, high))
+                beside_[i] = false;
             const double level =
                 std::log2(std::max(distance, 1e-3) / pixels) + (is_seen ? 0.0 : kUnseen);
             ideal_[i] = std::clamp(std::min(ideal_[i], level), kNearest, kFarthest);
@@ -104,6 +130,10 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
     }
     seen_ = static_cast<double>(std::ranges::count(seen, true)) /
             static_cast<double>(std::max<std::size_t>(seen.size(), 1));
+}
+
+bool DetailChoice::cells_look_small() const {
+    return !ideal_.empty() && std::exp2(-std::ranges::min(ideal_)) <= kSmallCell;
 }
 
 index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn,
@@ -127,8 +157,10 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
     if (step_ != before)
         seen_then_ = seen_;
     kept_.resize(ideal_.size());
+    // Where all cells fit, those that nobody sees need not be found again when somebody turns.
+    const bool scarce = cells_of(step_) < kEighths * least;
     for (std::size_t i = 0; i < ideal_.size(); ++i) {
-        const double wish = kParts * ideal_[i];
+        const double wish = kParts * (scarce && beside_[i] ? kFarthest : ideal_[i]);
         if (wish < kept_[i] - kParts * kStay || wish >= kept_[i] + 1 + kParts * kStay)
             kept_[i] = static_cast<std::int8_t>(std::floor(wish));
     }

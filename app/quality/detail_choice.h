@@ -37,15 +37,26 @@ class DetailChoice {
     void limit(std::uint64_t most) {
         most_ = std::clamp(most, std::min(kFewest, most_), most_);
         small_ = false;
+        limited_ = true;
+    }
+    /// Cells to ask for before anything is chosen; 0: all, however many.
+    /// @param live somebody waits for the picture
+    std::uint64_t most_at_first(bool live) const {
+        return small_ ? 0 : live ? kAtFirst : limited_ ? most_ : 0;
     }
 
     /// Finds the useful level of each region: log2 of the number of its voxels along a pixel, so
     /// that a voxel of that level is a pixel; below 0 where voxels are larger. Regions that no view
-    /// shows count as four times as far away. Without views, every level will be 0.
+    /// shows count as four times as far away at rest; what moves spends no cells on those that lie
+    /// 15 degrees and more beside all views, unless all cells fit. Without views, every level will be 0.
     void look(std::span<const render::View> views, const render::Placement& placement);
 
-    /// For a picture that changes. The number of cells grows to twice as many at most, once the last
-    /// ones have been drawn, as costs are predicted well only near what has been drawn. It does not
+    /// Whether the sides of cells of level 0 were at most `kSmallCell` pixels long in the last views.
+    bool cells_look_small() const;
+    static constexpr double kSmallCell = 6;
+
+    /// For a picture that changes. The number of cells grows to what fits, at most to 16 times as
+    /// many at once, as costs are predicted well only near what has been drawn. It does not
     /// grow while less of the volume is seen than when it was chosen: cells that nobody sees cost
     /// little until the head turns back.
     /// @param fit cells that are expected to fit the budget; empty: not known yet
@@ -73,10 +84,11 @@ class DetailChoice {
     index::DetailRegions regions_;
     std::vector<Box> boxes_; ///< by region
     std::uint64_t most_;
-    bool small_;
+    bool small_, limited_ = false;
     int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
     double seen_ = 0;               ///< share of the regions that some view may show
     double seen_then_ = 0;          ///< the same when the number was chosen
+    std::vector<bool> beside_;      ///< by region: no eye sees it, even if it turns a little
     std::vector<double> ideal_;     ///< by region: the level whose voxels are a pixel large
     std::vector<std::int8_t> kept_; ///< wishes of moving pictures
 };

@@ -27,9 +27,11 @@ struct FramePlan {
     /// The set for pictures at rest is drawn while the picture moves, too: it fits.
     bool moves_finest = false;
     std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
-    /// Footprint to measure off screen, in the time that frames leave; empty: none.
-    std::optional<render::Footprint> unseen{};
+    /// While the head sways, the exact picture is drawn in the time that frames leave: it is shown,
+    /// moved, and its cost gets known.
+    bool ahead = false;
     std::size_t mesh_level = 0; ///< of the footprint `mesh` (index/extraction/simplified_meshes.h)
+    bool moved = false;         ///< the last exact picture is moved: see `Picture::moved`
     bool operator==(const FramePlan&) const = default;
 };
 

@@ -65,13 +65,18 @@ void FrameQuality::learn(std::span<const DrawSample> samples) {
         // The first picture of all makes what all further ones have, such as the panel's font.
         if (sample.load.cells <= 0 && !std::exchange(begun_, true))
             continue;
+        Milliseconds cost = sample.cost();
         if (sample.resolution > 0) {
-            if (const auto all = steady_.expected(sample.footprint, sample.load))
-                resolution_.learn(sample.resolution, sample.cost() / *all);
-            continue;
+            const auto all = steady_.expected(sample.footprint, sample.load);
+            const double share = all ? cost / *all : 1;
+            const double likely = resolution_.learn(sample.resolution, share);
+            if (!all || likely == share)
+                continue;
+            // What is known of all pixels is wrong, and no picture in all pixels might come to tell.
+            cost /= likely;
         }
         for (QualityController* controller : {&steady_, &still_})
-            controller->measured(sample.footprint, sample.load, sample.cost());
+            controller->measured(sample.footprint, sample.load, cost);
     }
 }
 
@@ -186,10 +191,7 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     plan.mesh = with_all.footprint == render::Footprint::mesh &&
                 choice.footprint <= render::Footprint::mesh;
     if (how == Choosing::with_parts && !still)
-        plan.unseen = steady_.worth_measuring(with_mesh);
-    plan.mesh |= plan.unseen == render::Footprint::mesh;
-    if (plan.unseen && !available.has(*plan.unseen))
-        plan.unseen.reset();
+        plan.ahead = steady_.surface_is_guessed(input);
     if (how == Choosing::with_parts && !still && input.mode == interaction::QualityMode::automatic)
         choose_resolution(plan, choice, report);
     // What a mesh or parts may still change is not final.
@@ -287,15 +289,11 @@ std::optional<Milliseconds> FrameQuality::expected_mesh(std::size_t triangles) c
                                     {kQuadsOfTriangle * cells, charged_.pixels});
 }
 
-std::optional<std::size_t>
-FrameQuality::choose_mesh(const std::array<std::size_t, index::kMeshLevels>& triangles,
-                          double quads, interaction::Seconds now) {
-    return mesh_levels_.choose(
-        {.triangles = triangles,
-         .quads = quads,
-         .budget = steady_.budget(),
-         .expected = [this](std::size_t count) { return expected_mesh(count); },
-         .now = now});
+std::optional<std::size_t> FrameQuality::choose_mesh(MeshesAtHand meshes) {
+    meshes.budget = steady_.budget();
+    meshes.longest = std::max(meshes.budget, longest_);
+    meshes.expected = [this](std::size_t count) { return expected_mesh(count); };
+    return mesh_levels_.choose(meshes);
 }
 
 void FrameQuality::begin(std::uint64_t frame) {

@@ -81,11 +81,8 @@ class FrameQuality {
     bool fits_in_motion(std::uint64_t cells, bool moves) const;
     /// Level of the mesh that takes the place of quads while the picture moves, if one does. It is
     /// also chosen at rest, so that it is there in the first frame that moves.
-    /// @param triangles of the meshes of all cells, by level; 0 where there is none
-    /// @param quads share of all cells that is drawn where no mesh is
-    std::optional<std::size_t>
-    choose_mesh(const std::array<std::size_t, index::kMeshLevels>& triangles, double quads,
-                interaction::Seconds now);
+    /// @param meshes at hand; budget and expected times are added
+    std::optional<std::size_t> choose_mesh(MeshesAtHand meshes);
     bool moves_as_mesh() const { return mesh_levels_.level().has_value(); } ///< by the last choice
     /// Expected time of drawing a mesh; as long as no mesh was measured, of quads that take about as
     /// long. Empty: not known.
@@ -111,7 +108,7 @@ class FrameQuality {
     /// @param processor time to give the commands, including the upload
     void end(const FrameReport& report, const DrawLoad& of_cell, Milliseconds processor);
 
-    /// Time that a frame may spend on measuring footprints off screen; 0: none.
+    /// Time that a frame may spend on a picture for later frames; 0: none.
     /// @param taken by the frame itself
     Milliseconds left_of_frame(Milliseconds taken) const;
     /// Time that a frame may spend on parts.

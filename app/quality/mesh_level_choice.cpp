@@ -4,11 +4,13 @@
 namespace isochron::app {
 
 std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) const {
-    constexpr double kFinerFits = 0.65, kSameFits = 0.9; // of the budget
+    constexpr double kFinerFits = 0.75, kSameFits = 0.9; // of the budget
     /// By level: the share of the cells as quads that is as much like the surface.
     constexpr std::array<double, index::kMeshLevels> kLikeQuads{2, 2, 0.5, 1.0 / 6};
+    const bool scraps = meshes.translucent && meshes.quads < 1;
+    std::optional<std::size_t> coarsest;
     for (std::size_t level = 0; level < meshes.triangles.size(); ++level) {
-        if (meshes.quads > kLikeQuads[level])
+        if (!scraps && meshes.quads > kLikeQuads[level])
             return std::nullopt;
         if (meshes.triangles[level] == 0)
             continue;
@@ -16,8 +18,10 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
         const bool finer = !level_ || level < *level_;
         if (time && *time <= (finer ? kFinerFits : kSameFits) * meshes.budget)
             return level;
+        if (scraps && time && *time <= meshes.longest)
+            coarsest = level;
     }
-    return std::nullopt;
+    return coarsest;
 }
 
 std::optional<std::size_t> MeshLevelChoice::choose(const MeshesAtHand& meshes) {

@@ -17,14 +17,19 @@ struct MeshesAtHand {
     /// By mesh level; 0 where there is no mesh.
     std::array<std::size_t, index::kMeshLevels> triangles{};
     double quads = 1; ///< share of all cells that is drawn as quads where no mesh is
+    /// Surfaces that let light through: quads of some cells lie over each other in several layers with
+    /// gaps and look like scraps, so any mesh is more like them.
+    bool translucent = false;
     Milliseconds budget{0};
+    Milliseconds longest{0}; ///< that a picture may take before scraps are preferred
     /// Time of drawing so many triangles; empty: not known.
     std::function<std::optional<Milliseconds>(std::size_t triangles)> expected;
     interaction::Seconds now{0}; ///< session time
 };
 
 /// The finest mesh that is expected to fit. A finer one than before has to fit with room to
-/// spare, and half a second passes between two changes, so that the choice does not go to and fro.
+/// spare. Of translucent surfaces the coarsest is taken before quads, as long as it takes no longer than
+/// any picture may. Half a second passes between two changes, so that the choice does not go to and fro.
 class MeshLevelChoice {
   public:
     /// @return its level; empty: none fits, there is none, or quads of all cells are more like the

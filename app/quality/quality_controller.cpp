@@ -75,19 +75,12 @@ void QualityController::measured_in_parts(Footprint footprint, const DrawLoad& l
     learn(candidate, load, cost);
 }
 
-std::optional<Footprint> QualityController::worth_measuring(const QualityInput& input) const {
-    if (input.mode != QualityMode::automatic || input.by_pace || input.load.cells <= 0 ||
-        !of(Footprint::quad).cost.predict(input.load))
-        return std::nullopt;
-    for (Footprint to = input.available.best(); to > current_;
-         to = next_coarser(to, input.available)) {
-        const Candidate& candidate = of(to);
-        const bool unknown = !candidate.known && !candidate.failed;
-        if (render::has_layers(to) && (unknown || candidate.age >= kLongestWait) &&
-            !bearable(to, input))
-            return to;
-    }
-    return std::nullopt;
+bool QualityController::surface_is_guessed(const QualityInput& input) const {
+    const Candidate& candidate = of(Footprint::surface);
+    const bool guessed = (!candidate.known && !candidate.failed) || candidate.age >= kLongestWait;
+    return input.mode == QualityMode::automatic && !input.by_pace && input.load.cells > 0 &&
+           input.available.has(Footprint::surface) && current_ < Footprint::surface && guessed &&
+           of(Footprint::quad).cost.predict(input.load) && !bearable(Footprint::surface, input);
 }
 
 void QualityController::learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
@@ -142,7 +135,7 @@ QualityChoice QualityController::choice_for(const QualityInput& input) {
     if (input.load.cells <= 0) // all footprints look the same; start anew with the next set
         return regardless(Footprint::quad, QualityReason::fits, input.load);
     if (input.mode == QualityMode::quality)
-        return regardless(input.available.best(), QualityReason::best_mode, input.load);
+        return regardless(input.available.best(), QualityReason::quality_mode, input.load);
     return within_budget(input);
 }
 

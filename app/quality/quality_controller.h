@@ -64,9 +64,9 @@ struct QualityChoice {
 /// parts: than the budget), judged by its earlier times at other loads, or by a multiple of the
 /// time of quads. If quads get faster, so do its earlier times, as other programs may have slowed
 /// both down. If it failed by less than three budgets, its times are halved every 2048 frames, so
-/// that it is tried again. A footprint that is not tried because of that multiple alone is worth
-/// measuring off screen, where no frame gets longer, see `worth_measuring`; again after 2048
-/// frames. So one load causes few frames over the budget, at least 16 frames lie between a step
+/// that it is tried again. An exact surface that is not tried because of that multiple alone is drawn
+/// in parts, which make no frame longer, see `surface_is_guessed`; again after 2048 frames. So one
+/// load causes few frames over the budget, at least 16 frames lie between a step
 /// down and a step up, and a footprint that fits is back after at most 2048 settled frames.
 class QualityController {
   public:
@@ -83,10 +83,9 @@ class QualityController {
     /// sorting): it counts only if the footprint is known and the frame is within the budget.
     void measured(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
-    /// The best footprint that may fit, but is not tried, as its time is only guessed, or was
-    /// measured long ago. Empty: there is none. Never splats: they are sorted anew for each view,
-    /// so a picture of splats cannot be made in parts while the view changes.
-    std::optional<render::Footprint> worth_measuring(const QualityInput& input) const;
+    /// Whether the exact surface may fit, but is not tried, as its time is only guessed, or was
+    /// measured long ago: parts of it, drawn beside other frames, tell.
+    bool surface_is_guessed(const QualityInput& input) const;
     /// Adds the cost of a picture that was made in parts, which tells about whole frames, too.
     void measured_in_parts(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 

@@ -21,13 +21,13 @@ using Covered = std::vector<std::optional<TextRectangle>>;
 class Room {
   public:
     Room(const render::GlyphAtlas& atlas, const glm::mat4& room_from_model,
-         std::span<const render::View> views)
-        : atlas_(atlas), room_from_model_(room_from_model), views_(views) {}
+         std::span<const render::View> views, float share)
+        : atlas_(atlas), room_from_model_(room_from_model), views_(views), share_(share) {}
 
     Covered covered(const render::Label& label) const {
         Covered result;
         for (const render::View& view : views_)
-            result.push_back(covered_by(label, text_height(view.size), atlas_,
+            result.push_back(covered_by(label, text_height(view.size, share_), atlas_,
                                         view.clip_from_eye * view.eye_from_room * room_from_model_,
                                         view.size));
         return result;
@@ -39,7 +39,7 @@ class Room {
             if (!a[i] || !b[i])
                 continue;
             const glm::vec2 apart = glm::max(a[i]->low - b[i]->high, b[i]->low - a[i]->high) /
-                                    text_height(views_[i].size);
+                                    text_height(views_[i].size, share_);
             if (apart.y < 0.0f && apart.x < (apart.y < -kOneLine ? kInLine : kAside))
                 return true;
         }
@@ -60,6 +60,7 @@ class Room {
     const render::GlyphAtlas& atlas_;
     glm::mat4 room_from_model_;
     std::span<const render::View> views_;
+    float share_; ///< see `text_height`
     std::vector<Covered> taken_;
     std::vector<render::Label> labels_;
 };
@@ -103,8 +104,8 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
                                             const glm::mat4& room_from_model,
-                                            std::span<const render::View> views) {
-    Room room(atlas, room_from_model, views);
+                                            std::span<const render::View> views, float share) {
+    Room room(atlas, room_from_model, views, share);
     for (const AxisLabels& axis : axes)
         room.take(axis.title);
     for (const AxisLabels& axis : axes)

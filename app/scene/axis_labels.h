@@ -31,9 +31,11 @@ std::optional<TextRectangle> covered_by(const render::Label& label, float height
 /// fifth or tenth of them, counted from zero; where two axes meet, only the first one's number is
 /// shown.
 /// @param room_from_model from the labels' coordinates to the room
+/// @param share height of the labels, see `text_height`
 std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             const render::GlyphAtlas& atlas,
                                             const glm::mat4& room_from_model,
-                                            std::span<const render::View> views);
+                                            std::span<const render::View> views,
+                                            float share = 0.0f);
 
 } // namespace isochron::app

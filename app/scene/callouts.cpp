@@ -18,8 +18,17 @@ constexpr float kPad = 0.4f, kRow = 1.15f; ///< around them; from line to line
 constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///< of the signs
 constexpr float kBetween = 0.15f; ///< from one callout to another one
 
-constexpr glm::vec4 kMarkColor(1.0f, 0.45f, 0.85f, 1.0f), kCalloutInk(0.95f, 0.96f, 0.98f, 1.0f),
-    kCalloutPaper(0.05f, 0.06f, 0.07f, 0.78f);
+constexpr glm::vec4 kMarkColor(1.0f, 0.45f, 0.85f, 1.0f);
+constexpr float kOpacity = 0.85f; ///< of the paper, which lies over the data
+
+glm::vec4 callout_paper(const Ink& ink) {
+    return {glm::vec3(ink.paper), kOpacity};
+}
+
+/// A color in which words can be read on the paper, whatever lies behind it.
+glm::vec4 readable(const glm::vec3& color, const Ink& ink) {
+    return {legible_on(callout_paper(ink), color, ink), 1.0f};
+}
 
 float reach_of(CalloutSign sign) {
     switch (sign) {
@@ -66,13 +75,13 @@ struct Area {
 /// One area in each view; none where the place is behind the eye.
 using Areas = std::vector<std::optional<Area>>;
 
-Areas areas_of(const glm::vec3& at, const CalloutPaper& paper,
-               std::span<const render::View> views) {
+Areas areas_of(const glm::vec3& at, const CalloutPaper& paper, std::span<const render::View> views,
+               float share) {
     Areas areas;
     for (const render::View& view : views) {
         const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(at, 1.0f);
         const glm::vec2 pixel = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(view.size);
-        const float height = text_height(view.size);
+        const float height = text_height(view.size, share);
         if (clip.w > 0.0f)
             areas.push_back(Area{pixel + height * paper.low, pixel + height * paper.high});
         else
@@ -81,9 +90,9 @@ Areas areas_of(const glm::vec3& at, const CalloutPaper& paper,
     return areas;
 }
 
-bool meet(const Areas& a, const Areas& b, std::span<const render::View> views) {
+bool meet(const Areas& a, const Areas& b, std::span<const render::View> views, float share) {
     for (std::size_t i = 0; i < views.size(); ++i)
-        if (a[i] && b[i] && a[i]->meets(*b[i], kBetween * text_height(views[i].size)))
+        if (a[i] && b[i] && a[i]->meets(*b[i], kBetween * text_height(views[i].size, share)))
             return true;
     return false;
 }
@@ -96,19 +105,19 @@ bool are_inside(const Areas& areas, std::span<const render::View> views) {
     return true;
 }
 
-void add_sign(const Callout& callout, float height, const render::TextPass& text,
+void add_sign(const Callout& callout, float height, const render::TextPass& text, const Ink& ink,
               std::vector<render::ScreenQuad>& quads) {
     const auto fill = [&](const glm::vec2& reach, const glm::vec4& color) {
         text.fill(callout.at, -height * reach, height * reach, color, quads);
     };
     for (const float rim : {kRim, 0.0f}) {
-        const glm::vec4 paper = kCalloutPaper;
+        const glm::vec4 paper = callout_paper(ink);
         if (callout.sign == CalloutSign::dot)
-            fill(glm::vec2(kDot + rim), rim > 0 ? paper : kCalloutInk);
+            fill(glm::vec2(kDot + rim), rim > 0 ? paper : ink.text);
         if (callout.sign == CalloutSign::cross)
             for (const bool upright : {false, true}) {
                 const glm::vec2 arm(kArm + rim, kHalfWidth + rim);
-                fill(upright ? glm::vec2(arm.y, arm.x) : arm, rim > 0 ? paper : kMarkColor);
+                fill(upright ? glm::vec2(arm.y, arm.x) : arm, rim > 0 ? paper : callout.color);
             }
     }
 }
@@ -121,27 +130,28 @@ std::vector<Callout> callouts_of(const Picture& picture,
     const auto in_room = [&](const glm::dvec3& place) {
         return glm::vec3(interaction::transform(picture.room_from_physical, place));
     };
+    const Ink ink = ink_on(picture.look.background);
     std::vector<Callout> callouts;
     if (const auto& mark = picture.mark.point)
-        callouts.push_back(
-            {in_room(mark->position), mark_lines(*mark, info), kMarkColor, CalloutSign::cross});
+        callouts.push_back({in_room(mark->position), mark_lines(*mark, info),
+                            readable(kMarkColor, ink), CalloutSign::cross});
     for (const interaction::ToolLabel& label : picture.tools.labels)
-        callouts.push_back({in_room(label.at), {label.text}, kCalloutInk, CalloutSign::none});
+        callouts.push_back({in_room(label.at), {label.text}, ink.text, CalloutSign::none});
     if (pointed && pointed->surface < picture.isosurfaces.size())
         callouts.push_back({in_room(pointed->point.position),
                             pointed_lines(*pointed, picture.isosurfaces.size(), info),
-                            glm::vec4(picture.isosurfaces[pointed->surface].color, 1.0f),
+                            readable(picture.isosurfaces[pointed->surface].color, ink),
                             CalloutSign::dot});
     return callouts;
 }
 
 std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     const render::GlyphAtlas& atlas,
-                                    std::span<const render::View> views) {
+                                    std::span<const render::View> views, float share) {
     std::vector<Areas> signs, taken;
     for (const Callout& callout : callouts) {
         const glm::vec2 reach(reach_of(callout.sign));
-        signs.push_back(areas_of(callout.at, {-reach, reach}, views));
+        signs.push_back(areas_of(callout.at, {-reach, reach}, views, share));
     }
     std::vector<CalloutPaper> papers;
     for (std::size_t i = 0; i < callouts.size(); ++i) {
@@ -150,12 +160,12 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
         std::optional<CalloutPaper> free, inside;
         for (const glm::vec2& low : choices) {
             const CalloutPaper paper{low, low + size};
-            const Areas areas = areas_of(callouts[i].at, paper, views);
+            const Areas areas = areas_of(callouts[i].at, paper, views, share);
             bool covers = std::ranges::any_of(
-                taken, [&](const Areas& other) { return meet(areas, other, views); });
+                taken, [&](const Areas& other) { return meet(areas, other, views, share); });
             for (std::size_t other = 0; other < callouts.size(); ++other)
                 covers = covers || (other != i && callouts[other].sign != CalloutSign::none &&
-                                    meet(areas, signs[other], views));
+                                    meet(areas, signs[other], views, share));
             if (covers)
                 continue;
             if (!free)
@@ -165,25 +175,26 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
         }
         const CalloutPaper usual{choices.front(), choices.front() + size};
         papers.push_back(inside ? *inside : free.value_or(usual));
-        taken.push_back(areas_of(callouts[i].at, papers.back(), views));
+        taken.push_back(areas_of(callouts[i].at, papers.back(), views, share));
     }
     return papers;
 }
 
 std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
                                               const render::TextPass& text,
-                                              const glm::ivec2& picture) {
-    const float height = text_height(picture);
+                                              const glm::ivec2& picture, const Ink& ink,
+                                              float share) {
+    const float height = text_height(picture, share);
     std::vector<render::ScreenQuad> quads;
-    add_sign(callout, height, text, quads);
-    text.fill(callout.at, height * paper.low, height * paper.high, kCalloutPaper, quads);
+    add_sign(callout, height, text, ink, quads);
+    text.fill(callout.at, height * paper.low, height * paper.high, callout_paper(ink), quads);
     for (std::size_t i = 0; i < callout.lines.size(); ++i)
         text.set(
             {.text = callout.lines[i],
              .at = callout.at,
              .anchor = {0.0f, 0.0f},
              .offset = {paper.low.x + kPad, paper.high.y - kPad - kRow * static_cast<float>(i + 1)},
-             .color = i == 0 ? callout.color : kCalloutInk},
+             .color = i == 0 ? callout.color : ink.text},
             height, quads);
     return quads;
 }

@@ -2,6 +2,7 @@
 // other.
 #pragma once
 
+#include "app/scene/ink.h"
 #include "app/scene/picture.h"
 #include "index/volume/volume_series.h"
 #include "render/gl/view.h"
@@ -42,14 +43,16 @@ struct CalloutPaper {
 
 /// Where the words of each callout stand: the same in all views, so that both eyes see one callout;
 /// in none of them over the words or the sign of another callout, nor outside the picture, as long
-/// as there is room.
+/// as there is room. @param share height of the words, see `text_height`
 std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     const render::GlyphAtlas& atlas,
-                                    std::span<const render::View> views);
+                                    std::span<const render::View> views, float share = 0.0f);
 
 /// To be drawn over the surface on which the place lies, at the place's depth.
+/// @param ink of the background behind the data @param share height of the words, see `text_height`
 std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
                                               const render::TextPass& text,
-                                              const glm::ivec2& picture);
+                                              const glm::ivec2& picture, const Ink& ink = {},
+                                              float share = 0.0f);
 
 } // namespace isochron::app

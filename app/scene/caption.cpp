@@ -3,12 +3,17 @@
 
 #include "app/scene/legend.h"
 #include "app/text.h"
-#include "index/volume/time_unit.h"
+#include "index/volume/instant_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace isochron::app {
+
+std::string steps_text(index::Instant at) {
+    return at.between() ? fmt::format("between steps {} and {}", at.step + 1, at.step + 2)
+                        : fmt::format("step {}", at.step + 1);
+}
 
 std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info) {
     std::vector<std::string> values;
@@ -18,17 +23,18 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
                                    info.array.empty() ? "" : ", ", values.size() == 1 ? "" : "s",
                                    fmt::join(values, ", "), with_space(info.value_unit));
     if (info.steps() > 1)
-        text += fmt::format(", at {} (step {} of {})",
-                            index::time_text(info.times, shown.step, info.time_unit),
-                            shown.step + 1, info.steps());
+        text += fmt::format(", at {} ({} of {})",
+                            index::instant_text(info.times, shown.step, info.time_unit),
+                            steps_text(shown.step), info.steps());
     return text;
 }
 
 std::vector<render::ScreenQuad> caption_quads(const std::string& words,
                                               const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink) {
+                                              const glm::ivec2& picture, const Ink& ink,
+                                              float share) {
     std::vector<render::ScreenQuad> quads;
-    const float height = text_height(picture);
+    const float height = text_height(picture, share);
     const float width = height * render::text_width(text.atlas(), words);
     const glm::vec3 middle(
         glm::floor(glm::vec2(height + 0.5f * width, static_cast<float>(picture.y) - 1.5f * height)),

@@ -14,10 +14,14 @@ namespace isochron::app {
 /// `heart rate, isovalue 8, 12 K, at 0.5 s (step 2 of 6)`.
 std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info);
 
+/// `step 2`, or of a moment between two `between steps 2 and 3`: as people count, from 1.
+std::string steps_text(index::Instant at);
+
 /// The caption on its background in the upper left corner, for `render::pixel_view`.
-/// @param picture its size, pixels
+/// @param picture its size, pixels @param share height of the words, see `text_height`
 std::vector<render::ScreenQuad> caption_quads(const std::string& words,
                                               const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink = {});
+                                              const glm::ivec2& picture, const Ink& ink = {},
+                                              float share = 0.0f);
 
 } // namespace isochron::app

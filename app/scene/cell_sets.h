@@ -53,6 +53,7 @@ class CellSets {
 
     /// Draws the set for pictures at rest from now on, if it shows these surfaces; else the other.
     void draw_at_rest(bool at_rest, const index::SurfacesQuery& surfaces);
+    bool draws_at_rest() const { return draws_resting_; }
     /// The set that is drawn.
     const index::ExtractionPtr& shown() const { return drawn().shown(); }
     const render::CellBuffers& drawn() const { return draws_resting_ ? *resting_ : cells_; }

@@ -115,4 +115,18 @@ std::optional<std::array<double, 2>> range_of_shares(const index::Extraction& sh
     return range[0] < range[1] ? std::optional(range) : std::nullopt;
 }
 
+render::ValueColors value_colors(const ColorScale& scale, const render::Texture& map) {
+    const auto share = [&](double value) {
+        const double half = scale.whole[1] / 2 - scale.whole[0] / 2;
+        return half > 0 ? static_cast<float>((value / 2 - scale.whole[0] / 2) / half) : 0.0f;
+    };
+    render::ValueColors colors{.map = map.name(),
+                               .low = share(scale.range[0]),
+                               .high = share(scale.range[1]),
+                               .bands = scale.use.bands > 0};
+    if (scale.logarithmic)
+        colors.ratio = static_cast<float>(scale.range[1] / scale.range[0]);
+    return colors;
+}
+
 } // namespace isochron::app

@@ -3,6 +3,7 @@
 
 #include "app/frame/explorer_state.h"
 #include "index/extraction/extraction.h"
+#include "render/cells/cell_appearance.h"
 #include "render/passes/color_map.h"
 
 #include <array>
@@ -30,6 +31,9 @@ struct ColorScale {
 std::vector<glm::vec3> colors_of(const ColorScale& scale);
 /// Where a value lies between the ends of the range, 0 to 1 within it.
 double share_on(const ColorScale& scale, double value);
+
+/// How a pass colors values. @param map of these colors, in linear light
+render::ValueColors value_colors(const ColorScale& scale, const render::Texture& map);
 
 /// The quantiles of the shown cells' values at two shares, as a range for a map.
 /// @param shares 0 to 1, ascending

@@ -10,6 +10,8 @@ namespace isochron::app {
 
 inline constexpr glm::vec3 kPaperWhite(0.94f, 0.945f, 0.95f); ///< of the light background
 inline constexpr glm::vec3 kDarkInk(0.13f, 0.15f, 0.18f);
+inline constexpr glm::vec3 kLifted(0.27f, 0.28f, 0.29f);    ///< of the gray background
+inline constexpr glm::vec3 kLowerSky(0.11f, 0.13f, 0.165f); ///< of the gradient, near its foot
 
 /// Paper behind words has the color of the background, so that it is seen over the data only.
 struct Ink {
@@ -19,9 +21,20 @@ struct Ink {
 };
 
 inline Ink ink_on(interaction::Background background) {
-    return background == interaction::Background::light
-               ? Ink{glm::vec4(kDarkInk, 1.0f), glm::vec4(kPaperWhite, 0.72f), 0.6f}
-               : Ink{};
+    Ink ink;
+    switch (background) {
+    case interaction::Background::dark: break;
+    case interaction::Background::light:
+        return {glm::vec4(kDarkInk, 1.0f), glm::vec4(kPaperWhite, 0.72f), 0.6f};
+    case interaction::Background::gradient: ink.paper = glm::vec4(kLowerSky, 0.72f); break;
+    case interaction::Background::gray: ink.paper = glm::vec4(kLifted, 0.72f); break;
+    }
+    return ink;
 }
+
+/// The color itself, or as little of the ink mixed in as gives words of it a contrast of at least
+/// 4.5 to 1 on this paper, whatever lies behind the paper.
+/// @param paper sRGB, with its opacity @param color sRGB
+glm::vec3 legible_on(const glm::vec4& paper, const glm::vec3& color, const Ink& ink);
 
 } // namespace isochron::app

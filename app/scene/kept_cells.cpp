@@ -2,9 +2,11 @@
 #include "app/scene/kept_cells.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace isochron::app {
 namespace {
@@ -45,6 +47,20 @@ int samples_of_bound(const render::Gl& gl) {
     GLint samples = 0;
     gl.GetIntegerv(GL_SAMPLES, &samples);
     return std::max(samples, 1);
+}
+
+bool same_kind(const render::View& a, const render::View& b) {
+    return a.is_parallel() == b.is_parallel(); // a panel beside them may have changed their size
+}
+
+/// How different the screens of two views are. Eyes move little beside the size of a screen.
+float apart_by(const render::View& a, const render::View& b) {
+    const glm::mat4 difference =
+        a.clip_from_eye * a.eye_from_room - b.clip_from_eye * b.eye_from_room;
+    float sum = 0;
+    for (int column = 0; column < 4; ++column)
+        sum += glm::length(difference[column]);
+    return sum;
 }
 
 GLuint bound_framebuffer(const render::Gl& gl) {
@@ -109,6 +125,34 @@ void KeptCells::keep(const Picture& picture, std::span<const render::View> views
     place->views.assign(views.begin(), views.end());
     place->newest = true;
     copy(bound_framebuffer(gl_), place->target.drawn_framebuffer(), views);
+}
+
+const Picture* KeptCells::movable(std::size_t viewports) const {
+    const auto of_one_sample = std::ranges::count_if(
+        kept_, [](const Kept& kept) { return kept.newest && kept.target.samples() == 1; });
+    return picture_ && static_cast<std::size_t>(of_one_sample) >= viewports ? &*picture_ : nullptr;
+}
+
+std::vector<render::PictureWithDepth>
+KeptCells::for_screens_of(std::span<const render::View> views) const {
+    const Kept* nearest = nullptr;
+    float least = std::numeric_limits<float>::max();
+    for (const Kept& kept : kept_) {
+        if (!kept.newest || kept.target.samples() > 1 || samples_of_bound(gl_) > 1 ||
+            !std::ranges::equal(kept.views, views, same_kind))
+            continue;
+        const float apart = apart_by(kept.views.front(), views.front());
+        if (apart < least) {
+            least = apart;
+            nearest = &kept;
+        }
+    }
+    std::vector<render::PictureWithDepth> pictures;
+    if (nearest)
+        for (const render::View& view : nearest->views)
+            pictures.push_back(
+                {nearest->target.color_texture(), nearest->target.depth_texture(), view});
+    return pictures;
 }
 
 bool KeptCells::draw_again(const Picture& picture, std::span<const render::View> views) const {

@@ -20,8 +20,8 @@ constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f; ///< heigh
 
 class Layout {
   public:
-    Layout(const render::TextPass& text, const glm::ivec2& picture, const Ink& ink)
-        : text_(text), picture_(picture), ink_(ink), height_(text_height(picture)) {}
+    Layout(const render::TextPass& text, const glm::ivec2& picture, const Ink& ink, float share)
+        : text_(text), picture_(picture), ink_(ink), height_(text_height(picture, share)) {}
 
     /// @param at, size in heights of the text, from the legend's lower left
     void fill(glm::vec2 at, glm::vec2 size, const glm::vec4& color) {
@@ -100,17 +100,19 @@ void write_surfaces(const Legend& legend, Layout& layout) {
 
 } // namespace
 
-float text_height(const glm::ivec2& picture) {
+float text_height(const glm::ivec2& picture, float share) {
     constexpr float kLeast = 11.0f, kMost = 40.0f;
-    return std::clamp(static_cast<float>(picture.y) / 40.0f, kLeast, kMost);
+    const auto height = static_cast<float>(picture.y);
+    return share > 0.0f ? std::max(kLeast, share * height)
+                        : std::clamp(height / 40.0f, kLeast, kMost);
 }
 
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
-                                             const glm::ivec2& picture) {
+                                             const glm::ivec2& picture, float share) {
     const bool several = legend.surfaces.size() > 1;
     if (!legend.scale && !several)
         return {};
-    Layout layout(text, picture, legend.ink);
+    Layout layout(text, picture, legend.ink, share);
     if (legend.scale)
         write_scale(*legend.scale, layout);
     if (several)

@@ -23,12 +23,14 @@ struct Legend {
     Ink ink{};
 };
 
-/// Height of text in a picture [pixel]: a fortieth of the picture's height, from 11 to 40.
-float text_height(const glm::ivec2& picture);
+/// Height of text in a picture [pixel].
+/// @param share of the picture's height, and 11 pixels at least; 0: a fortieth, from 11 to 40 pixels
+float text_height(const glm::ivec2& picture, float share = 0.0f);
 
 /// Rectangles for `pixel_view`, at the lower right of the picture; empty if there is nothing to
 /// explain, or no room.
+/// @param share height of the words, see `text_height`
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,
-                                             const glm::ivec2& picture);
+                                             const glm::ivec2& picture, float share = 0.0f);
 
 } // namespace isochron::app

@@ -3,6 +3,12 @@
 
 #include "app/scene/ink.h"
 
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
 namespace isochron::app {
 namespace {
 
@@ -13,6 +19,17 @@ void turn_dark(glm::vec4& color) {
 }
 
 } // namespace
+
+glm::vec3 light_way(const std::array<double, 2>& angles) {
+    const double turn = glm::radians(angles[0]), height = glm::radians(angles[1]);
+    return {std::sin(turn) * std::cos(height), std::sin(height), std::cos(turn) * std::cos(height)};
+}
+
+std::array<double, 2> light_angles(const glm::vec3& way) {
+    const glm::dvec3 unit = glm::normalize(glm::dvec3(way));
+    return {glm::degrees(std::atan2(unit.x, unit.z)),
+            glm::degrees(std::asin(std::clamp(unit.y, -1.0, 1.0)))};
+}
 
 void set_look(render::CellAppearance& appearance, const render::CellAppearance& configured,
               const interaction::Look& look) {
@@ -36,6 +53,7 @@ void set_look(render::CellAppearance& appearance, const render::CellAppearance& 
         break;
     }
     appearance.occlusion = look.occlusion;
+    appearance.key_direction = look.light ? light_way(*look.light) : configured.key_direction;
 }
 
 std::optional<render::BackgroundColors> background_of(const interaction::Look& look) {
@@ -43,6 +61,7 @@ std::optional<render::BackgroundColors> background_of(const interaction::Look& l
     case interaction::Background::dark: break;
     case interaction::Background::light: return render::BackgroundColors{kPaperWhite, kPaperWhite};
     case interaction::Background::gradient: return render::BackgroundColors{kFloor, kSky};
+    case interaction::Background::gray: return render::BackgroundColors{kLifted, kLifted};
     }
     return std::nullopt;
 }

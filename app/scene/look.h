@@ -6,11 +6,16 @@
 #include "render/cells/cell_appearance.h"
 #include "render/passes/background_pass.h"
 
+#include <array>
 #include <optional>
 
 namespace isochron::app {
 
-/// Sets shine and ambient occlusion of surfaces. @param configured appearance as configured
+/// The direction towards the key light in the room, of length 1, from `Look::light`; and back.
+glm::vec3 light_way(const std::array<double, 2>& angles);
+std::array<double, 2> light_angles(const glm::vec3& way);
+
+/// Sets shine, light and ambient occlusion of surfaces. @param configured appearance as configured
 void set_look(render::CellAppearance& appearance, const render::CellAppearance& configured,
               const interaction::Look& look);
 

@@ -1,8 +1,9 @@
 // Words of a picked place.
 #include "app/scene/mark.h"
 
+#include "app/scene/caption.h"
 #include "app/text.h"
-#include "index/volume/time_unit.h"
+#include "index/volume/instant_text.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,9 @@ std::string place_text(const interaction::MarkedPoint& point, const index::Serie
 }
 
 std::string time_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
-    return index::time_text(info.times, point.step, info.time_unit);
+    const index::Instant at = index::Instant(point.step, point.fraction).within(info.steps());
+    const std::string time = index::instant_text(info.times, at, info.time_unit);
+    return at.between() ? fmt::format("{}, {}", time, steps_text(at)) : time;
 }
 
 } // namespace
@@ -35,6 +38,8 @@ std::vector<std::string> pointed_lines(const interaction::Pointed& pointed, std:
                                        const index::SeriesInfo& info) {
     std::vector<std::string> lines{with_unit(pointed.point.value, info.value_unit),
                                    place_text(pointed.point, info)};
+    if (pointed.point.fraction > 0)
+        lines.push_back(steps_text({pointed.point.step, pointed.point.fraction}));
     if (surfaces > 1)
         lines.push_back(fmt::format("surface {} of {}", pointed.surface + 1, surfaces));
     return lines;

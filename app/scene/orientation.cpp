@@ -60,8 +60,8 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
                            const index::SeriesInfo& info, const render::TextPass& text,
-                           const Ink& ink) {
-    const float height = text_height(view.size);
+                           const Ink& ink, float share) {
+    const float height = text_height(view.size, share);
     const glm::vec2 origin = glm::floor(glm::vec2((kAxisLength + 1.0f) * height));
     Orientation shown;
     for (const SeenAxis& each : seen_axes(view, room_from_physical.rotation)) {

@@ -32,9 +32,10 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
                                   const interaction::Similarity& room_from_physical,
                                   const glm::dvec3& center);
 
+/// @param share height of the words, see `text_height`
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
                            const index::SeriesInfo& info, const render::TextPass& text,
-                           const Ink& ink = {});
+                           const Ink& ink = {}, float share = 0.0f);
 
 } // namespace isochron::app

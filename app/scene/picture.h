@@ -33,6 +33,7 @@ struct PictureLayout {
     std::vector<glm::ivec2> windows; ///< their sizes [pixel]
     stereo::Margins free;            ///< for the panel over the first one
     float aside = 0;                 ///< share of width, see Outputs::show_aside
+    float text = 0;                  ///< share of height that words have, see `text_height`
     bool operator==(const PictureLayout&) const = default;
 };
 
@@ -54,10 +55,14 @@ struct Picture {
     interaction::Look look;
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart
     bool bounding_box = true;
+    bool legend = true;
     bool orientation = false; ///< the data's axes and a scale bar in a corner
     std::string caption;      ///< in a corner; empty: none
     /// Of the footprint `mesh` (index/extraction/simplified_meshes.h).
     std::size_t mesh_level = 0;
+    /// The exact picture that is kept is moved to where its cells are seen now, in the place of
+    /// what the footprint says.
+    bool moved = false;
     PictureLayout layout;
     bool operator==(const Picture&) const = default;
 };

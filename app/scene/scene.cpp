@@ -43,21 +43,6 @@ bool same_map(const ColorScale& a, const ColorScale& b) {
     return a.map == b.map && a.colors == b.colors && a.use == b.use;
 }
 
-/// @param map of these colors, in linear light
-render::ValueColors value_colors(const ColorScale& scale, const render::Texture& map) {
-    const auto share = [&](double value) {
-        const double half = scale.whole[1] / 2 - scale.whole[0] / 2;
-        return half > 0 ? static_cast<float>((value / 2 - scale.whole[0] / 2) / half) : 0.0f;
-    };
-    render::ValueColors colors{.map = map.name(),
-                               .low = share(scale.range[0]),
-                               .high = share(scale.range[1]),
-                               .bands = scale.use.bands > 0};
-    if (scale.logarithmic)
-        colors.ratio = static_cast<float>(scale.range[1] / scale.range[0]);
-    return colors;
-}
-
 /// The head of the viewer whose eye this is: the nearest one, as eyes are closer than heads.
 glm::vec3 head_of(const render::View& view, std::span<const stereo::ViewerPose> viewers) {
     const glm::vec3 eye = view.eye_in_room();
@@ -137,7 +122,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       kept_(gl),
       cell_pass_(gl, {.shape = config.rendering.cell_shape}, render::prelude_for(info.grid)),
       line_pass_(gl), text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
-      enlarge_(gl), veil_pass_(gl) {
+      enlarge_(gl), reproject_(gl), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (config.comfort.near_whole > 0)
@@ -193,30 +178,46 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     // Lines have soft edges, which blend with the pixels below, so lines come after the cells. Only
     // splats write no depth: lines that splats may hide are drawn before the splats.
     render::CellAppearance appearance = appearance_of(picture);
-    const bool depth = writes_depth(footprint, appearance);
+    const bool moved = picture.moved && is_whole && !again && draw_moved(picture, views);
+    const bool depth = moved || writes_depth(footprint, appearance);
     if (!depth && part.begins)
         draw_among_cells(views, picture, placement);
-    if (render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
+    if (!moved && render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
         cells_.compute_corners();
     if (appearance.near_fade && !views.empty()) // all views are of one viewer
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
     std::size_t done = 0;
-    if (picture.resolution > 0 && footprint == render::Footprint::quad && is_whole && !again)
+    if (picture.resolution > 0 && footprint == render::Footprint::quad && is_whole && !again &&
+        !moved)
         draw_in_few_pixels(picture, views, placement, appearance);
-    else if (!again)
+    else if (!again && !moved)
         done = cell_pass_.draw(views, placement, cells_.drawn(), footprint, appearance, part.cells);
     if (!part.ends)
         return done;
-    if (depth && part.keeps && !again && footprint == picture.footprint)
+    if (depth && part.keeps && !again && !moved && footprint == picture.footprint)
         kept_.keep(picture, views);
     if (depth)
         draw_among_cells(views, picture, placement);
     draw_before_cells(views, picture, placement);
     const auto callouts = callouts_of(picture, picture.pointed, info_);
-    const auto papers = papers_of(callouts, text_pass_.atlas(), views);
+    const auto papers = papers_of(callouts, text_pass_.atlas(), views, picture.layout.text);
     for (const render::View& view : views)
         draw_over_cells(view, picture, {callouts, papers});
     return done;
+}
+
+/// @return false: there is no picture for these screens
+bool Scene::draw_moved(const Picture& picture, std::span<const render::View> views) {
+    const Picture* kept = kept_.movable(1);
+    std::vector<render::PictureWithDepth> pictures =
+        kept ? kept_.for_screens_of(views) : std::vector<render::PictureWithDepth>();
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        pictures[i].room_from_box = around_cells(placement_of(*kept));
+        reproject_.draw(views[i], pictures[i], around_cells(placement_of(picture)));
+    }
+    for (std::size_t i = 0; i < views.size(); ++i)
+        render::set_viewport(gl_, views[i], static_cast<GLuint>(i));
+    return !pictures.empty();
 }
 
 void Scene::draw_in_few_pixels(const Picture& picture, std::span<const render::View> views,
@@ -227,7 +228,8 @@ void Scene::draw_in_few_pixels(const Picture& picture, std::span<const render::V
     enlarge_.end(views, around_cells(placement));
 }
 
-void Scene::warm_up(const Picture& picture, std::span<const render::View> views) {
+void Scene::warm_up(const Picture& picture, std::span<const render::View> views,
+                    const std::function<bool()>& goes_on) {
     draw(picture, views);
     std::vector<render::Footprint> footprints{render::Footprint::quad, render::Footprint::gaussian};
     if (cells_.may_have_meshes())
@@ -237,9 +239,18 @@ void Scene::warm_up(const Picture& picture, std::span<const render::View> views)
     if (appearance.near_fade && !views.empty())
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
     enlarge_.begin(views, kCellResolutions.back(), appearance.linear_light);
-    enlarge_.end(views, around_cells(placement_of(picture)));
-    draw_small_surface(gl_, cell_pass_, views, info_.grid, matrix(picture.room_from_physical),
-                       footprints, appearance);
+    const glm::mat4 box = around_cells(placement_of(picture));
+    enlarge_.end(views, box);
+    render::RenderTarget small(gl_, {1, 1});
+    small.clear(glm::vec4(0));
+    const render::View pixel{.size = glm::ivec2(1)};
+    for (const render::View& view : views)
+        reproject_.draw(view, {small.color_texture(), small.depth_texture(), pixel}, box);
+    for (const render::Footprint footprint : footprints)
+        if (goes_on())
+            draw_small_surface(gl_, cell_pass_, views, info_.grid,
+                               matrix(picture.room_from_physical), std::span(&footprint, 1),
+                               appearance);
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {
@@ -279,15 +290,15 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
     Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head);
     if (is_light(picture))
         darken(axes);
-    const std::vector<render::Label> labels =
-        labels_with_room(axes.labels, text_pass_.atlas(), placement.room_from_index, views);
+    const std::vector<render::Label> labels = labels_with_room(
+        axes.labels, text_pass_.atlas(), placement.room_from_index, views, picture.layout.text);
     for (const render::View& view : views) {
         std::vector<render::Line> lines = box_in(view, picture, placement).near;
         lines.insert(lines.end(), axes.ticks.begin(), axes.ticks.end());
         line_pass_.draw(view, placement.room_from_index, lines);
         std::vector<render::ScreenQuad> quads;
         for (const render::Label& label : labels)
-            text_pass_.set(label, text_height(view.size), quads);
+            text_pass_.set(label, text_height(view.size, picture.layout.text), quads);
         text_pass_.draw(view, placement.room_from_index, quads);
     }
 }
@@ -300,16 +311,18 @@ void Scene::draw_over_cells(const render::View& view, const Picture& picture, co
         draw_callout(view, picture, words.callouts[i], words.papers[i]);
     veil_pass_.draw(view, picture.veil);
     const Ink ink = ink_on(picture.look.background);
-    text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
-                    legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, ink},
-                                 text_pass_, view.size),
-                    render::TextPass::Depth::none);
+    if (picture.legend)
+        text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
+                        legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, ink},
+                                     text_pass_, view.size, picture.layout.text),
+                        render::TextPass::Depth::none);
     if (picture.orientation)
         draw_orientation(view, picture);
     if (!picture.caption.empty())
-        text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
-                        caption_quads(picture.caption, text_pass_, view.size, ink),
-                        render::TextPass::Depth::none);
+        text_pass_.draw(
+            render::pixel_view(view), glm::mat4(1.0f),
+            caption_quads(picture.caption, text_pass_, view.size, ink, picture.layout.text),
+            render::TextPass::Depth::none);
 }
 
 /// The panel is drawn over the cells so that viewers who stand among them can read it with both
@@ -349,13 +362,15 @@ void Scene::draw_tools(const render::View& view, const Picture& picture) {
 void Scene::draw_callout(const render::View& view, const Picture& picture, const Callout& callout,
                          const CalloutPaper& paper) {
     if (!hidden_by_panel(picture, view, callout.at))
-        text_pass_.draw(view, glm::mat4(1.0f), callout_quads(callout, paper, text_pass_, view.size),
+        text_pass_.draw(view, glm::mat4(1.0f),
+                        callout_quads(callout, paper, text_pass_, view.size,
+                                      ink_on(picture.look.background), picture.layout.text),
                         render::TextPass::Depth::none);
 }
 
 void Scene::draw_orientation(const render::View& view, const Picture& picture) {
     const Orientation shown = orientation_in(view, picture.room_from_physical, info_, text_pass_,
-                                             ink_on(picture.look.background));
+                                             ink_on(picture.look.background), picture.layout.text);
     const render::View pixels = render::pixel_view(view);
     gl_.DepthRange(0.0, 0.0); // nearer than all that has been drawn
     for (const render::Line& line : shown.lines)
@@ -373,8 +388,10 @@ void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::Vi
     draw_ray(view, picture, aids);
     const auto callouts = callouts_of(picture, aids.pointed, info_);
     if (aids.pointed && !callouts.empty()) // the others are part of the picture
-        draw_callout(view, picture, callouts.back(),
-                     papers_of(callouts, text_pass_.atlas(), std::span(&view, 1)).back());
+        draw_callout(
+            view, picture, callouts.back(),
+            papers_of(callouts, text_pass_.atlas(), std::span(&view, 1), picture.layout.text)
+                .back());
     gl_.Disable(GL_SCISSOR_TEST);
 }
 

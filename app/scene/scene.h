@@ -17,9 +17,11 @@
 #include "render/passes/enlarge_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
+#include "render/passes/reproject_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,17 +57,21 @@ class Scene {
     std::size_t draw(const Picture& picture, std::span<const render::View> views,
                      const ScenePart& part = {});
     /// Draws a cell in each way in which cells are drawn, and what stands beside them.
-    void warm_up(const Picture& picture, std::span<const render::View> views);
+    /// @param goes_on asked between its parts: false ends it
+    void warm_up(const Picture& picture, std::span<const render::View> views,
+                 const std::function<bool()>& goes_on);
     /// Work of drawing the cells into so many views, in the units of `ScenePart::cells`.
     std::size_t work(const Picture& picture, std::size_t views);
     /// Does some of the work that comes before the parts of a picture.
     /// @param most of it, in the same units @return how much was done; 0: none is left
     std::size_t prepare_parts(const Picture& picture, std::size_t most);
 
-    /// Whether the cells of this picture are kept, so that drawing it takes no time for them.
+    /// As `KeptCells::movable`.
+    const Picture* movable_picture(std::size_t viewports) const { return kept_.movable(viewports); }
+    /// Whether the cells of this picture are kept or moved, so that drawing it takes no time for them.
     /// @param viewports that show it
     bool keeps_cells(const Picture& picture, std::size_t viewports) const {
-        return kept_.hold(picture, viewports);
+        return picture.moved || kept_.hold(picture, viewports);
     }
 
     /// Further pictures draw their cells anew.
@@ -77,6 +83,7 @@ class Scene {
   private:
     render::CellAppearance appearance_of(const Picture& picture);
     render::Placement placement_of(const Picture& picture) const;
+    bool draw_moved(const Picture& picture, std::span<const render::View> views);
     void draw_in_few_pixels(const Picture& picture, std::span<const render::View> views,
                             const render::Placement& placement,
                             const render::CellAppearance& appearance);
@@ -110,6 +117,7 @@ class Scene {
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;
     render::EnlargePass enlarge_;
+    render::ReprojectPass reproject_;
     render::VeilPass veil_pass_;
 };
 

@@ -170,7 +170,7 @@ void add_axes(const PatternWall& wall, const interaction::InputState& input,
 
 PatternWall pattern_wall(const stereo::Window& window, std::size_t viewport,
                          const stereo::Viewer& viewer, const interaction::Pose& head,
-                         float eye_separation, glm::ivec2 pixels) {
+                         const stereo::Eyes& eyes, glm::ivec2 pixels) {
     const stereo::Viewport& shown = window.viewports[viewport];
     std::string name = window.name;
     if (!shown.name.empty())
@@ -184,7 +184,7 @@ PatternWall pattern_wall(const stereo::Window& window, std::size_t viewport,
             .corners = corners_in_room(shown.screen, head, pixels),
             .head_device = viewer.head,
             .head = head,
-            .eye_separation = eye_separation,
+            .eyes = eyes,
             .cross_depth = nice_below(0.5f * std::max(distance, kNearest))};
 }
 
@@ -195,7 +195,7 @@ glm::vec3 cross_of(const PatternWall& wall) {
 float disparity_on(const PatternWall& wall, const glm::vec3& point) {
     const glm::vec3 normal = normal_of(wall);
     const auto image = [&](Eye eye) {
-        const glm::vec3 from = stereo::eye_position(wall.head, eye, wall.eye_separation);
+        const glm::vec3 from = stereo::eye_position(wall.head, eye, wall.eyes);
         const float far = glm::dot(from - wall.corners[0], normal);
         const float near = glm::dot(point - wall.corners[0], normal);
         return from + far / (far - near) * (point - from);

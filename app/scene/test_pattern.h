@@ -24,15 +24,15 @@ struct PatternWall {
     std::array<glm::vec3, 4> corners; ///< room: lower left, upper left, upper right, lower right
     std::string head_device;          ///< of the viewer who sees it
     interaction::Pose head;
-    float eye_separation = 0.0f; ///< [m]
-    float cross_depth = 0.5f;    ///< [m] distance of the cross in front of the wall
+    stereo::Eyes eyes;        ///< in the head's frame
+    float cross_depth = 0.5f; ///< [m] distance of the cross in front of the wall
 };
 
 /// The wall that a viewport shows.
 /// @param pixels size of one eye's picture
 PatternWall pattern_wall(const stereo::Window& window, std::size_t viewport,
                          const stereo::Viewer& viewer, const interaction::Pose& head,
-                         float eye_separation, glm::ivec2 pixels);
+                         const stereo::Eyes& eyes, glm::ivec2 pixels);
 
 /// Place of the cross in the room: in front of the middle of the wall.
 glm::vec3 cross_of(const PatternWall& wall);

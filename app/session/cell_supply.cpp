@@ -24,8 +24,12 @@ bool shows(const index::ExtractionPtr& set, const Frame& frame) {
 }
 
 /// What playing shows after a step; nothing if it shows only one.
-std::optional<index::StepsAhead> ahead_of(std::uint32_t step, const Frame& frame) {
+std::optional<index::StepsAhead> ahead_of(index::Instant step, const Frame& frame) {
     const interaction::PlaybackState& playback = frame.state.playback;
+    if (step.between()) { // both of its steps are at hand: the next one is read meanwhile
+        const std::uint32_t after = playback.reverse ? step - 1 : step + 2; // wraps below 0
+        return after < frame.steps ? std::optional(index::StepsAhead{.next = after}) : std::nullopt;
+    }
     const interaction::StepTrack track(std::span(frame.file.info().times).first(frame.steps),
                                        frame.state.play_range, playback);
     if (track.places() < 2)
@@ -48,7 +52,9 @@ CellSupply::CellSupply(const Config& config, std::shared_ptr<const index::IndexF
     : config_(config), sets_(sets), newest_(std::make_shared<index::NewestIndex>(file)),
       extractor_(extract ? std::move(extract) : index::extract_from_newest(newest_, shading),
                  file->cache_bytes() / 2),
-      details_(file->info().grid, static_cast<std::uint64_t>(config_.memory.most_cells)) {}
+      details_(file->info().grid, static_cast<std::uint64_t>(config_.memory.most_cells)) {
+    messages_ = limit_to_memory(details_, *file);
+}
 
 void CellSupply::set_file(std::shared_ptr<const index::IndexFile> file) {
     newest_->set(std::move(file));
@@ -64,9 +70,9 @@ void CellSupply::request(const Frame& frame) {
     const bool meshes = frame.is_live() && sets_.may_have_meshes() &&
                         frame.state.quality == interaction::QualityMode::automatic;
     // Nothing is chosen before the first frame, which does not ask for all cells of a large volume.
-    if (frame.is_live() && config_.rendering.level_of_detail && !details_.small() &&
-        frame.plan.detail.most_cells == 0)
-        frame.plan.detail.most_cells = DetailChoice::kAtFirst;
+    if (frame.plan.detail.most_cells == 0)
+        frame.plan.detail.most_cells =
+            details_.most_at_first(frame.is_live() && config_.rendering.level_of_detail);
     query.detail = frame.plan.detail;
     query.mesh_room =
         frame.plan.mesh && !(meshes && is_there(query)) ? config_.memory.mesh_room() : 0;
@@ -216,7 +222,6 @@ bool CellSupply::is_finest(const Frame& frame) const {
             (frame.plan.detail.at_rest || wants_all(frame)));
 }
 
-/// Whether a picture at rest of more cells than a frame can draw is made in parts.
 bool CellSupply::may_be_partial(const Frame& frame) const {
     return frame.choosing() == Choosing::with_parts && config_.quality.still_budget_ms > 0 &&
            frame.state.quality == interaction::QualityMode::automatic &&

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/config/config.h"
+#include "app/quality/cell_room.h"
 #include "app/quality/detail_choice.h"
 #include "app/scene/cell_sets.h"
 #include "app/scene/kept_cells.h"
@@ -48,6 +49,15 @@ class CellSupply {
     bool choose_set(const Frame& frame, const Picture& now);
     /// Whether the set for pictures at rest may be drawn in this frame.
     bool rests() const { return rests_; }
+    /// Whether the cells of the drawn picture are kept: it is at rest, or an exact one, which may be
+    /// moved.
+    bool keeps_cells(const Frame& frame, const Picture& drawn) const {
+        const bool is_exact = frame.report.pace == interaction::Pace::settled &&
+                              drawn.footprint == render::Footprint::surface;
+        return frame.is_live() && (rests_ || is_exact);
+    }
+    /// Whether a picture at rest of more cells than a frame can draw is made in parts.
+    bool may_be_partial(const Frame& frame) const;
     /// Whether no cells finer than the drawn ones will come for this picture.
     bool is_finest(const Frame& frame) const;
     /// Whether a set that was asked for is not on the GPU yet.
@@ -62,6 +72,8 @@ class CellSupply {
     bool may_move_finest(const Frame& frame, const FrameQuality& quality) const;
     /// The detail of the sets that are asked for next.
     index::DetailQuery wanted_detail(const Frame& frame, const FrameQuality& quality);
+    /// Whether cells take a few pixels at most wherever they are seen.
+    bool cells_look_small() const { return !details_.small() && details_.cells_look_small(); }
     /// Views of the last pictures: they tell how large each region of the volume is seen.
     void forget_views() { views_.clear(); }
     void note_views(std::span<const render::View> views) {
@@ -79,7 +91,6 @@ class CellSupply {
     bool comes_late(const index::ExtractionPtr& set) const;
     bool give_way(const index::ExtractionPtr& set, FramePlan& plan);
     void say_refused(const index::ExtractionPtr& set, const Frame& frame);
-    bool may_be_partial(const Frame& frame) const;
     index::DetailQuery detail_for_live(const Frame& frame, const FrameQuality& quality);
     index::DetailQuery detail_at_rest(const Frame& frame, const FrameQuality& quality,
                                       std::uint64_t moving);

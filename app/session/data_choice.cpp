@@ -32,30 +32,36 @@ std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataCh
         complaint = choice.why_not_open(*wanted);
         if (complaint.empty())
             return wanted;
-        layer.pages().open_files();
+        layer.pages().open_files_again();
     }
     return std::nullopt;
 }
 
-bool wait_for_data(const stereo::Windows& windows, const std::string& name,
-                   const std::function<DataProgress()>& progress, PageWindowOptions options) {
-    bool leaves = false;
+Waited wait_for_data(const stereo::Windows& windows, const std::string& name,
+                     const std::function<DataProgress()>& progress, PageWindowOptions options,
+                     const ArrayChoice& choice) {
+    Waited end = Waited::ready;
     {
         PageWindow window(windows, std::move(options));
-        for (DataProgress now = progress(); !now.ready && !leaves; now = progress()) {
+        std::optional<std::size_t> first; ///< array
+        for (DataProgress now = progress(); !now.ready && end == Waited::ready; now = progress()) {
+            if (!now.arrays.empty() && !first)
+                first = choice.first();
+            std::optional<std::size_t> chosen;
             const auto events = window.frame([&](glm::ivec2 size, interaction::Seconds time) {
-                window.layer().lay_out_progress(size, name, now.line, now.fraction, time);
+                if (now.arrays.empty())
+                    window.layer().lay_out_progress(size, name, now.line, now.fraction, time);
+                else
+                    chosen = window.layer().lay_out_arrays(size, name, now.arrays, *first, time);
             });
-            leaves =
-                !window.goes_on() ||
-                std::ranges::any_of(events, [](const interaction::WindowEvent& event) {
-                    const auto* key = std::get_if<interaction::KeyEvent>(&event);
-                    return key && key->down && key->alone() && key->key == interaction::Key::escape;
-                });
+            if (chosen)
+                choice.choose(*chosen);
+            const bool escapes = interaction::is_pressed(interaction::Key::escape, events);
+            end = !window.goes_on() ? Waited::left : escapes ? Waited::canceled : Waited::ready;
         }
     }
     windows.drawing().make_current();
-    return !leaves;
+    return end;
 }
 
 } // namespace isochron::app

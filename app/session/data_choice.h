@@ -2,8 +2,10 @@
 // the progress of indexing.
 #pragma once
 
+#include "app/panel/array_window.h"
 #include "app/session/page_window.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -29,12 +31,24 @@ struct DataProgress {
     bool ready = false; ///< they can be shown, or never will be
     std::string line;   ///< what is going on
     float fraction = 0;
+    std::vector<ListedArray> arrays = {}; ///< of which the user is to choose one; empty: none
 };
 
-/// Shows the progress in the first window until the data are ready.
+/// The choice among arrays, where the data leave one.
+struct ArrayChoice {
+    std::function<std::size_t()> first = [] { return std::size_t{0}; }; ///< chosen at the beginning
+    std::function<void(std::size_t)> choose = [](std::size_t) {};
+};
+
+enum class Waited : std::uint8_t {
+    ready,
+    canceled, ///< by Escape
+    left      ///< the user has closed the window, or the program ends
+};
+/// Shows the progress in the first window, or arrays to choose from, until the data are ready.
 /// @param name of the data
-/// @return false: the user leaves
-bool wait_for_data(const stereo::Windows& windows, const std::string& name,
-                   const std::function<DataProgress()>& progress, PageWindowOptions options);
+Waited wait_for_data(const stereo::Windows& windows, const std::string& name,
+                     const std::function<DataProgress()>& progress, PageWindowOptions options,
+                     const ArrayChoice& choice = {});
 
 } // namespace isochron::app

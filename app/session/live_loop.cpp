@@ -1,8 +1,9 @@
 // The live loop, from devices to frames.
 #include "app/session/live_loop.h"
 
-#include "app/config/series_names.h"
 #include "app/frame/pacer.h"
+#include "index/error.h"
+#include "index/system/new_file.h"
 
 #include <fmt/format.h>
 
@@ -15,41 +16,18 @@ namespace isochron::app {
 using interaction::Commands;
 using interaction::InputState;
 using interaction::Seconds;
-namespace {
-
-bool is_pressed(interaction::Key key, std::span<const interaction::WindowEvent> events) {
-    return std::ranges::any_of(events, [key](const interaction::WindowEvent& event) {
-        const auto* change = std::get_if<interaction::KeyEvent>(&event);
-        return change && change->key == key && change->down && change->alone();
-    });
-}
-
-constexpr const char* kNoPlaceForSession =
-    "the session is not saved: there is no folder for it; --session names a file";
-
-bool is_held(const InputState& input) {
-    return std::ranges::any_of(input.devices, [](const interaction::DeviceState& device) {
-        return device.buttons != 0 ||
-               std::ranges::any_of(device.valuators, [](float value) { return value != 0.0f; });
-    });
-}
-
-} // namespace
 
 LiveLoop::LiveLoop(const Config& config, interaction::CompositeInput trackers,
                    const LiveOptions& options, stereo::Headset* headset)
     : config_(config), options_(options), trackers_(std::move(trackers)),
       emulation_(emulation_for(config)), camera_(config.installation), headset_(headset),
+      opening_(options.why_not_open),
       clock_(options.clock ? options.clock : [start = std::chrono::steady_clock::now()] {
           return Seconds(std::chrono::steady_clock::now() - start);
       }) {}
 
 std::function<void()> LiveLoop::waker() const {
     return [wake = wake_] { (*wake)(); };
-}
-
-std::function<Seconds()> LiveLoop::clock() const {
-    return clock_;
 }
 
 void LiveLoop::record(const std::filesystem::path& path,
@@ -69,12 +47,21 @@ void LiveLoop::watch(const std::filesystem::path& path,
     watch_.emplace(path, std::move(file), waker());
 }
 
+void LiveLoop::steer(SessionControl& control) {
+    control_ = &control;
+    control.set_wake(waker());
+}
+
 /// Reports new steps as commands, so that recordings and all processes of a cluster get them.
 void LiveLoop::take_new_steps(Session& session, Commands& asked) {
     auto newer = watch_ ? watch_->take() : nullptr;
     if (!newer)
         return;
     const auto steps = static_cast<std::uint32_t>(newer->info().steps());
+    if (control_)
+        control_->set_file(newer);
+    if (surfaces_)
+        surfaces_->set_file(newer);
     session.grow(std::move(newer));
     session.show_messages({fmt::format("{} steps now", steps)});
     asked.steps = steps;
@@ -95,7 +82,7 @@ void LiveLoop::begin_or_end_recording(Session& session) {
         try {
             interaction::RecordingHeader header = movies_->orders().header;
             header.start = session.state().as_commands();
-            const auto path = free_recording_name(movies_->orders().folder);
+            const auto path = free_recording_name(chosen_folder(session));
             record(path, header);
             session.show_messages({fmt::format("recording to {}", path.string())});
         } catch (const interaction::Error& error) {
@@ -105,11 +92,31 @@ void LiveLoop::begin_or_end_recording(Session& session) {
     session.set_recording(recorder_ != nullptr);
 }
 
+/// Where pictures, movies and recordings are written.
+std::filesystem::path LiveLoop::chosen_folder(const Session& session) const {
+    const std::filesystem::path chosen = session.state().pictures.folder;
+    return chosen.empty() ? movies_->orders().folder : chosen;
+}
+
+/// Pictures lie where the user has said last.
+void LiveLoop::place_pictures(Session& session) {
+    if (session.state().pictures.folder == picture_folder_ || !movies_)
+        return;
+    picture_folder_ = session.state().pictures.folder;
+    try {
+        index::make_folder(chosen_folder(session));
+        session.outputs().set_screenshots(chosen_folder(session));
+    } catch (const index::Error& error) {
+        session.show_messages({error.what()});
+    }
+}
+
 /// Begins and ends those that the panel asks for.
 void LiveLoop::make_movies(Session& session) {
     if (!movies_)
         return;
-    constexpr double kRate = 30; // as `isochron movie` has it where nothing is said
+    const interaction::WrittenPictures& how = session.state().pictures;
+    const MovieManner manner{how.folder, how.rate, how.width, how.height};
     const std::optional<MovieWish> wish = session.panel().take_wanted_movie();
     if (wish == MovieWish::record)
         begin_or_end_recording(session);
@@ -117,30 +124,33 @@ void LiveLoop::make_movies(Session& session) {
         movies_->give_up();
     else if (wish == MovieWish::recording && recorder_)
         movies_->make([recorder = recorder_](const auto& path) { recorder->copy_to(path); },
-                      recording_);
+                      recording_, manner);
     else if (wish == MovieWish::series)
-        movies_->make(
-            [series = series_seen(movies_->orders().header, session.note(), session.times(),
-                                  kRate)](const auto& path) { write_recording(path, series); },
-            recording_);
+        movies_->make([series = series_seen(sized(movies_->orders().header, how), session.note(),
+                                            session.times(), how.rate)](
+                          const auto& path) { write_recording(path, series); },
+                      recording_, manner);
     movies_->update();
     session.show_messages(movies_->messages());
     session.set_movies({true, recorder_ != nullptr, movies_->progress()});
 }
 
-/// Finds out whether data can be opened, which may take a while.
+/// Begins or cancels an export as the state asks for. @return how far it is, if that is new
+std::optional<interaction::ExportWork> LiveLoop::export_surfaces(Session& session) {
+    if (!surfaces_)
+        return std::nullopt;
+    session.show_messages(surfaces_->messages());
+    return surfaces_->update(session.state(), [&] { return session.scale(); });
+}
+
+/// Begins to open other data, unless a movie of these is being made.
 void LiveLoop::open(const std::filesystem::path& data, Session& session) {
-    std::string reason;
-    if (movies_ && movies_->busy())
-        reason = "a movie is being made: open other data when it is finished, or cancel it";
-    else if (!options_.why_not_open)
-        reason = "other data are not opened in this session";
-    else if (opening_)
-        open_next_ = data; // what was chosen last counts
-    else
-        opening_ = {data, std::async(std::launch::async, options_.why_not_open, data)};
-    if (!reason.empty())
-        session.show_messages({reason});
+    const std::string said =
+        movies_ && movies_->busy()
+            ? "a movie is being made: open other data when it is finished, or cancel it"
+            : opening_.open(data);
+    if (!said.empty())
+        session.show_messages({said});
 }
 
 /// Takes other data that the user has chosen, or dropped onto a window.
@@ -152,16 +162,18 @@ void LiveLoop::take_next_data(Session& session) {
         open(*name, session);
     else if (!dropped.empty())
         session.show_messages({kNoCommonName});
-    if (!opening_ || opening_->why_not.wait_for(Seconds(0)) != std::future_status::ready)
-        return;
-    const std::string reason = opening_->why_not.get();
-    if (!reason.empty())
-        session.show_messages({reason});
-    else if (!open_next_)
-        next_data_ = opening_->data;
-    opening_.reset();
-    if (const auto next = std::exchange(open_next_, std::nullopt))
-        open(*next, session);
+    if (const std::string said = opening_.update(); !said.empty())
+        session.show_messages({said});
+    if (auto ready = opening_.take_ready())
+        next_data_ = std::move(ready);
+}
+
+/// What goes on for longer, in the picture.
+void LiveLoop::note_work(Session& session) const {
+    std::string note = opening_.note();
+    if (note.empty() && options_.standing)
+        note = options_.standing();
+    session.set_standing(std::move(note));
 }
 
 /// The devices of a frame that begins now.
@@ -226,7 +238,7 @@ void LiveLoop::keep(Session& session, const Commands& commands, Seconds now) {
     }
     if (!keeper_) {
         if (commands.save)
-            session.show_messages({kNoPlaceForSession});
+            session.show_messages({not_kept_});
         return;
     }
     if (commands.save)
@@ -248,7 +260,7 @@ std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows
     acted_ = false;
     if (waited_)
         return {};
-    std::vector<interaction::WindowEvent> events = windows.poll_events();
+    std::vector<interaction::WindowEvent> events = options_.behind_early(windows.poll_events());
     // What a gamepad's sticks do is seen in the devices; at rest they tremble.
     acted_ = std::ranges::any_of(events, [](const interaction::WindowEvent& event) {
         return !std::holds_alternative<interaction::GamepadEvent>(event);
@@ -260,13 +272,14 @@ std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows
 FrameOutlook LiveLoop::outlook(const InputState& input) const {
     constexpr Seconds kLookForWords{0.1}; // of another process or of a thread that ends
     constexpr Seconds kLookForProgress{0.25};
-    FrameOutlook next{.busy = is_held(input), .changed = acted_, .final = true};
+    const bool waited_for = control_ && control_->is_waited_for();
+    FrameOutlook next{.busy = is_held(input) || waited_for, .changed = acted_, .final = true};
     const auto look = [&](Seconds at) { next.until = std::min(next.until, at); };
     if (keeper_)
         look(keeper_->due());
     if (options_.length)
         look(*options_.length);
-    if (opening_ || (movies_ && movies_->busy()))
+    if (opening_.busy() || (movies_ && movies_->busy()))
         look(input.time + kLookForWords);
     if (options_.standing && !options_.standing().empty())
         look(input.time + kLookForProgress);
@@ -287,7 +300,6 @@ bool LiveLoop::wait(const FrameOutlook& next, const stereo::Windows& windows) {
 }
 
 void LiveLoop::run(Session& session) {
-    session.warm_up();
     session.set_wake(waker());
     const Latch latch = [this] { return trackers_.latch(clock_()); };
     Pacer pacer(config_.rendering.frame_rate_limit);
@@ -300,8 +312,11 @@ void LiveLoop::run(Session& session) {
         Commands asked;
         if (closes(session, asked))
             break;
-        const auto events = session.panel_events(new_events(session.outputs().windows()));
-        if (is_pressed(interaction::Key::f11, events))
+        const auto exported = export_surfaces(session);
+        auto events = session.panel_events(new_events(session.outputs().windows()));
+        if (const std::string said = opening_.cancel_on_escape(events); !said.empty())
+            session.show_messages({said});
+        if (interaction::is_pressed(interaction::Key::f11, events))
             session.outputs().windows().first().toggle_fullscreen();
         if (config_.devices.empty() &&
             !session.outputs().headset()) // a tracked wand points instead
@@ -310,19 +325,25 @@ void LiveLoop::run(Session& session) {
         session.set_headset_period(headset_.period());
         Commands commands = session.commands_from(input);
         Commands from_panel = session.take_panel_commands();
+        if (!commands.exporting && !from_panel.exporting) // what the user asks for counts
+            from_panel.exporting = exported;
+        if (control_)
+            interaction::merge(asked, control_->take(session));
         take_new_steps(session, asked);
         interaction::merge(from_panel, asked);
         interaction::merge(commands, from_panel);
         headset_.feel(commands.haptics);
         const FrameReport& drawn = session.frame(input, commands, Waiting::never, latch);
+        if (control_)
+            control_->tell(session, drawn);
         session.set_recording(records());
         if (records())
             record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
         keep(session, commands, input.time);
+        place_pictures(session);
         make_movies(session);
-        if (options_.standing)
-            session.set_standing(options_.standing());
+        note_work(session);
         take_next_data(session);
         running = goes_on(commands, input) && !next_data_;
         if (!paced_ && !waited_)
@@ -355,6 +376,10 @@ void LiveLoop::finish(const Session& session) {
     if (movies_) {
         movies_->finish();
         last_words_ = movies_->messages();
+    }
+    if (surfaces_) {
+        const auto words = surfaces_->finish();
+        last_words_.insert(last_words_.end(), words.begin(), words.end());
     }
     recording_.finish();
     if (recorder_)

@@ -12,11 +12,14 @@
 #include "app/frame/idle_wait.h"
 #include "app/frame/late_latch.h"
 #include "app/output/room_camera.h"
+#include "app/output/surface_maker.h"
+#include "app/session/data_opening.h"
 #include "app/session/headset_loop.h"
 #include "app/session/kept/session_keeper.h"
 #include "app/session/movie_maker.h"
 #include "app/session/pattern_show.h"
 #include "app/session/session.h"
+#include "app/session/session_control.h"
 #include "index/file/index_watch.h"
 #include "interaction/controls/desktop_emulation.h"
 #include "interaction/input/composite_input.h"
@@ -25,7 +28,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -47,6 +49,13 @@ struct LiveOptions {
     std::function<std::string(const std::filesystem::path&)> why_not_open;
     /// Called in each frame: the picture shows the note that it returns. May be null.
     std::function<std::string()> standing = {};
+    std::vector<interaction::WindowEvent> early = {}; ///< that came before the first frame
+    /// These events behind the early ones, which are taken.
+    std::vector<interaction::WindowEvent>
+    behind_early(const std::vector<interaction::WindowEvent>& events) {
+        early.insert(early.end(), events.begin(), events.end());
+        return std::exchange(early, {});
+    }
     /// Returns the session time, for tests; null: the time since the loop was constructed.
     std::function<interaction::Seconds()> clock = {};
 };
@@ -63,7 +72,7 @@ class LiveLoop {
     /// Ends the loop's wait for something to do. Outlives the loop where others keep it.
     std::shared_ptr<const stereo::Wake> wake() const { return wake_; }
     /// A function that returns the session time.
-    std::function<interaction::Seconds()> clock() const;
+    std::function<interaction::Seconds()> clock() const { return clock_; }
 
     /// Records all further frames in the background, so that a slow disk does not delay pictures.
     /// @throws interaction::Error when the file cannot be created
@@ -75,12 +84,23 @@ class LiveLoop {
     /// Shows new steps of the index when they come. @param path of the open index
     void watch(const std::filesystem::path& path, std::shared_ptr<const index::IndexFile> file);
 
+    /// Lets clients steer the session from outside. @param control outlives the loop
+    void steer(SessionControl& control);
+
     /// Lets the user have movies made.
     void offer_movies(MovieOrders orders) { movies_.emplace(std::move(orders)); }
+
+    /// Lets the user export surfaces. @param file that is shown @param folder of what is exported
+    void offer_surfaces(std::shared_ptr<const index::IndexFile> file,
+                        const std::filesystem::path& folder) {
+        surfaces_.emplace(std::move(file), folder, waker());
+    }
 
     /// Saves the session to a file, from which it can be resumed. @param start the session as it
     /// begins @param resumed it was itself resumed from that file
     void keep_session(const std::filesystem::path& path, const SavedSession& start, bool resumed);
+    /// The session is not kept. @param why what the user is told who wants to save it
+    void keep_no_session(std::string why) { not_kept_ = std::move(why); }
     /// Where the emulated head stands.
     interaction::StandingPlace standing() const { return emulation_.standing(); }
     void stand(const interaction::StandingPlace& place) { emulation_.stand(place); }
@@ -106,7 +126,11 @@ class LiveLoop {
     void take_next_data(Session& session);
     void keep(Session& session, const interaction::Commands& commands, interaction::Seconds now);
     void open(const std::filesystem::path& data, Session& session);
+    void note_work(Session& session) const;
     void make_movies(Session& session);
+    std::filesystem::path chosen_folder(const Session& session) const;
+    void place_pictures(Session& session);
+    std::optional<interaction::ExportWork> export_surfaces(Session& session);
     void begin_or_end_recording(Session& session);
     void take_new_steps(Session& session, interaction::Commands& asked);
     bool closes(const Session& session, interaction::Commands& asked) const;
@@ -117,7 +141,7 @@ class LiveLoop {
     bool wait(const FrameOutlook& next, const stereo::Windows& windows);
 
     const Config& config_;
-    const LiveOptions options_;
+    LiveOptions options_;
     interaction::CompositeInput trackers_;
     interaction::DesktopEmulation emulation_;
     RoomCamera camera_;
@@ -128,21 +152,19 @@ class LiveLoop {
     bool waited_ = false; ///< before this frame
     bool acted_ = false;  ///< the user did something before this frame
     std::optional<SessionKeeper> keeper_;
+    std::string not_kept_ = "this session is not saved"; ///< why, where it is not kept
+    std::string picture_folder_;                         ///< that the user has chosen; empty: none
     std::optional<index::IndexWatch> watch_;
     std::optional<std::filesystem::path> next_data_;
-    /// Data that the user has chosen, while a thread finds out whether they can be opened.
-    struct Opening {
-        std::filesystem::path data;
-        std::future<std::string> why_not;
-    };
-    std::optional<Opening> opening_;
-    std::optional<std::filesystem::path> open_next_; ///< chosen while others are being opened
+    DataOpening opening_; ///< of data that the user has chosen
     BackgroundWork recording_;
     /// Used only on the thread of `recording_`.
     std::shared_ptr<interaction::RecordingWriter> recorder_;
     const std::shared_ptr<std::atomic<bool>> recording_lost_ =
         std::make_shared<std::atomic<bool>>(false);
     std::optional<MovieMaker> movies_;
+    std::optional<SurfaceMaker> surfaces_;
+    SessionControl* control_ = nullptr;   ///< null: nobody steers from outside
     std::vector<std::string> last_words_; ///< what became of the last movie when the loop had ended
     const std::function<interaction::Seconds()> clock_; ///< last: its time starts when all is ready
 };

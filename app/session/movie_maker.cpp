@@ -2,6 +2,7 @@
 #include "app/session/movie_maker.h"
 
 #include "app/frame/late_latch.h"
+#include "index/system/new_file.h"
 #include "interaction/step_track.h"
 
 #include <fmt/format.h>
@@ -99,10 +100,11 @@ void MovieMaker::finish() {
     }
 }
 
-void MovieMaker::make(const Write& write, BackgroundWork& writing) {
+void MovieMaker::make(const Write& write, BackgroundWork& writing, const MovieManner& manner) {
     if (busy())
         return;
-    const fs::path stem = free_movie_name(orders_.folder);
+    const fs::path stem = free_movie_name(manner.folder.empty() ? orders_.folder : manner.folder);
+    manner_ = manner;
     movie_ = stem.string() + ".mp4";
     recording_ = stem.string() + ".jsonl";
     given_up_ = false;
@@ -112,6 +114,7 @@ void MovieMaker::make(const Write& write, BackgroundWork& writing) {
     // A movie that fails is no failure of the recording, which is written there, too.
     writing.post([write, written, path = recording_] {
         try {
+            index::make_folder(path.parent_path());
             write(path);
             written->set_value();
         } catch (...) {
@@ -136,9 +139,18 @@ void MovieMaker::start() {
     }
     if (given_up_)
         return end(-1);
-    std::vector<std::string> words{orders_.program.string(), "movie",
-                                   recording_.string(),      "-o",
-                                   movie_.string(),          "--background"};
+    std::vector<std::string> words{orders_.program.string(),
+                                   "movie",
+                                   recording_.string(),
+                                   "-o",
+                                   movie_.string(),
+                                   "--background",
+                                   "--rate",
+                                   fmt::format("{}", manner_.rate)};
+    const bool sized = std::ranges::find(orders_.options, "--size") != orders_.options.end();
+    if (!sized && manner_.width > 0 && manner_.height > 0)
+        words.insert(words.end(),
+                     {"--size", std::to_string(manner_.width), std::to_string(manner_.height)});
     words.insert(words.end(), orders_.options.begin(), orders_.options.end());
     std::vector<char*> arguments;
     for (std::string& word : words)
@@ -227,6 +239,16 @@ std::vector<std::string> MovieMaker::messages() {
     return std::exchange(messages_, {});
 }
 
+interaction::RecordingHeader sized(interaction::RecordingHeader header,
+                                   const interaction::WrittenPictures& pictures) {
+    if (pictures.width > 0 && pictures.height > 0)
+        header.window = {static_cast<int>(pictures.width), static_cast<int>(pictures.height)};
+    return header;
+}
+
+/// Frames of a movie of blended steps: more than ten hours of them.
+constexpr double kMostMoments = 1 << 20;
+
 interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
                                    std::span<const double> times, double rate) {
     interaction::Recording recording;
@@ -236,8 +258,10 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
     header.start.room_panel = interaction::RoomPanel{};
     header.start.quality = interaction::QualityMode::quality;
     header.start.leaving = false;
+    header.start.exporting = interaction::ExportWork{};
     header.start.follow = false;
     header.start.step = 0;
+    header.start.fraction = 0;
     const interaction::PlaybackState played =
         view.state.playback.value_or(interaction::PlaybackState{});
     header.start.playback = interaction::PlaybackState{};
@@ -248,7 +272,27 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
         times, view.state.play_range.value_or(interaction::StepRange{}), played);
     const double per_second = interaction::track_rate(played, times);
     double start = 0;
-    for (std::uint32_t i = 0; i < track.places(); ++i) {
+    const double seconds = track.start(track.last()) / per_second;
+    // Its frames are moments, unless there are fewer frames than steps.
+    const bool blends = view.state.between == interaction::BetweenSteps::blend &&
+                        played.every == 1 && std::isfinite(seconds) && per_second > 0 &&
+                        seconds * rate >= track.last();
+    if (blends) {
+        const double gap = interaction::gap_between(times);
+        const auto count = static_cast<std::uint64_t>(std::min(seconds * rate, kMostMoments));
+        for (std::uint64_t i = 0; i <= count; ++i) {
+            start = static_cast<double>(i) / rate;
+            const double at = played.reverse ? seconds - start : start;
+            const interaction::Moment moment = track.moment_at(at * per_second, gap);
+            interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
+            frame.input.time = Seconds(start);
+            frame.commands.step = moment.step;
+            frame.commands.fraction = moment.fraction;
+            recording.frames.push_back(std::move(frame));
+        }
+        start += least;
+    }
+    for (std::uint32_t i = 0; !blends && i < track.places(); ++i) {
         interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
         const std::uint32_t place = played.reverse ? track.last() - i : i;
         frame.input.time = Seconds(start);

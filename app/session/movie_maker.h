@@ -26,6 +26,13 @@ struct MovieOrders {
     interaction::RecordingHeader header; ///< of the session
 };
 
+/// How one of them is made.
+struct MovieManner {
+    std::filesystem::path folder = {};   ///< empty: the one of the orders
+    double rate = 30.0;                  ///< pictures a second
+    std::uint32_t width = 0, height = 0; ///< [pixel], 0: as it was seen
+};
+
 /// Makes one movie at a time: `isochron_movie_0001.mp4` and so on. The recording that it is made of
 /// lies beside it. If the movie is canceled or fails, both are deleted.
 class MovieMaker {
@@ -41,7 +48,7 @@ class MovieMaker {
     const MovieOrders& orders() const { return orders_; }
 
     /// Begins one, unless one is being made. @param write runs on another thread
-    void make(const Write& write, BackgroundWork& writing);
+    void make(const Write& write, BackgroundWork& writing, const MovieManner& manner = {});
     void give_up();
     /// Cancels an unfinished movie, and waits until its files are deleted.
     void finish();
@@ -63,6 +70,7 @@ class MovieMaker {
     std::filesystem::path movie_, recording_; ///< of the one that is being made
     std::future<void> written_;               ///< its recording
     bool given_up_ = false;
+    MovieManner manner_; ///< of the one that is being made
     pid_t process_ = -1;
     int words_ = -1;   ///< the end of the pipe from the process
     std::string said_; ///< an incomplete line from the process
@@ -73,6 +81,10 @@ class MovieMaker {
 
 /// The first name of a recording that no file in a folder has yet: `isochron_recording_0001.jsonl`.
 std::filesystem::path free_recording_name(const std::filesystem::path& folder);
+
+/// The header with the size that the user has chosen for movies, if they have.
+interaction::RecordingHeader sized(interaction::RecordingHeader header,
+                                   const interaction::WrittenPictures& pictures);
 
 /// A recording in which all steps pass once, as fast as playback would show them, seen from one
 /// place in the best quality.

@@ -43,6 +43,8 @@ PageWindow::frame(const std::function<void(glm::ivec2 size, interaction::Seconds
         layer_.draw(size);
         presenter_.present(picture_, nullptr);
     }
+    if (options_.others)
+        options_.others->insert(options_.others->end(), rest.begin(), rest.end());
     pacer_.wait();
     return rest;
 }

@@ -30,6 +30,8 @@ struct PageWindowOptions {
     /// Ends the wait of a page on which only the user changes something. Null: the page may change
     /// at any time, so it never waits.
     std::shared_ptr<const stereo::Wake> wake = nullptr;
+    /// Gets the events that the page does not use; null: they are dropped.
+    std::vector<interaction::WindowEvent>* others = nullptr;
 };
 
 /// Draws in the first of the windows, whose context is current from then on.

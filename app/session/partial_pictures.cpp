@@ -1,16 +1,28 @@
 // Pictures that are drawn over several frames beside the one that is shown.
 #include "app/session/partial_pictures.h"
 
+#include "app/session/kept/moved_picture.h"
+
 #include <algorithm>
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+bool are_opaque(const Picture& picture) {
+    return std::ranges::all_of(picture.isosurfaces, [](const interaction::Isosurface& surface) {
+        return surface.opacity >= 1.0f;
+    });
+}
+
+} // namespace
 
 std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& now,
                                              const Outputs::Overlay& overlay) {
     Picture wanted = now;
     wanted.footprint = *frame.plan.in_parts;
     wanted.mesh_level = 0;
+    wanted.moved = false;
     if (!parts_ || !same_cells(parts_->picture, wanted))
         parts_.emplace(wanted);
     // What lies over the cells is drawn last. Where it is drawn already, the next frame draws it anew.
@@ -34,6 +46,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
 void PartialPictures::give_up_others(const Picture& drawn) {
     Picture same = drawn;
     same.resolution = same.mesh_level = 0;
+    same.moved = false;
     if (parts_)
         same.footprint = parts_->picture.footprint;
     if (parts_ && !same_cells(parts_->picture, same))
@@ -52,10 +65,11 @@ void PartialPictures::draw_pieces(Parts& parts) {
             parts.pace.took(done, time);
             continue;
         }
-        parts.whole = outputs_.draw_part(
-            parts.place, [&](const ScenePlace&, std::span<const render::View> views) {
-                return draw_part(parts, views, work, done);
-            });
+        parts.whole =
+            outputs_.draw_part(parts.picture.audience, parts.place,
+                               [&](const ScenePlace&, std::span<const render::View> views) {
+                                   return draw_part(parts, views, work, done);
+                               });
         parts.pace.took(done, watch.lap());
     }
 }
@@ -78,35 +92,45 @@ bool PartialPictures::draw_part(Parts& parts, std::span<const render::View> view
     return part.ends;
 }
 
-void PartialPictures::measure_unseen(const Frame& frame, const Picture& now,
-                                     const StopWatch& begun) {
-    const std::optional<render::Footprint> footprint = frame.plan.unseen;
-    const bool opaque =
-        std::ranges::all_of(now.isosurfaces, [](const interaction::Isosurface& surface) {
-            return surface.opacity >= 1.0f;
-        });
-    if (!footprint || !opaque || !frame.sharing.alone() || !outputs_.want(now.audience) ||
-        now.cells != scene_.cells().shown()) {
-        unseen_.reset();
-        return;
+void PartialPictures::draw_ahead(const Frame& frame, const Picture& now, const StopWatch& begun) {
+    Milliseconds left{0};
+    if (frame.plan.ahead && frame.sharing.alone() && outputs_.want(now.audience) &&
+        outputs_.viewports(now.audience) == 1 && now.audience.eyes.empty() && are_opaque(now)) {
+        outputs_.gl().Finish(); // so that the frame's own time is known
+        left = quality_.left_of_frame(begun.time());
+    } else {
+        ahead_.reset();
     }
-    if (!unseen_ || unseen_->picture.cells != now.cells ||
-        unseen_->picture.footprint != *footprint ||
-        unseen_->picture.layout.windows != now.layout.windows)
-        unseen_.emplace(now);
-    unseen_->picture = now;
-    unseen_->picture.footprint = *footprint;
-    outputs_.gl().Finish(); // so that the frame's own time is known
-    const Milliseconds left = quality_.left_of_frame(begun.time());
     if (!(left.count() > 0))
         return;
+    CellSets& sets = scene_.cells();
+    const bool rested = sets.draws_at_rest();
+    sets.draw_at_rest(true, frame.report.asked);
+    draw_ahead_within(left, frame, now);
+    sets.draw_at_rest(rested, frame.report.asked);
+}
+
+/// Of the set with the most detail that is there, which is the drawn one meanwhile.
+void PartialPictures::draw_ahead_within(Milliseconds left, const Frame& frame, const Picture& now) {
+    const CellSets& sets = scene_.cells();
+    if (!sets.is_complete() || !sets.footprints().has(render::Footprint::surface))
+        return ahead_.reset();
+    if (!ahead_ || ahead_->picture.cells != sets.shown() || ahead_->picture.layout != now.layout ||
+        !may_be_moved(ahead_->picture, now, frame.report.asked)) {
+        ahead_.emplace(now);
+        ahead_->picture.cells = sets.shown();
+        ahead_->picture.footprint = render::Footprint::surface;
+        ahead_->picture.resolution = ahead_->picture.mesh_level = 0;
+        ahead_->picture.moved = false;
+    }
     parts_.reset(); // they are drawn in the same place
-    unseen_->pace.begin_frame(left);
-    draw_pieces(*unseen_);
-    if (!unseen_->whole)
+    ahead_->pace.begin_frame(left);
+    draw_pieces(*ahead_);
+    if (!ahead_->whole)
         return;
-    quality_.learn_parts(*footprint, frame.report.cells, unseen_->pace.whole() - unseen_->prepared);
-    unseen_.reset();
+    quality_.learn_parts(render::Footprint::surface, sets.shown()->cells(),
+                         ahead_->pace.whole() - ahead_->prepared);
+    ahead_.reset();
 }
 
 } // namespace isochron::app

@@ -1,5 +1,5 @@
 // Pictures that are drawn over several frames beside the one that is shown: the exact picture at
-// rest, and pictures that only tell what a footprint would cost.
+// rest, and exact pictures to move while the head sways.
 #pragma once
 
 #include "app/frame/stop_watch.h"
@@ -32,11 +32,11 @@ class PartialPictures {
     /// Gives up the picture at rest, unless it shows the same cells as the one that is drawn.
     void give_up_others(const Picture& drawn);
 
-    /// Draws a footprint that might serve moving pictures off screen, to find out its time: in the
-    /// time that frames leave, and each piece for the views of the frame that it is drawn in. Not
-    /// for translucent surfaces, whose cells are sorted anew for every view.
+    /// While the head sways, draws the exact picture for where the eyes were when it was begun, in the
+    /// time that frames leave. Once it is whole it is kept, for the pictures that are moved, and its
+    /// cost is learnt. Not for translucent surfaces, which cannot be moved.
     /// @param begun with the frame, which is on show now
-    void measure_unseen(const Frame& frame, const Picture& now, const StopWatch& begun);
+    void draw_ahead(const Frame& frame, const Picture& now, const StopWatch& begun);
 
     /// Whether the picture in parts is whole, or shown.
     bool are_whole() const { return whole_; }
@@ -45,7 +45,7 @@ class PartialPictures {
         return parts_ && parts_->whole ? parts_->pace.whole() : Milliseconds(0);
     }
     /// Whether there is more to be drawn of one in the next frame.
-    bool are_made() const { return (parts_ && !parts_->whole) || unseen_; }
+    bool are_made() const { return (parts_ && !parts_->whole) || ahead_; }
 
   private:
     /// A picture that is drawn over several frames, and how far it has come.
@@ -59,6 +59,7 @@ class PartialPictures {
         bool whole = false;
     };
 
+    void draw_ahead_within(Milliseconds left, const Frame& frame, const Picture& now);
     void draw_pieces(Parts& parts);
     bool draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
                    std::size_t& done);
@@ -66,8 +67,8 @@ class PartialPictures {
     Scene& scene_;
     Outputs& outputs_;
     FrameQuality& quality_;
-    std::optional<Parts> parts_;  ///< the next picture, if it is made in parts
-    std::optional<Parts> unseen_; ///< one that is made only to measure it
+    std::optional<Parts> parts_; ///< the next picture, if it is made in parts
+    std::optional<Parts> ahead_; ///< one for where the eyes were a moment ago
     bool whole_ = false;
 };
 

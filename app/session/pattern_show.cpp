@@ -62,7 +62,7 @@ void PatternShow::draw(const ScenePlace& place, std::span<const render::View> vi
     const stereo::ViewerPose& viewer = outputs_.audience().viewers[number];
     const PatternWall wall =
         pattern_wall(*place.window, place.viewport, config_.installation.viewers[number],
-                     viewer.head, viewer.eye_separation, views.front().size);
+                     viewer.head, viewer.eyes, views.front().size);
     pattern_.draw(views, eyes_of(place.mode), wall, seen_);
 }
 

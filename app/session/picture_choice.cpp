@@ -1,13 +1,26 @@
 // Chooses how a frame's picture is drawn.
 #include "app/session/picture_choice.h"
 
+#include "app/session/kept/moved_picture.h"
+
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+bool is_translucent(const ExplorerState& state) {
+    return std::ranges::any_of(state.isosurfaces, [](const interaction::Isosurface& surface) {
+        return surface.opacity < 1.0f;
+    });
+}
+
+} // namespace
 
 PictureChoice::PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log,
-                             const CellSets& sets, CellSupply& supply, const PictureMaker& pictures)
-    : outputs_(outputs), log_(log), sets_(sets), supply_(supply), pictures_(pictures),
+                             const Scene& scene, CellSupply& supply, const PictureMaker& pictures)
+    : outputs_(outputs), log_(log), scene_(scene), sets_(scene.cells()), supply_(supply),
+      pictures_(pictures),
       // Beside a headset the window's refresh rate does not count.
       quality_(outputs.gl(), config,
                outputs.headset() ? std::nullopt : outputs.windows().first().refresh_rate()) {}
@@ -64,11 +77,14 @@ void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
         !sets_.may_have_meshes())
         return;
     const auto use = supply_.finest_in_motion(frame);
-    std::array<std::size_t, index::kMeshLevels> triangles{};
-    if (use)
-        triangles = sets_.triangles(*use);
-    const double quads = use ? supply_.share_of_quads(frame, *use, quality_) : 1;
-    const auto level = quality_.choose_mesh(triangles, quads, frame.report.time);
+    MeshesAtHand meshes;
+    meshes.translucent = is_translucent(frame.state);
+    meshes.now = frame.report.time;
+    if (use) {
+        meshes.triangles = sets_.triangles(*use);
+        meshes.quads = supply_.share_of_quads(frame, *use, quality_);
+    }
+    const auto level = quality_.choose_mesh(meshes);
     const bool passes = frame.report.pace == interaction::Pace::moving || plan.holds_finer;
     if (!level || !passes || plan.footprint >= render::Footprint::mesh ||
         sets_.shown() != sets_.held(*use))
@@ -77,7 +93,47 @@ void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
     plan.mesh_level = *level;
     plan.resolution = 0;
     plan.measure = plan.final = false;
-    frame.report.expected = quality_.expected_mesh(triangles[*level]);
+    frame.report.expected = quality_.expected_mesh(meshes.triangles[*level]);
+}
+
+/// Whether the last exact picture is moved, as what a frame can draw of what moves is worse.
+bool PictureChoice::moves_exact(const Frame& frame, const Picture& now,
+                                const FramePlan& plan) const {
+    const Picture* exact = scene_.movable_picture(outputs_.viewports(now.audience));
+    const bool all_triangles = plan.footprint == render::Footprint::mesh && plan.mesh_level == 0;
+    // What shows all of many small cells is as good: thin things move more truly than their holes and
+    // rims would.
+    const bool all_cells = plan.footprint == render::Footprint::mesh
+                               ? plan.mesh_level <= 1
+                               : frame.report.coarsest == 0 && plan.resolution <= 1;
+    const bool as_good = all_triangles || (all_cells && supply_.cells_look_small());
+    return exact && supply_.may_be_partial(frame) && !as_good &&
+           plan.footprint < render::Footprint::surface && now.audience.eyes.empty() &&
+           may_be_moved(*exact, now, frame.report.asked);
+}
+
+/// Whether the exact picture that is moved should be drawn anew for where the eyes are.
+bool PictureChoice::grows_old(const Picture& now) const {
+    constexpr double kOld = kMovedAtMost / 3;
+    return moved_by(*scene_.movable_picture(1), now) > kOld;
+}
+
+/// Whether a headset is given its last layer again, if that is exact: its runtime moves the layer to
+/// where the eyes are. Not for long, and only where nothing else moves.
+bool PictureChoice::shows_layer_again(const Frame& frame, const Picture& now) {
+    constexpr interaction::Seconds kLongest{0.2};
+    const std::optional<Picture>& drawn = frame.drawn;
+    const bool may = supply_.may_be_partial(frame) && !now.audience.eyes.empty() && drawn &&
+                     now.footprint < render::Footprint::surface &&
+                     now.room_from_physical == drawn->room_from_physical &&
+                     now.audience.wand == drawn->audience.wand &&
+                     now.audience.panel == drawn->audience.panel &&
+                     may_be_moved(*drawn, now, frame.report.asked);
+    if (!may)
+        again_since_.reset();
+    else if (!again_since_)
+        again_since_ = frame.report.time;
+    return may && frame.report.time - *again_since_ <= kLongest;
 }
 
 /// Takes over rank 0's plan.
@@ -97,6 +153,7 @@ void PictureChoice::agree(const Frame& frame, FramePlan plan) {
     report.footprint = frame.plan.footprint;
     report.resolution = frame.plan.resolution;
     report.mesh_level = frame.plan.mesh_level;
+    report.moved = frame.plan.moved;
     const auto use = supply_.finest_in_motion(frame);
     const bool is_mesh = report.footprint == render::Footprint::mesh && use;
     report.triangles = is_mesh ? sets_.triangles(*use)[report.mesh_level] : 0;
@@ -120,6 +177,11 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     plan.detail = supply_.wanted_detail(frame, quality_);
     plan.moves_finest = supply_.may_move_finest(frame, quality_);
     plan.final &= supply_.is_finest(frame) && (!frame.is_live() || plan.detail == had_detail);
+    // What stands at rest stays until its exact picture is shown.
+    plan.moved = (changed || now.moved) && moves_exact(frame, now, plan);
+    if (plan.moved) // what it stands for is not measured before it is needed
+        plan.measure = plan.final = false;
+    plan.ahead = !supply_.rests() && (plan.ahead || (plan.moved && grows_old(now)));
     agree(frame, plan);
     // A replay's picture is as good as it gets at once.
     if (!frame.is_live() && ((frame.plan.mesh && !had_mesh) || frame.plan.detail != had_detail)) {
@@ -134,8 +196,13 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     now.footprint = report.footprint;
     now.resolution = report.resolution;
     now.mesh_level = report.mesh_level;
+    now.moved = report.moved;
     rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
+    if (shows_layer_again(frame, now)) {
+        frame.plan.holds_finer = report.moved = true;
+        report.final = false;
+    }
     // While a headset wants no picture, there is nothing to draw or to measure.
     report.redrawn = outputs_.want(now.audience) && (now != frame.drawn || frame.plan.measure) &&
                      !frame.plan.holds_finer;
@@ -148,13 +215,16 @@ void PictureChoice::rest_in_parts(const Frame& frame, Picture& now) const {
         return;
     now.footprint = *report.in_parts;
     now.mesh_level = 0;
+    now.moved = false;
     const bool shown = same_cells(now, *frame.drawn);
     if (!shown) {
         now.footprint = report.footprint;
         now.mesh_level = report.mesh_level;
+        now.moved = report.moved;
     }
     report.footprint = now.footprint;
     report.mesh_level = now.mesh_level;
+    report.moved = now.moved;
     report.reason = QualityReason::in_parts;
     report.final = shown && supply_.is_finest(frame);
     if (shown)

@@ -4,6 +4,7 @@
 
 #include "app/frame/frame_log.h"
 #include "app/output/outputs.h"
+#include "app/scene/scene.h"
 #include "app/session/cell_supply.h"
 #include "app/session/frame.h"
 #include "app/session/picture_maker.h"
@@ -13,7 +14,7 @@ namespace isochron::app {
 class PictureChoice {
   public:
     /// All outlive the choice.
-    PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log, const CellSets& sets,
+    PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log, const Scene& scene,
                   CellSupply& supply, const PictureMaker& pictures);
 
     FrameQuality& quality() { return quality_; }
@@ -35,15 +36,20 @@ class PictureChoice {
     Options options(const Frame& frame, bool changed) const;
     FramePlan wanted(const Frame& frame, const Options& options);
     void choose_mesh(const Frame& frame, FramePlan& plan);
+    bool moves_exact(const Frame& frame, const Picture& now, const FramePlan& plan) const;
+    bool grows_old(const Picture& now) const;
+    bool shows_layer_again(const Frame& frame, const Picture& now);
     void agree(const Frame& frame, FramePlan plan);
     void rest_in_parts(const Frame& frame, Picture& now) const;
 
     const Outputs& outputs_;
     FrameLog& log_;
+    const Scene& scene_;
     const CellSets& sets_;
     CellSupply& supply_;
     const PictureMaker& pictures_;
     FrameQuality quality_;
+    std::optional<interaction::Seconds> again_since_; ///< a layer was first shown again
 };
 
 } // namespace isochron::app

@@ -51,9 +51,21 @@ bool PictureMaker::in_windows(const FrameReport& report) {
 
 /// Whether the windows are on a desktop rather than walls: there users need help with orientation.
 bool PictureMaker::on_desktop(const Audience& audience) const {
-    const auto& screens = config_.installation.windows.front().viewports;
     return outputs_.windows().first().has_window() && outputs_.shows_windows(audience) &&
-           !outputs_.room() && screens.front().screen.fit_aspect;
+           on_screens_of_desk();
+}
+
+bool PictureMaker::on_screens_of_desk() const {
+    const auto& screens = config_.installation.windows.front().viewports;
+    return !outputs_.room() && screens.front().screen.fit_aspect;
+}
+
+/// At a desk the words of the picture are as high as those of the panel.
+float PictureMaker::text_share(const ExplorerState& state) const {
+    if (!on_screens_of_desk())
+        return 0.0f;
+    return outputs_.windows().first().has_window() ? panel_.text_share(state)
+                                                   : config_.pictures.text;
 }
 
 /// The ray of a wand that mouse and keyboard play shows nothing that the cursor does not show.
@@ -108,11 +120,13 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
         .orientation = false,
         .caption = {},
         .mesh_level = frame.drawn ? frame.drawn->mesh_level : 0,
+        .moved = frame.drawn && frame.drawn->moved,
         .layout = {.windows = outputs_.window_sizes(),
                    .free = panel_.covered(state),
                    .aside = panel_.stands_beside(interaction::Reading(seen).viewer(), state)
                                 ? SessionPanel::kShare
-                                : 0.0f}};
+                                : 0.0f,
+                   .text = text_share(state)}};
     picture.orientation = on_desktop(picture.audience) && !state.room_panel.shown;
     return picture;
 }
@@ -142,13 +156,23 @@ std::string PictureMaker::words_under_pointer(const interaction::InputState& inp
     return mark_text(pointed ? pointed->point : *state.mark.point, arrays_.shown(state).info());
 }
 
-Picture PictureMaker::kept(const Picture& picture) const {
+Picture PictureMaker::kept(const Picture& picture,
+                           const interaction::WrittenPictures& parts) const {
     Picture kept = picture;
+    kept.moved = false;
     if (!config_.pictures.ray) {
         kept.pointed.reset();
         kept.audience.wand.reset();
     }
-    kept.orientation = config_.pictures.caption;
+    kept.legend = parts.legend;
+    kept.bounding_box &= parts.box;
+    // Also where no window is, so that a picture is made again as it was.
+    kept.orientation = config_.pictures.caption ||
+                       (parts.scale_bar && on_screens_of_desk() && !picture.audience.panel);
+    if (!parts.marks) {
+        kept.mark = {};
+        kept.tools = {};
+    }
     if (const index::ExtractionPtr& shown = sets_.shown(); shown && config_.pictures.caption)
         kept.caption = caption_text(shown->query, arrays_.file()->array(shown->query.array).info());
     return kept;

@@ -31,7 +31,7 @@ class PictureMaker {
     /// Continues with the cells that are shown now.
     void show_cells(Picture& picture, const ExplorerState& state) const;
     /// The same picture as it is kept.
-    Picture kept(const Picture& picture) const;
+    Picture kept(const Picture& picture, const interaction::WrittenPictures& parts) const;
     /// What is to be drawn over the last picture, which lacks it.
     const Aids& over() const { return over_; }
 
@@ -49,6 +49,8 @@ class PictureMaker {
     bool colored_as_asked(const ExplorerState& state) const;
     bool in_windows(const FrameReport& report);
     bool on_desktop(const Audience& audience) const;
+    bool on_screens_of_desk() const;
+    float text_share(const ExplorerState& state) const;
     Aids aids(const interaction::InputState& input, const ExplorerState& state) const;
     bool aids_lie_over(const ExplorerState& state) const;
 

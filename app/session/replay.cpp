@@ -93,7 +93,7 @@ void replay_pattern(PatternShow& show, const interaction::Recording& recording,
 }
 
 void replay_live(Session& session, const interaction::Recording& recording,
-                 const ReplayOptions& options, double frame_rate_limit) {
+                 const ReplayOptions& options, double frame_rate_limit, SessionControl* control) {
     const auto& frames = recording.frames;
     expect_arrays(session, recording);
     session.warm_up();
@@ -112,9 +112,11 @@ void replay_live(Session& session, const interaction::Recording& recording,
         for (; next < devices.frames_played(); ++next)
             interaction::merge(commands, obeyed(frames[next].commands, options));
         input.time = now;
-        session.frame(input, commands, Waiting::never, [&] {
+        const FrameReport& shown = session.frame(input, commands, Waiting::never, [&] {
             return interaction::InputState{clock(), frames[next - 1].latched.devices};
         });
+        if (control)
+            control->tell(session, shown);
         pacer.wait();
     }
 }

@@ -4,6 +4,7 @@
 
 #include "app/session/pattern_show.h"
 #include "app/session/session.h"
+#include "app/session/session_control.h"
 #include "interaction/recording/recording.h"
 
 #include <functional>
@@ -41,8 +42,10 @@ void replay_pattern(PatternShow& show, const interaction::Recording& recording,
 /// Replays in real time, as a session goes: obeys every command, and frames wait for nothing but
 /// the display. Ends with the recording or when the window closes.
 /// @param frame_rate_limit [1/s] where no display paces the frames
+/// @param control shows its clients the frames; null: nobody watches from outside
 void replay_live(Session& session, const interaction::Recording& recording,
-                 const ReplayOptions& options, double frame_rate_limit);
+                 const ReplayOptions& options, double frame_rate_limit,
+                 SessionControl* control = nullptr);
 
 /// The start state in a header. With `options.any_data` settings that are not valid for these data
 /// keep what `fallback` has.

@@ -24,7 +24,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),
       pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
-      choice_(config_, outputs_, log_, scene_.cells(), supply_, pictures_),
+      choice_(config_, outputs_, log_, scene_, supply_, pictures_),
       partial_(scene_, outputs_, choice_.quality()) {
     for (std::size_t number = 1; number < file->arrays(); ++number)
         scene_.cells().prepare_for(file->array(number).info());
@@ -144,6 +144,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .asked = state_,
             .frame = report,
             .arrays = {.names = arrays_.names(),
+                       .notes = arrays_.notes(),
                        .asked = arrays_.number(state_),
                        .way_to = [this](std::size_t number) { return way_to_array(number); },
                        .color_names = arrays_.color_names(),
@@ -163,19 +164,19 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
 }
 
-void Session::warm_up() {
+void Session::warm_up(const std::function<bool()>& goes_on) {
     if (outputs_.headset())
         return;
     const Picture picture = pictures_.first(state_);
     outputs_.draw(picture.audience,
-                  [this, picture](const ScenePlace&, std::span<const render::View> views) {
-                      scene_.warm_up(picture, views);
+                  [&, picture](const ScenePlace&, std::span<const render::View> views) {
+                      scene_.warm_up(picture, views, goes_on);
                   },
                   {});
     Outputs::PartPlace place; // what is drawn over several frames has a place of its own
     const auto nothing = [](const ScenePlace&, std::span<const render::View>) { return true; };
     for (bool whole = false; !whole;)
-        whole = outputs_.draw_part(place, nothing);
+        whole = outputs_.draw_part(picture.audience, place, nothing);
 }
 
 void Session::draw_eyes(const Frame& frame, const Picture& now,
@@ -218,10 +219,10 @@ void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::O
     const bool cells = !scene_.keeps_cells(*drawn_, outputs_.viewports(now.audience));
     if (cells)
         choice_.quality().begin(log_.next());
-    const bool keeps = frame.is_live() && supply_.rests();
+    const bool keeps = supply_.keeps_cells(frame, *drawn_);
     const auto scene = [this, keeps](const ScenePlace& place, std::span<const render::View> views) {
         if (place.kept) {
-            scene_.draw(pictures_.kept(*drawn_), views);
+            scene_.draw(pictures_.kept(*drawn_, state_.pictures), views);
         } else {
             supply_.note_views(views);
             scene_.draw(*drawn_, views, {.keeps = keeps});
@@ -278,9 +279,11 @@ PictureNote Session::note() const {
     PictureNote note = note_;
     note.data_hash = fmt::format("{:016x}", arrays_.file()->content_hash());
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
+    note.text = drawn_ ? drawn_->layout.text : 0.0f;
     ExplorerState state = state_;
     if (const index::ExtractionPtr& shown = scene_.cells().shown()) { // may lag while time plays
         state.step = shown->query.step;
+        state.fraction = shown->query.step.fraction;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
              ++i)
             state.isosurfaces[i].isovalue = shown->query.isovalues[i];
@@ -354,7 +357,6 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
-
     StopWatch stages;
     contents_.begin_frame();
     draw_eyes(frame, now, input, facts);
@@ -372,7 +374,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     if (contents_.composed()) // without the wait for a display that paces the frames
         choice_.quality().presented(std::min(report.present, processor_time() - drawn));
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
-    partial_.measure_unseen(frame, now, whole);
+    partial_.draw_ahead(frame, now, whole);
     note_.input = input;
     if (captures(report))
         outputs_.take_screenshots(note());

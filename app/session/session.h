@@ -93,7 +93,7 @@ class Session {
     interaction::Commands take_panel_commands();
 
     OperatorPanel& panel() { return panel_.over(); }
-
+    const OperatorPanel& panel() const { return panel_.over(); }
     /// Passes window events to the panel. @return the events that it does not use
     std::vector<interaction::WindowEvent>
     panel_events(std::span<const interaction::WindowEvent> events) {
@@ -102,7 +102,7 @@ class Session {
 
     /// Draws everything once off screen, before the first frame: drivers compile shaders when these
     /// are first used, and that takes longer than a frame may.
-    void warm_up();
+    void warm_up(const std::function<bool()>& goes_on = [] { return true; });
     /// Makes one frame, from commands to the presented picture.
     /// @param latch returns where the heads are when the views are made; empty: as in `input`
     const FrameReport& frame(const interaction::InputState& input,
@@ -147,8 +147,8 @@ class Session {
     }
     /// What is under the pointer in the last frame, or marked, in words; empty: nothing.
     std::string pointed() const { return pictures_.words_under_pointer(note_.input, state_); }
-    /// Note about the last frame.
-    PictureNote note() const;
+    PictureNote note() const; ///< about the last frame
+    std::optional<ColorScale> scale() const { return pictures_.scale(state_); } ///< of all colors
 
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const;
@@ -156,8 +156,7 @@ class Session {
     Outputs& outputs() { return outputs_; }
     const Outputs& outputs() const { return outputs_; }
     const FrameLog& log() const { return log_; }
-    /// Nobody will ask for the rows of a report: ten minutes of frames are enough for summaries.
-    void keep_few_reports() { log_.keep(FrameLog::kTenMinutes); }
+    FrameLog& log() { return log_; }
     /// The context, its driver, and the driver's features that do not work; one line for reports.
     std::string drawing() const;
     /// What has been read from the index since it was opened.

@@ -99,6 +99,12 @@ stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
                           : stereo::Margins{};
 }
 
+float SessionPanel::text_share(const ExplorerState& state) const {
+    const stereo::Margins margins = covered(state);
+    return over_.text_share(outputs_.windows()[0].framebuffer_size() / places(state) -
+                            glm::ivec2(0, margins.top + margins.bottom));
+}
+
 bool SessionPanel::head_is_emulated() const {
     const stereo::Screen& screen = config_.installation.windows.front().viewports.front().screen;
     return config_.devices.empty() && !config_.openxr.enabled && screen.carried_by_head &&

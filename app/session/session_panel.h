@@ -73,6 +73,8 @@ class SessionPanel {
     }
     /// Pixels that it covers at the edges of the first window, in each eye's part.
     stereo::Margins covered(const ExplorerState& state) const;
+    /// Height of its words, as a share of the height that it leaves free in each eye's part.
+    float text_share(const ExplorerState& state) const;
     /// Whether mouse and keyboard play the head, before a screen that it carries along.
     bool head_is_emulated() const;
     /// Where the panel in the room stands beside such a screen, in the head's frame: so far away

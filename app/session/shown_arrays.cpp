@@ -3,6 +3,7 @@
 
 #include "app/scene/color_scale.h"
 #include "app/session/start_state.h"
+#include "app/text.h"
 #include "index/error.h"
 #include "index/file/color_source.h"
 
@@ -18,7 +19,10 @@ ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::Inde
     : file_(std::move(file)),
       color_names_(index::color_source_names(*file_)), first_surfaces_{home.isosurfaces} {
     for (std::size_t number = 0; number < file_->arrays(); ++number) {
-        names_.push_back(file_->array(number).info().array);
+        const index::IndexFile& array = file_->array(number);
+        names_.push_back(array.info().array);
+        notes_.push_back(fmt::format("{:.4g} to {}", array.stats().low,
+                                     with_unit(array.stats().high, array.info().value_unit)));
         if (number > 0)
             first_surfaces_.push_back(first_surfaces(config, array_of(file_, number), home.step));
     }

@@ -76,6 +76,7 @@ ExplorerState start_state(const Config& config, const std::shared_ptr<const Inde
         state.array = file->info().array;
     state.room_from_physical = place(file->info(), config.placement);
     state.quality = config.quality.mode;
+    state.between = config.between.value_or(state.between);
     state.grid = config.grid;
     state.steps = static_cast<std::uint32_t>(file->info().steps());
     state.eye_separation = config.installation.viewers.front().eye_separation;

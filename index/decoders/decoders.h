@@ -17,7 +17,7 @@ std::unique_ptr<DecodedFile> decode_vtk(const std::filesystem::path& path,
                                         const ReadOptions& options);
 
 /// VTK's rectilinear grids (.vtr, legacy), files of several pieces (.pvti, .pvtr), and, where they
-/// are to be resampled, other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth, legacy).
+/// are to be resampled, other grids (.vtu, .vts, .pvtu, .pvts, .vtm, .vth, .vthb, legacy).
 std::unique_ptr<DecodedFile> decode_vtk_data(const std::filesystem::path& path,
                                              const ReadOptions& options);
 

@@ -23,7 +23,7 @@ constexpr double kFiner = 1 << kBitsFiner;
 constexpr double kLeastOfChunk = 64;
 /// How many more cells than asked for are better than another search.
 constexpr double kTolerated = 1.5;
-/// Cells of the largest grid of which it is kept when they were first active: two bytes each.
+/// Cells of the largest grid of which it is kept when they were first active: four bytes each.
 constexpr std::uint64_t kMostCrossings = std::uint64_t{1} << 28;
 /// Part of the cells asked for that those may be which levels have lost, however many are drawn.
 constexpr std::uint64_t kPartOfLost = 4;
@@ -90,8 +90,11 @@ const FirstCrossings* DetailSearch::crossings(double isovalue, unsigned level,
                    ? nullptr
                    : std::make_shared<const CellSet>(search_level(file_, level, query));
     };
-    if (!known)
-        known = first_crossings(file_->chunks(level).info(), search, isovalue, stop);
+    const bool blended = coloring_ == CellColoring::first_blended_crossing;
+    if (!known || known->blended() != blended)
+        known =
+            first_crossings(file_->chunks(level).info(), search, isovalue, stop,
+                            blended ? crossings_between(file_, level, isovalue, stop) : nullptr);
     return known.get();
 }
 
@@ -99,12 +102,12 @@ const FirstCrossings* DetailSearch::crossings(double isovalue, unsigned level,
 bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
                          std::vector<std::uint16_t>& colors, const std::stop_token& stop) {
     colors.assign(set.points.size(), kNoColor);
-    if (coloring_ == CellColoring::first_crossing) {
+    if (by_first_crossing(coloring_)) {
         if (set.ids.empty() || file_->chunks(level).info().grid.cell_count() > kMostCrossings)
             return true;
         const FirstCrossings* const first = crossings(query.isovalue, level, stop);
         if (first)
-            color_by_first_crossing(*first, file_->info().times, set.ids, colors);
+            color_by_first_crossing(*first, file_->info().times, query.step, set.ids, colors);
         return first != nullptr;
     }
     const ChunkStore* const store = source_ ? source_->chunks(level) : nullptr;
@@ -336,7 +339,7 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query,
     if (coloring_ == CellColoring::value && query.colors < ColorSource::count(*file_))
         source_.emplace(*file_, query.colors);
     std::erase_if(crossings_, [&](const auto& known) {
-        return coloring_ != CellColoring::first_crossing || !known.second ||
+        return !by_first_crossing(coloring_) || !known.second ||
                std::ranges::find(query.isovalues, known.first.first) == query.isovalues.end();
     });
     if (!count_down(query, stop))
@@ -375,7 +378,7 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query,
     if (!add_lost(query, finest, result, stop))
         return Outcome::stopped;
     result.colors.clear();
-    if (query.coloring == CellColoring::first_crossing || source_)
+    if (by_first_crossing(query.coloring) || source_)
         for (const auto& of_surface : colors_)
             result.colors.insert(result.colors.end(), of_surface.begin(), of_surface.end());
     return Outcome::made;

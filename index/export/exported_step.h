@@ -1,6 +1,7 @@
 // What is exported of a step: its surfaces as meshes, and what a file says of them.
 #pragma once
 
+#include "index/export/exported_mesh.h"
 #include "index/surface/cell_mesh.h"
 #include "index/surface/cell_set.h"
 #include "index/volume/grid.h"
@@ -10,10 +11,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace isochron::index {
+
+/// Packs what a file holds of a mesh, for EXT_meshopt_compression (Khronos, "glTF 2.0 Extension
+/// Registry"): as meshoptimizer does, which this floor does without.
+struct MeshPacking {
+    /// @param stride bytes of each vertex, a multiple of 4
+    std::vector<std::byte> (*vertices)(std::span<const std::byte> bytes, std::size_t stride);
+    /// @param corners three of each triangle, which may begin with another corner afterwards
+    /// @param vertices number of the vertices
+    std::vector<std::byte> (*triangles)(std::span<const std::uint32_t> corners,
+                                        std::size_t vertices);
+};
 
 /// What all steps of an export have in common.
 struct ExportPlan {
@@ -25,8 +39,12 @@ struct ExportPlan {
     double meters = 1;             ///< in a unit of length of the file; 1 where it is not known
     bool double_precision = false; ///< coordinates have 64 bits
     bool normals = true;
-    double rate = 10;                 ///< steps a second in files that hold all steps
-    std::vector<std::uint32_t> steps; ///< ascending
+    const MeshPacking* packing = nullptr; ///< in glTF; null: nothing is packed
+    bool quantized = false;               ///< in glTF, places have 16 bits and normals 8
+    double rate = 10;                     ///< steps a second in files that hold all steps
+    std::vector<std::uint32_t> steps;     ///< ascending
+    /// Each step is blended with the next one: so many 65536ths of it (index/volume/instant.h).
+    std::uint32_t fraction = 0;
 };
 
 /// A surface of a step.
@@ -34,15 +52,20 @@ struct ExportedSurface {
     std::string name;                    ///< `9.5 1/s`
     std::array<std::uint8_t, 3> color{}; ///< sRGB
     float opacity = 1;
-    const CellMesh* mesh = nullptr; ///< with values, if the plan names them
-    const CellSet* cells = nullptr; ///< with points, if the format asks for cells
+    const ExportedMesh* mesh = nullptr; ///< with values, if the plan names them
+    const CellSet* cells = nullptr;     ///< with points, if the format asks for cells
     double isovalue = 0;
-    /// sRGB of each vertex; empty: `color` everywhere.
-    std::vector<std::array<std::uint8_t, 3>> colors = {};
+    /// sRGB of a vertex with this value; null: `color` everywhere.
+    const std::function<std::array<std::uint8_t, 3>(float value)>* color_of = nullptr;
+
+    std::array<std::uint8_t, 3> color_at(float value) const {
+        return color_of ? (*color_of)(value) : color;
+    }
 };
 
 struct ExportedStep {
     std::uint32_t step = 0;
+    std::uint32_t fraction = 0; ///< of the way to the next step, in 65536ths
     double time = 0;
     const Grid* grid = nullptr;
     std::vector<ExportedSurface> surfaces;
@@ -64,9 +87,9 @@ class ExportedPlaces {
     /// Whether triangles must be turned, so that they are counter-clockwise as seen from the side
     /// of lower values.
     bool turned() const { return turned_; }
-    std::array<std::uint32_t, 3> triangle(const CellMesh& mesh, std::size_t number) const {
-        const std::uint32_t* const at = mesh.triangles.data() + 3 * number;
-        return turned_ ? std::array{at[0], at[2], at[1]} : std::array{at[0], at[1], at[2]};
+    template <class Corner>
+    std::array<Corner, 3> triangle(const std::array<Corner, 3>& at) const {
+        return turned_ ? std::array{at[0], at[2], at[1]} : at;
     }
 
   private:

@@ -3,9 +3,9 @@
 // upwards and meters: the node at the root turns and scales what stands in the unit of the file.
 #include "index/error.h"
 #include "index/export/buffered_sink.h"
+#include "index/export/glb_views.h"
 #include "index/export/surface_writer.h"
 #include "index/system/new_file.h"
-#include "index/system/scratch_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,8 +21,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 // Numbers of the specification.
-constexpr int kFloat = 5126, kUint = 5125, kUbyte = 5121;
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kFloat = 5126, kUint = 5125, kUbyte = 5121, kUshort = 5123, kByte = 5120;
 constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
 
 /// sRGB to linear light (IEC 61966-2-1), which materials and vertices of glTF have.
@@ -35,10 +34,9 @@ float linear(std::uint8_t srgb) {
 class GlbFile {
   public:
     GlbFile(const ExportPlan& plan, std::filesystem::path path)
-        : plan_(plan), path_(std::move(path)), scratch_(path_), out_(scratch_) {
+        : plan_(plan), path_(std::move(path)), binary_(path_, plan.packing) {
         document_["asset"] = {{"version", "2.0"}, {"generator", plan.note}};
-        for (const char* list :
-             {"scenes", "nodes", "meshes", "materials", "accessors", "bufferViews", "buffers"})
+        for (const char* list : {"scenes", "nodes", "meshes", "materials", "accessors"})
             document_[list] = json::array();
         // Turns z upwards to y upwards.
         constexpr double kHalf = 0.7071067811865476;
@@ -49,6 +47,12 @@ class GlbFile {
                                       {"children", json::array()}});
         document_["scenes"].push_back({{"nodes", {0}}});
         document_["scene"] = 0;
+        for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+            if (plan.quantized)
+                document_[list].push_back("KHR_mesh_quantization");
+            if (plan.packing)
+                document_[list].push_back(GlbViews::kPacked);
+        }
     }
 
     /// @return number of the step's node
@@ -57,7 +61,7 @@ class GlbFile {
         const glm::dvec3& origin = places.origin();
         json children = json::array();
         for (const ExportedSurface& surface : step.surfaces)
-            if (!surface.mesh->triangles.empty()) // meshes of glTF have triangles
+            if (surface.mesh->triangles() > 0) // meshes of glTF have triangles
                 children.push_back(add(surface, places));
         json node{{"name", fmt::format("step {}", step.step)},
                   {"extras",
@@ -90,18 +94,18 @@ class GlbFile {
             const auto end = static_cast<float>(each * static_cast<double>(nodes.size()));
             if (!last && i + 2 < nodes.size()) // all end together
                 key(end, 0);
-            const std::size_t at = begin_view();
+            const std::size_t at = binary_.begin();
             for (const float time : times)
-                out_.put(time);
+                binary_.put_plain(time);
             const std::size_t input =
-                accessor(end_view(at, std::nullopt), kFloat, times.size(), "SCALAR");
+                accessor(binary_.end_plain(at), kFloat, times.size(), "SCALAR");
             document_["accessors"][input]["min"] = {times.front()};
             document_["accessors"][input]["max"] = {times.back()};
-            const std::size_t from = begin_view();
+            const std::size_t from = binary_.begin();
             for (const float scale : scales)
-                out_.put(scale);
+                binary_.put_plain(scale);
             const std::size_t output =
-                accessor(end_view(from, std::nullopt), kFloat, times.size(), "VEC3");
+                accessor(binary_.end_plain(from), kFloat, times.size(), "VEC3");
             channels.push_back({{"sampler", samplers.size()},
                                 {"target", {{"node", nodes[i]}, {"path", "scale"}}}});
             samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "STEP"}});
@@ -114,11 +118,10 @@ class GlbFile {
     }
 
     void finish() {
-        out_.align(4);
-        out_.flush();
-        const std::uint64_t bytes = out_.size();
-        if (bytes > 0)
-            document_["buffers"].push_back({{"byteLength", bytes}});
+        binary_.complete();
+        const std::uint64_t bytes = binary_.size();
+        document_["bufferViews"] = binary_.views();
+        document_["buffers"] = binary_.buffers();
         for (const char* list : {"meshes", "materials", "accessors", "bufferViews", "buffers"})
             if (document_[list].empty()) // the specification forbids empty lists
                 document_.erase(list);
@@ -143,7 +146,7 @@ class GlbFile {
         if (bytes > 0) {
             put(bytes);
             put(kBinary);
-            out.copy(scratch_, bytes);
+            binary_.copy_to(out);
         }
         out.flush();
         file.commit_unflushed();
@@ -154,57 +157,98 @@ class GlbFile {
         document_[list].push_back(std::move(value));
         return document_[list].size() - 1;
     }
-    std::uint64_t begin_view() {
-        out_.align(4);
-        return out_.size();
-    }
-    std::size_t end_view(std::uint64_t begin, std::optional<int> target) {
-        json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", out_.size() - begin}};
-        if (target)
-            view["target"] = *target;
-        return push("bufferViews", std::move(view));
-    }
     std::size_t accessor(std::size_t view, int type, std::size_t count, const char* shape) {
         return push(
             "accessors",
             {{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}});
     }
 
-    std::size_t add_places(const CellMesh& mesh, const ExportedPlaces& places) {
+    std::size_t add_places(const ExportedMesh& mesh, const ExportedPlaces& places) {
         glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-        const std::uint64_t begin = begin_view();
-        for (const MeshVertex& vertex : mesh.vertices) {
+        const std::uint64_t begin = binary_.begin();
+        mesh.each_vertex([&](const MeshVertex& vertex, float) {
             const glm::vec3 at(places.of(vertex));
             low = glm::min(low, at);
             high = glm::max(high, at);
-            out_.put(at);
-        }
+            binary_.put(at);
+        });
         const std::size_t number =
-            accessor(end_view(begin, kArrayBuffer), kFloat, mesh.vertices.size(), "VEC3");
+            accessor(binary_.end_vertices(begin, 12), kFloat, mesh.vertices(), "VEC3");
         document_["accessors"][number]["min"] = {low.x, low.y, low.z};
         document_["accessors"][number]["max"] = {high.x, high.y, high.z};
         return number;
     }
 
-    std::size_t add_normals(const CellMesh& mesh) {
-        const std::uint64_t begin = begin_view();
-        for (const MeshVertex& vertex : mesh.vertices) {
+    /// Places in 16 bits, the same along all axes so that normals keep their directions.
+    /// @param node gets what leads back to the places
+    std::size_t add_quantized_places(const ExportedMesh& mesh, const ExportedPlaces& places,
+                                     json& node) {
+        constexpr double kMost = 65535;
+        glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
+        mesh.each_vertex([&](const MeshVertex& vertex, float) {
+            low = glm::min(low, places.of(vertex));
+            high = glm::max(high, places.of(vertex));
+        });
+        const glm::dvec3 size = high - low;
+        const double scale =
+            std::max({size.x, size.y, size.z, std::numeric_limits<float>::min() * 1.0});
+        node["translation"] = {low.x, low.y, low.z};
+        node["scale"] = {scale, scale, scale};
+        glm::uvec3 least(65535), most(0);
+        const std::uint64_t begin = binary_.begin();
+        mesh.each_vertex([&](const MeshVertex& vertex, float) {
+            const glm::uvec3 at(glm::round((places.of(vertex) - low) / scale * kMost));
+            least = glm::min(least, at);
+            most = glm::max(most, at);
+            for (int axis = 0; axis < 3; ++axis)
+                binary_.put(static_cast<std::uint16_t>(at[axis]));
+            binary_.put(std::uint16_t{0}); // a vertex begins at a multiple of four bytes
+        });
+        const std::size_t number =
+            accessor(binary_.end_vertices(begin, 8), kUshort, mesh.vertices(), "VEC3");
+        json& made = document_["accessors"][number];
+        made["normalized"] = true;
+        made["min"] = {least.x, least.y, least.z};
+        made["max"] = {most.x, most.y, most.z};
+        return number;
+    }
+
+    std::size_t add_quantized_normals(const ExportedMesh& mesh) {
+        constexpr double kOne = 127;
+        const std::uint64_t begin = binary_.begin();
+        mesh.each_vertex([&](const MeshVertex& vertex, float) {
+            glm::dvec3 normal = normal_of(vertex);
+            if (normal == glm::dvec3(0.0))
+                normal = {0, 0, 1};
+            for (int axis = 0; axis < 3; ++axis)
+                binary_.put(static_cast<std::int8_t>(std::lround(normal[axis] * kOne)));
+            binary_.put(std::int8_t{0});
+        });
+        const std::size_t number =
+            accessor(binary_.end_vertices(begin, 4), kByte, mesh.vertices(), "VEC3");
+        document_["accessors"][number]["normalized"] = true;
+        return number;
+    }
+
+    std::size_t add_normals(const ExportedMesh& mesh) {
+        const std::uint64_t begin = binary_.begin();
+        mesh.each_vertex([&](const MeshVertex& vertex, float) {
             const glm::vec3 normal(normal_of(vertex)); // a glTF normal has length 1
-            out_.put(normal == glm::vec3(0.0f) ? glm::vec3(0.0f, 0.0f, 1.0f) : normal);
-        }
-        return accessor(end_view(begin, kArrayBuffer), kFloat, mesh.vertices.size(), "VEC3");
+            binary_.put(normal == glm::vec3(0.0f) ? glm::vec3(0.0f, 0.0f, 1.0f) : normal);
+        });
+        return accessor(binary_.end_vertices(begin, 12), kFloat, mesh.vertices(), "VEC3");
     }
 
     std::size_t add_colors(const ExportedSurface& surface) {
-        const std::uint64_t begin = begin_view();
+        const std::uint64_t begin = binary_.begin();
         constexpr float kFull = 255;
-        for (const auto& color : surface.colors) {
-            for (const std::uint8_t channel : color)
-                out_.put(static_cast<std::uint8_t>(std::lround(kFull * linear(channel))));
-            out_.put(std::uint8_t{255});
-        }
+        surface.mesh->each_vertex([&](const MeshVertex&, float value) {
+            for (const std::uint8_t channel : surface.color_at(value))
+                binary_.put(static_cast<std::uint8_t>(std::lround(kFull * linear(channel))));
+            binary_.put(std::uint8_t{255});
+        });
         const std::size_t number =
-            accessor(end_view(begin, kArrayBuffer), kUbyte, surface.colors.size(), "VEC4");
+            accessor(binary_.end_vertices(begin, 4), kUbyte, surface.mesh->vertices(), "VEC4");
         document_["accessors"][number]["normalized"] = true;
         return number;
     }
@@ -212,7 +256,7 @@ class GlbFile {
     std::size_t add_material(const ExportedSurface& surface) {
         const auto& c = surface.color;
         json factor =
-            surface.colors.empty() ? json{linear(c[0]), linear(c[1]), linear(c[2])} : json{1, 1, 1};
+            !surface.color_of ? json{linear(c[0]), linear(c[1]), linear(c[2])} : json{1, 1, 1};
         factor.push_back(surface.opacity);
         json material{
             {"name", surface.name},
@@ -229,31 +273,36 @@ class GlbFile {
     }
 
     std::size_t add(const ExportedSurface& surface, const ExportedPlaces& places) {
-        const CellMesh& mesh = *surface.mesh;
-        json attributes{{"POSITION", add_places(mesh, places)}};
+        const ExportedMesh& mesh = *surface.mesh;
+        json node{{"name", surface.name}};
+        json attributes;
+        attributes["POSITION"] =
+            plan_.quantized ? add_quantized_places(mesh, places, node) : add_places(mesh, places);
         if (plan_.normals)
-            attributes["NORMAL"] = add_normals(mesh);
-        if (!surface.colors.empty())
+            attributes["NORMAL"] =
+                plan_.quantized ? add_quantized_normals(mesh) : add_normals(mesh);
+        if (surface.color_of)
             attributes["COLOR_0"] = add_colors(surface);
-        const std::uint64_t begin = begin_view();
-        for (std::size_t i = 0; i < mesh.triangles.size() / 3; ++i)
-            for (const std::uint32_t corner : places.triangle(mesh, i))
-                out_.put(corner);
-        const std::size_t indices =
-            accessor(end_view(begin, kElementArrayBuffer), kUint, mesh.triangles.size(), "SCALAR");
+        const std::uint64_t begin = binary_.begin();
+        mesh.each_triangle([&](const auto& corners) {
+            for (const std::uint32_t corner : places.triangle(corners))
+                binary_.put(corner);
+        });
+        const std::size_t indices = accessor(binary_.end_triangles(begin, mesh.vertices()), kUint,
+                                             3 * mesh.triangles(), "SCALAR");
         const std::size_t material = add_material(surface);
         const std::size_t number =
             push("meshes", {{"name", surface.name},
                             {"primitives", json::array({{{"attributes", attributes},
                                                          {"indices", indices},
                                                          {"material", material}}})}});
-        return push("nodes", {{"name", surface.name}, {"mesh", number}});
+        node["mesh"] = number;
+        return push("nodes", std::move(node));
     }
 
     const ExportPlan& plan_;
     std::filesystem::path path_;
-    ScratchFile scratch_; ///< the binary part, until its length is known
-    BufferedSink out_;
+    GlbViews binary_;
     json document_;
 };
 

@@ -26,7 +26,7 @@ class ObjWriter : public SurfaceWriter {
         for (std::size_t i = 0; i < step.surfaces.size(); ++i) {
             out.text(fmt::format("o surface_{}\n# {}\n", i + 1, step.surfaces[i].name));
             put(step.surfaces[i], places, first, out);
-            first += step.surfaces[i].mesh->vertices.size();
+            first += step.surfaces[i].mesh->vertices();
         }
         out.flush();
         file.commit_unflushed();
@@ -35,16 +35,15 @@ class ObjWriter : public SurfaceWriter {
   private:
     void put(const ExportedSurface& surface, const ExportedPlaces& places, std::uint64_t first,
              BufferedSink& out) const {
-        const CellMesh& mesh = *surface.mesh;
         fmt::memory_buffer line;
         const auto end_line = [&] {
             out.text({line.data(), line.size()});
             line.clear();
         };
         constexpr float kFull = 255;
-        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-            const glm::dvec3 at = places.of(mesh.vertices[i]);
-            const auto& color = surface.colors.empty() ? surface.color : surface.colors[i];
+        surface.mesh->each_vertex([&](const MeshVertex& vertex, float value) {
+            const glm::dvec3 at = places.of(vertex);
+            const auto color = surface.color_at(value);
             if (plan_.double_precision)
                 fmt::format_to(std::back_inserter(line), "v {} {} {}", at.x, at.y, at.z);
             else
@@ -53,16 +52,15 @@ class ObjWriter : public SurfaceWriter {
             fmt::format_to(std::back_inserter(line), " {:.4g} {:.4g} {:.4g}\n", color[0] / kFull,
                            color[1] / kFull, color[2] / kFull);
             if (plan_.normals) {
-                const glm::vec3 normal(normal_of(mesh.vertices[i]));
+                const glm::vec3 normal(normal_of(vertex));
                 fmt::format_to(std::back_inserter(line), "vn {:.6g} {:.6g} {:.6g}\n", normal.x,
                                normal.y, normal.z);
             }
             end_line();
-        }
-        for (std::size_t i = 0; i < mesh.triangles.size() / 3; ++i) {
-            const auto corners = places.triangle(mesh, i);
+        });
+        surface.mesh->each_triangle([&](const auto& corners) {
             line.push_back('f');
-            for (const std::uint32_t corner : corners) {
+            for (const std::uint32_t corner : places.triangle(corners)) {
                 const std::uint64_t number = first + corner;
                 if (plan_.normals)
                     fmt::format_to(std::back_inserter(line), " {}//{}", number, number);
@@ -71,7 +69,7 @@ class ObjWriter : public SurfaceWriter {
             }
             line.push_back('\n');
             end_line();
-        }
+        });
     }
 
     ExportPlan plan_;

@@ -23,12 +23,12 @@ class PlyWriter : public SurfaceWriter {
             put_vertices(step.surfaces[i], static_cast<std::uint8_t>(i), places, out);
         std::uint32_t first = 0;
         for (const ExportedSurface& surface : step.surfaces) {
-            for (std::size_t i = 0; i < surface.mesh->triangles.size() / 3; ++i) {
+            surface.mesh->each_triangle([&](const auto& corners) {
                 out.put(std::uint8_t{3});
-                for (const std::uint32_t corner : places.triangle(*surface.mesh, i))
+                for (const std::uint32_t corner : places.triangle(corners))
                     out.put(first + corner);
-            }
-            first += static_cast<std::uint32_t>(surface.mesh->vertices.size());
+            });
+            first += static_cast<std::uint32_t>(surface.mesh->vertices());
         }
         out.flush();
         file.commit_unflushed();
@@ -36,11 +36,11 @@ class PlyWriter : public SurfaceWriter {
 
   private:
     std::string header(const ExportedStep& step, const ExportedPlaces& places) const {
-        std::size_t vertices = 0, triangles = 0;
+        std::uint64_t vertices = 0, triangles = 0;
         std::string named;
         for (std::size_t i = 0; i < step.surfaces.size(); ++i) {
-            vertices += step.surfaces[i].mesh->vertices.size();
-            triangles += step.surfaces[i].mesh->triangles.size() / 3;
+            vertices += step.surfaces[i].mesh->vertices();
+            triangles += step.surfaces[i].mesh->triangles();
             named += fmt::format("comment surface {}: {}\n", i, step.surfaces[i].name);
         }
         const char* const place = plan_.double_precision ? "double" : "float";
@@ -59,20 +59,19 @@ class PlyWriter : public SurfaceWriter {
 
     void put_vertices(const ExportedSurface& surface, std::uint8_t number,
                       const ExportedPlaces& places, BufferedSink& out) const {
-        const CellMesh& mesh = *surface.mesh;
-        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-            const glm::dvec3 at = places.of(mesh.vertices[i]);
+        surface.mesh->each_vertex([&](const MeshVertex& vertex, float value) {
+            const glm::dvec3 at = places.of(vertex);
             if (plan_.double_precision)
                 out.put(at);
             else
                 out.put(glm::vec3(at));
             if (plan_.normals)
-                out.put(glm::vec3(normal_of(mesh.vertices[i])));
-            out.put(surface.colors.empty() ? surface.color : surface.colors[i]);
+                out.put(glm::vec3(normal_of(vertex)));
+            out.put(surface.color_at(value));
             if (!plan_.values_name.empty())
-                out.put(mesh.values[i]);
+                out.put(value);
             out.put(number);
-        }
+        });
     }
 
     ExportPlan plan_;

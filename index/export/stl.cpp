@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace isochron::index {
@@ -28,8 +29,7 @@ class StlWriter : public SurfaceWriter {
   private:
     void write(const ExportedStep& step, const ExportedSurface& surface,
                const std::filesystem::path& path) const {
-        const CellMesh& mesh = *surface.mesh;
-        const std::size_t triangles = mesh.triangles.size() / 3;
+        const std::uint64_t triangles = surface.mesh->triangles();
         if (triangles > std::numeric_limits<std::uint32_t>::max())
             throw Error(fmt::format("{}: {} triangles, expected fewer than 2^32 in STL",
                                     path.string(), triangles));
@@ -38,18 +38,18 @@ class StlWriter : public SurfaceWriter {
         const ExportedPlaces places(*step.grid, plan_);
         out.text(header(places));
         out.put(static_cast<std::uint32_t>(triangles));
-        for (std::size_t i = 0; i < triangles; ++i) {
+        surface.mesh->each_placed_triangle([&](const std::array<MeshVertex, 3>& vertices) {
             std::array<glm::vec3, 3> corners;
-            const auto numbers = places.triangle(mesh, i);
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                corners[corner] = glm::vec3(places.of(mesh.vertices[numbers[corner]]));
+            std::ranges::transform(
+                places.triangle(vertices), corners.begin(),
+                [&](const MeshVertex& vertex) { return glm::vec3(places.of(vertex)); });
             const glm::dvec3 across = glm::cross(glm::dvec3(corners[1]) - glm::dvec3(corners[0]),
                                                  glm::dvec3(corners[2]) - glm::dvec3(corners[0]));
             const double length = glm::length(across);
             out.put(length > 0 ? glm::vec3(across / length) : glm::vec3(0.0f));
             out.put(corners);
             out.put(std::uint16_t{0});
-        }
+        });
         out.flush();
         file.commit_unflushed();
     }

@@ -27,7 +27,9 @@ struct SurfaceWish {
 
 /// Values at the vertices, and what color they have.
 struct ValuesWish {
-    std::size_t array = 0; ///< to color by (ColorSource)
+    /// To color by (ColorSource); none: the time at which the surface first passed through a cell,
+    /// which its vertices get, and NaN where that is not known.
+    std::optional<std::size_t> array;
     /// sRGB of a value; empty: vertices have the color of their surface.
     std::function<std::array<std::uint8_t, 3>(float value)> color_of;
 };
@@ -36,6 +38,10 @@ struct ExportRequest {
     ExportPlan plan;
     std::vector<SurfaceWish> surfaces;
     std::optional<ValuesWish> values; ///< needs `ExportPlan::values_name`
+    /// Changes each mesh before it is colored and written; may be null. Called on one thread. It gets
+    /// the whole mesh, which is in memory then.
+    std::function<void(CellMesh& mesh)> reshape;
+    std::stop_token stop = {}; ///< ends the export: it throws Error then
 };
 
 /// What was written.
@@ -44,7 +50,9 @@ struct ExportCount {
     std::vector<std::uint32_t> empty_steps; ///< in which no surface has a cell
 };
 
-/// Holds the meshes of one step at a time.
+/// Meshes are made and written in pieces, by layers of chunks: memory holds some megabytes of a mesh,
+/// and the disk of the files the rest until it is written. Steps are written while the next ones are
+/// made.
 /// @param name of the file, or of the files of steps: see `file_of_step`
 /// @throws Error: a step that is not there, damage, a disk that is full; what `progress` throws.
 ///         Files that are written by then are whole and stay.

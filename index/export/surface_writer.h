@@ -32,14 +32,15 @@ class SurfaceWriter {
 };
 
 struct SurfaceFormat {
-    std::string_view name;      ///< as on a command line
-    std::string_view extension; ///< with its dot
-    std::string_view words;     ///< what it is for
-    bool all_in_one = false;    ///< one file holds all steps
-    bool by_surface = false;    ///< each surface has files of its own, where there are several
-    bool with_values = false;   ///< can hold values at the vertices
-    bool with_doubles = false;  ///< can hold coordinates in double precision
-    bool of_cells = false;      ///< of cells, not of triangles
+    std::string_view name;       ///< as on a command line
+    std::string_view extension;  ///< with its dot
+    std::string_view words;      ///< what it is for
+    bool all_in_one = false;     ///< one file holds all steps
+    bool by_surface = false;     ///< each surface has files of its own, where there are several
+    bool with_values = false;    ///< can hold values at the vertices
+    bool with_doubles = false;   ///< can hold coordinates in double precision
+    bool of_cells = false;       ///< of cells, not of triangles
+    bool with_quantized = false; ///< can hold coordinates in fewer bits
     std::unique_ptr<SurfaceWriter> (*make)(const ExportPlan& plan,
                                            const std::filesystem::path& name);
 };

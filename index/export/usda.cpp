@@ -81,15 +81,17 @@ class MeshSamples {
 
     void add(const ExportPlan& plan, const ExportedSurface& surface, const ExportedPlaces& places,
              std::size_t code) {
-        const CellMesh& mesh = *surface.mesh;
+        const ExportedMesh& mesh = *surface.mesh;
         glm::dvec3 low(0.0), high(0.0);
         points_.begin(code);
-        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-            const glm::dvec3 at = places.of(mesh.vertices[i]);
-            low = i == 0 ? at : glm::min(low, at);
-            high = i == 0 ? at : glm::max(high, at);
+        bool first = true;
+        mesh.each_vertex([&](const MeshVertex& vertex, float) {
+            const glm::dvec3 at = places.of(vertex);
+            low = first ? at : glm::min(low, at);
+            high = first ? at : glm::max(high, at);
+            first = false;
             points_.place(at);
-        }
+        });
         points_.end();
         extent_.begin(code);
         extent_.place(low);
@@ -97,29 +99,34 @@ class MeshSamples {
         extent_.end();
         counts_.begin(code);
         corners_.begin(code);
-        for (std::size_t i = 0; i < mesh.triangles.size() / 3; ++i) {
+        mesh.each_triangle([&](const auto& corners) {
             counts_.number(std::uint32_t{3});
-            for (const std::uint32_t corner : places.triangle(mesh, i))
+            for (const std::uint32_t corner : places.triangle(corners))
                 corners_.number(corner);
-        }
+        });
         counts_.end();
         corners_.end();
         if (plan.normals) {
             normals_.begin(code);
-            for (const MeshVertex& vertex : mesh.vertices)
-                normals_.place(normal_of(vertex));
+            mesh.each_vertex(
+                [&](const MeshVertex& vertex, float) { normals_.place(normal_of(vertex)); });
             normals_.end();
         }
         constexpr double kFull = 255;
-        colored_ = !surface.colors.empty();
-        colors_.begin(code);
-        for (const auto& c : colored_ ? surface.colors : std::vector{surface.color})
+        colored_ = surface.color_of;
+        const auto put_color = [&](const std::array<std::uint8_t, 3>& c) {
             colors_.place(glm::dvec3(c[0], c[1], c[2]) / kFull);
+        };
+        colors_.begin(code);
+        if (colored_)
+            mesh.each_vertex(
+                [&](const MeshVertex&, float value) { put_color(surface.color_at(value)); });
+        else
+            put_color(surface.color);
         colors_.end();
         if (!plan.values_name.empty()) {
             values_.begin(code);
-            for (const float value : mesh.values)
-                values_.number(value);
+            mesh.each_vertex([&](const MeshVertex&, float value) { values_.number(value); });
             values_.end();
         }
     }

@@ -77,8 +77,8 @@ class VtpWriter : public SurfaceWriter {
     void write(const ExportedStep& step, BufferedSink& out) const {
         std::uint64_t vertices = 0, triangles = 0;
         for (const ExportedSurface& surface : step.surfaces) {
-            vertices += surface.mesh->vertices.size();
-            triangles += surface.mesh->triangles.size() / 3;
+            vertices += surface.mesh->vertices();
+            triangles += surface.mesh->triangles();
         }
         const ExportedPlaces places(*step.grid, plan_);
         const bool wide = plan_.double_precision, valued = !plan_.values_name.empty();
@@ -110,8 +110,8 @@ class VtpWriter : public SurfaceWriter {
         out.text(text);
         put_points(step, vertices, out);
         out.put(place_bytes);
-        each_vertex(step, [&](const ExportedSurface& surface, std::size_t i, std::size_t) {
-            const glm::dvec3 at = places.of(surface.mesh->vertices[i]);
+        each_vertex(step, [&](const MeshVertex& vertex, float, std::size_t) {
+            const glm::dvec3 at = places.of(vertex);
             if (wide)
                 out.put(at);
             else
@@ -120,10 +120,11 @@ class VtpWriter : public SurfaceWriter {
         out.put(triangles * 24);
         std::int64_t first = 0;
         for (const ExportedSurface& surface : step.surfaces) {
-            for (std::size_t i = 0; i < surface.mesh->triangles.size() / 3; ++i)
-                for (const std::uint32_t corner : places.triangle(*surface.mesh, i))
+            surface.mesh->each_triangle([&](const auto& corners) {
+                for (const std::uint32_t corner : places.triangle(corners))
                     out.put(first + corner);
-            first += static_cast<std::int64_t>(surface.mesh->vertices.size());
+            });
+            first += static_cast<std::int64_t>(surface.mesh->vertices());
         }
         out.put(triangles * 8);
         for (std::uint64_t i = 1; i <= triangles; ++i)
@@ -135,22 +136,20 @@ class VtpWriter : public SurfaceWriter {
     void put_points(const ExportedStep& step, std::uint64_t vertices, BufferedSink& out) const {
         if (plan_.normals) {
             out.put(vertices * 12);
-            each_vertex(step, [&](const ExportedSurface& surface, std::size_t i, std::size_t) {
-                out.put(glm::vec3(normal_of(surface.mesh->vertices[i])));
+            each_vertex(step, [&](const MeshVertex& vertex, float, std::size_t) {
+                out.put(glm::vec3(normal_of(vertex)));
             });
         }
         if (!plan_.values_name.empty()) {
             out.put(vertices * 4);
-            each_vertex(step, [&](const ExportedSurface& surface, std::size_t i, std::size_t) {
-                out.put(surface.mesh->values[i]);
-            });
+            each_vertex(step, [&](const MeshVertex&, float value, std::size_t) { out.put(value); });
         }
         out.put(vertices * 3);
-        each_vertex(step, [&](const ExportedSurface& surface, std::size_t i, std::size_t) {
-            out.put(surface.colors.empty() ? surface.color : surface.colors[i]);
+        each_vertex(step, [&](const MeshVertex&, float value, std::size_t number) {
+            out.put(step.surfaces[number].color_at(value));
         });
         out.put(vertices);
-        each_vertex(step, [&](const ExportedSurface&, std::size_t, std::size_t number) {
+        each_vertex(step, [&](const MeshVertex&, float, std::size_t number) {
             out.put(static_cast<std::uint8_t>(number));
         });
     }
@@ -158,8 +157,8 @@ class VtpWriter : public SurfaceWriter {
     template <class Use>
     static void each_vertex(const ExportedStep& step, Use&& use) {
         for (std::size_t number = 0; number < step.surfaces.size(); ++number)
-            for (std::size_t i = 0; i < step.surfaces[number].mesh->vertices.size(); ++i)
-                use(step.surfaces[number], i, number);
+            step.surfaces[number].mesh->each_vertex(
+                [&](const MeshVertex& vertex, float value) { use(vertex, value, number); });
     }
 
     ExportPlan plan_;

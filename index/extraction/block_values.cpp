@@ -1,7 +1,10 @@
 // Rounds values and isovalues to the values that volume blocks hold.
 #include "index/extraction/block_values.h"
 
+#include "index/volume/query.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -27,18 +30,32 @@ float nearest(double value) {
     return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
 
-/// The value rounded to f32, but kept on its own side of all levels.
-float on_its_side(double relative, double scaled, const BlockLevels& levels) {
-    if (std::isnan(scaled))
-        return std::numeric_limits<float>::quiet_NaN();
-    auto rounded = static_cast<float>(relative);
-    const auto above = std::ranges::upper_bound(levels.exact, scaled) - levels.exact.begin();
-    if (above > 0)
-        rounded = std::max(rounded, levels.rounded[above - 1]);
-    if (above < std::ssize(levels.rounded))
-        rounded = std::min(rounded, std::nextafter(levels.rounded[above], -kInfinity));
-    return rounded;
-}
+/// Rounds values to f32, but keeps each on its own side of all levels.
+class Sides {
+  public:
+    explicit Sides(const BlockLevels& levels) : levels_(levels), count_(levels.rounded.size()) {
+        if (count_ > below_.size())
+            more_.resize(count_);
+        float* const below = count_ > below_.size() ? more_.data() : below_.data();
+        for (std::size_t i = 0; i < count_; ++i)
+            below[i] = std::nextafter(levels.rounded[i], -kInfinity);
+    }
+    /// Levels ascend, so the last one at or below the value and the first one above it count.
+    float operator()(double relative, double scaled) const {
+        auto rounded = static_cast<float>(relative);
+        const float* const below = more_.empty() ? below_.data() : more_.data();
+        for (std::size_t i = 0; i < count_; ++i)
+            rounded = scaled >= levels_.exact[i] ? std::max(rounded, levels_.rounded[i])
+                                                 : std::min(rounded, below[i]);
+        return scaled == scaled ? rounded : std::numeric_limits<float>::quiet_NaN();
+    }
+
+  private:
+    const BlockLevels& levels_;
+    const std::size_t count_;
+    std::array<float, kMostSurfaces> below_{}; ///< the last number below each level
+    std::vector<float> more_;                  ///< the same where there are more levels
+};
 
 } // namespace
 
@@ -120,9 +137,10 @@ void BlockValues::convert(const std::byte* stored, std::size_t count, const Bloc
     visit_value_type(type_, [&]<class T>(std::type_identity<T>) {
         if constexpr (sizeof(T) > 4 || std::is_same_v<T, std::int32_t>) {
             const T* values = reinterpret_cast<const T*>(stored);
+            const Sides on_its_side(levels);
             for (std::size_t i = 0; i < count; ++i) {
                 const double scaled = scaling_(static_cast<double>(values[i]));
-                const float held = on_its_side(relative(scaled), scaled, levels);
+                const float held = on_its_side(relative(scaled), scaled);
                 std::memcpy(out + i * sizeof held, &held, sizeof held);
             }
         } else {

@@ -26,8 +26,9 @@ class Extracting {
           shading_(has_wide_ids(file_->info().grid) ? Shading::cells : shading),
           values_(file_->info().type, file_->info().scaling, file_->stats().low,
                   file_->stats().high),
-          gatherer_(file_->info().grid, values_), layers_(file_), colors_(file_, method),
-          details_(file_), at_hand_(file_, layers_, shading_, !method) {}
+          gatherer_(file_->info().grid, values_), blended_values_(blended_values(*file_)),
+          blended_gatherer_(file_->info().grid, blended_values_), layers_(file_),
+          colors_(file_, method), details_(file_), at_hand_(file_, layers_, shading_, !method) {}
 
     ExtractionPtr operator()(const SurfacesQuery& query, const std::stop_token& stop) {
         const std::size_t count = query.isovalues.size();
@@ -37,7 +38,8 @@ class Extracting {
         result->query = query;
         result->number = ++last_number;
         try {
-            ExtractionPtr made = make(result, step_of_query(*file_, query.step), stop);
+            ExtractionPtr made =
+                make(result, step_of_query(*file_, query.step, query.isovalues), stop);
             if (made)
                 at_hand_.set(made);
             return made;
@@ -55,10 +57,25 @@ class Extracting {
             gatherer_.without_levels() || (now.low == before.low && now.high == before.high);
         if (same_blocks && earlier.at_hand_.get() &&
             std::ranges::find(states, earlier.file_->content_hash()) != states.end())
-            at_hand_.set(earlier.at_hand_.get());
+            at_hand_.set(earlier.at_hand_.get(), false);
     }
 
   private:
+    /// The values of blocks between two steps, where these are stored in another way than at steps.
+    static BlockValues blended_values(const IndexFile& file) {
+        const Blend blend(file.info().type, file.info().scaling, 1);
+        return {blend.type(), blend.scaling(), file.stats().low, file.stats().high};
+    }
+    bool as_at_steps(const StepView& step) const {
+        return step.type() == file_->info().type && step.scaling() == file_->info().scaling;
+    }
+    const BlockValues& values_of(const StepView& step) const {
+        return as_at_steps(step) ? values_ : blended_values_;
+    }
+    BlockGatherer& gatherer_of(const StepView& step) {
+        return as_at_steps(step) ? gatherer_ : blended_gatherer_;
+    }
+
     /// @return null when stopped
     ExtractionPtr make(const std::shared_ptr<Extraction>& result, const StepView& step,
                        const std::stop_token& stop) {
@@ -69,7 +86,7 @@ class Extracting {
         // A large step is not searched as a whole before it is known that its cells fit.
         // What is at hand does not decide it: processes of a job may have different sets at hand.
         if (step.by_chunks() && may_have_too_many)
-            if (const auto made = make_of_levels(result, stop))
+            if (const auto made = make_of_levels(step, result, stop))
                 return *made;
         // What is in memory is enough: reading the step as a whole takes longer.
         const StepView& near = at_hand_.of_same_step() ? at_hand_.step() : step;
@@ -77,7 +94,7 @@ class Extracting {
             return nullptr;
         result->volume_cells = result->cells();
         if (may_have_too_many && result->cells() > query.detail.most_cells)
-            if (const auto made = make_of_levels(result, stop))
+            if (const auto made = make_of_levels(step, result, stop))
                 return *made;
         return fill(keeps ? at_hand_.step() : near, *result, stop) ? result : nullptr;
     }
@@ -95,7 +112,8 @@ class Extracting {
     }
 
     /// @return null when stopped; empty if all cells should be the volume's own
-    std::optional<ExtractionPtr> make_of_levels(const std::shared_ptr<Extraction>& result,
+    std::optional<ExtractionPtr> make_of_levels(const StepView& step,
+                                                const std::shared_ptr<Extraction>& result,
                                                 const std::stop_token& stop) {
         DetailCells found;
         switch (details_.find(result->query, result->volume_cells, found, stop)) {
@@ -114,8 +132,8 @@ class Extracting {
                 return nullptr;
         }
         const auto started = std::chrono::steady_clock::now();
-        result->levels = values_.levels(result->query.isovalues).units;
-        result->blocks = gatherer_.none();
+        result->levels = values_of(step).levels(result->query.isovalues).units;
+        result->blocks = gatherer_of(step).none();
         if (result->cells() > 0)
             find_surroundings(step_in_chunks(*file_, result->query.step), *result, stop);
         result->gather_time = std::chrono::steady_clock::now() - started;
@@ -170,8 +188,7 @@ class Extracting {
             return true;
         const auto started = std::chrono::steady_clock::now();
         CellMesh mesh;
-        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr,
-                               colors ? EarlierMesh{} : earlier))
+        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr, earlier))
             return false;
         if (colors)
             color_by_values(mesh, colors->array().low, colors->array().high);
@@ -184,22 +201,23 @@ class Extracting {
     /// Adds the blocks and the colors. @return false when stopped
     bool fill(const StepView& step, Extraction& result, const std::stop_token& stop) {
         const auto started = std::chrono::steady_clock::now();
-        const BlockLevels levels = values_.levels(result.query.isovalues);
+        BlockGatherer& gatherer = gatherer_of(step);
+        const BlockLevels levels = values_of(step).levels(result.query.isovalues);
         result.levels = levels.units;
-        result.blocks = gatherer_.none();
+        result.blocks = gatherer.none();
         if (result.cells() == 0) // avoids loading the step, which may decode a file
             return true;
         for (const CellSet& surface : result.surfaces)
-            gatherer_.need(surface);
-        if (!gatherer_.gather(step, levels, result.blocks, stop,
-                              at_hand_.blocks(!gatherer_.without_levels())))
+            gatherer.need(surface);
+        if (!gatherer.gather(step, levels, result.blocks, stop,
+                             at_hand_.blocks(!gatherer.without_levels())))
             return false;
         find_surroundings(step, result, stop);
         result.gather_time = std::chrono::steady_clock::now() - started;
         if (!colors_.fill(result.query, result.surfaces, step, result.colors, result.corner_colors,
-                          stop))
+                          stop, at_hand_.colors()))
             return false;
-        if (result.query.coloring == CellColoring::first_crossing && !result.colors.empty())
+        if (by_first_crossing(result.query.coloring) && !result.colors.empty())
             color_meshes_by_cells(result);
         return true;
     }
@@ -229,11 +247,46 @@ class Extracting {
             ++level;
         if (level == 0 && step.by_chunks() && !small())
             return;
-        const LoadedStep loaded = level > 0          ? file_->chunks(level).whole(query.step, stop)
-                                  : step.by_chunks() ? file_->load(query.step, stop)
-                                                     : step.whole(stop);
-        result.surroundings = surroundings_of(loaded.values, query.step,
-                                              static_cast<unsigned>(level), query.isovalues);
+        const ChunkStore& store = file_->chunks(level);
+        const SurroundingField* const known = result.coarse() ? nullptr : at_hand_.surroundings();
+        PlaneRange changed;
+        if (known) {
+            result.surroundings = *known;
+            changed = changed_planes(store, query.step, at_hand_.earlier_step());
+            if (changed.end == 0)
+                return;
+        }
+        const auto at = [&](std::uint32_t number) {
+            return level > 0 ? store.whole(number, stop) : file_->load(number, stop);
+        };
+        const LoadedStep loaded =
+            level == 0 && !step.by_chunks() ? step.whole(stop)
+            : step.between() ? BetweenSteps::whole(at(step.at().step), at(step.at().step + 1),
+                                                   step.at(), nullptr,
+                                                   Blend(store.info().type, store.info().scaling,
+                                                         step.at().fraction, query.isovalues))
+                             : at(query.step);
+        if (known)
+            renew_surroundings(result.surroundings, loaded.values, query.step, query.isovalues,
+                               changed);
+        else
+            result.surroundings = surroundings_of(loaded.values, query.step,
+                                                  static_cast<unsigned>(level), query.isovalues);
+    }
+
+    /// From the first to the last plane of chunks that are not the same at two steps.
+    static PlaneRange changed_planes(const ChunkStore& store, std::uint32_t a, std::uint32_t b) {
+        PlaneRange planes;
+        for (std::uint32_t layer = 0; a != b && layer < store.grid().layers(); ++layer) {
+            const ChunkLayerPtr table = store.layer(std::max(a, b), layer);
+            if (std::ranges::all_of(table->since,
+                                    [&](auto since) { return since <= std::min(a, b); }))
+                continue;
+            if (planes.end == 0)
+                planes.first = layer * kChunkEdge;
+            planes.end = std::min((layer + 1) * kChunkEdge, store.info().grid.vertices[2]);
+        }
+        return planes;
     }
 
     std::shared_ptr<const IndexFile> file_;
@@ -242,6 +295,8 @@ class Extracting {
     std::vector<SearchInto> searches_; ///< by surface
     BlockValues values_;
     BlockGatherer gatherer_;
+    BlockValues blended_values_;
+    BlockGatherer blended_gatherer_;
     LayerSearch layers_; ///< for meshes
     SurfaceColors colors_;
     DetailSearch details_;

@@ -12,6 +12,10 @@ constexpr double kLeastKept = 0.25;
 /// Where such a share of the chunks stays, enough of their cells do: they need not be counted.
 constexpr double kPlenty = 0.75;
 
+/// After so many looks at a step with other isovalues it is decoded as a whole, where it may be: by
+/// chunks, a look takes about a millisecond more, and decoding takes some tens of them.
+constexpr unsigned kManyLooks = 16;
+
 /// As the worker compares queries: a NaN equals itself.
 bool same(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -19,14 +23,18 @@ bool same(double a, double b) {
 
 } // namespace
 
-void ExtractionAtHand::set(const ExtractionPtr& made) {
-    if (!made->coarse())
-        from_ = made;
+void ExtractionAtHand::set(const ExtractionPtr& made, bool same_colors) {
+    if (made->coarse())
+        return;
+    from_ = made;
+    same_colors_ = same_colors;
 }
 
 bool ExtractionAtHand::may_keep(const SurfacesQuery& query) const {
     if (!free_ || !from_ || from_->query.array != query.array || has_wide_ids(file_->info().grid) ||
         from_->query.step >= file_->info().steps())
+        return false;
+    if (from_->query.step.between() || query.step.between()) // tables say what stays at a step
         return false;
     return from_->query.step == query.step ||
            (file_->has_since() && file_->plan().tiers.has(Tier::bricks));
@@ -38,9 +46,12 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
     staying_.reset();
     step_.reset();
     mesh_.reset();
+    places_.assign(query.isovalues.size(), {});
     if (!may_keep(query))
         return;
-    step_.emplace(part_of_step(*file_, query.step));
+    looks_ = from_->query.step == query.step ? looks_ + 1 : 0;
+    step_.emplace(looks_ > kManyLooks ? step_of(*file_, query.step)
+                                      : part_of_step(*file_, query.step));
     const double share = from_->query.step == query.step
                              ? 1.0
                              : staying_share(*step_, from_->query.step, query.isovalues);
@@ -55,13 +66,13 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
 bool ExtractionAtHand::enough_stays(double chunks) const {
     if (chunks >= kPlenty)
         return true;
-    std::size_t all = 0, kept = 0;
-    for (std::size_t i = 0; i < from_->surfaces.size(); ++i) {
-        const std::vector<CellId>& ids = from_->surfaces[i].ids;
-        all += ids.size();
-        kept += count_kept(file_->info().grid, ids, *staying_);
+    double all = 0, kept = 0;
+    for (const CellSet& surface : from_->surfaces) {
+        const auto count = static_cast<double>(surface.ids.size());
+        all += count;
+        kept += count * share_kept(file_->info().grid, surface.ids, *staying_);
     }
-    return static_cast<double>(kept) >= kLeastKept * static_cast<double>(all);
+    return kept >= kLeastKept * all;
 }
 
 bool ExtractionAtHand::keeps_cells(std::size_t surface) const {
@@ -84,8 +95,10 @@ bool ExtractionAtHand::find(std::size_t surface, bool meshed, const std::stop_to
             return false;
     }
     mesh_ = meshed ? earlier.mesh : nullptr;
-    change =
-        join_cells(file_->info().grid, earlier, *staying_, others, set, mesh_ ? &places_ : nullptr);
+    found_ = surface;
+    const bool asks = mesh_ || query_.coloring == CellColoring::value;
+    change = join_cells(file_->info().grid, earlier, *staying_, others, set,
+                        asks ? &places_[surface] : nullptr);
     if (mesh_)
         corners_ = corners_of_cells(*mesh_);
     set.search_time = std::chrono::steady_clock::now() - started;
@@ -93,7 +106,28 @@ bool ExtractionAtHand::find(std::size_t surface, bool meshed, const std::stop_to
 }
 
 EarlierMesh ExtractionAtHand::mesh() const {
-    return mesh_ ? EarlierMesh{mesh_.get(), corners_, places_} : EarlierMesh{};
+    return mesh_ ? EarlierMesh{mesh_.get(), corners_, places_[found_]} : EarlierMesh{};
+}
+
+KnownColors ExtractionAtHand::colors() const {
+    if (!staying_ || !same_colors_ || query_.coloring != CellColoring::value ||
+        from_->query.coloring != query_.coloring || from_->query.colors != query_.colors ||
+        from_->colors.size() != from_->cells())
+        return {};
+    KnownColors known{from_->query.step, from_->colors, from_->corner_colors, {}};
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < from_->surfaces.size(); ++i) {
+        if (i < places_.size())
+            known.surfaces.push_back({places_[i], first});
+        first += from_->surfaces[i].ids.size();
+    }
+    return known;
+}
+
+const SurroundingField* ExtractionAtHand::surroundings() const {
+    const bool same_isovalues =
+        staying_ && std::ranges::equal(from_->query.isovalues, query_.isovalues, same);
+    return same_isovalues && !from_->surroundings.shares.empty() ? &from_->surroundings : nullptr;
 }
 
 KnownBlocks ExtractionAtHand::blocks(bool only_if_same_levels) const {

@@ -3,6 +3,7 @@
 
 #include "index/extraction/extraction.h"
 #include "index/extraction/kept_cells.h"
+#include "index/extraction/surface_colors.h"
 #include "index/search/layer_search.h"
 #include "index/search/staying_cells.h"
 
@@ -24,7 +25,8 @@ class ExtractionAtHand {
         : file_(std::move(file)), layers_(layers), shading_(shading), free_(free) {}
 
     /// Remembers an extraction, unless it is of coarser levels.
-    void set(const ExtractionPtr& made);
+    /// @param same_colors its colors are of the same ranges as those to come
+    void set(const ExtractionPtr& made, bool same_colors = true);
     const ExtractionPtr& get() const { return from_; }
     /// The number of the extraction at hand if it has as many surfaces; else 0.
     std::uint64_t number_for(const SurfacesQuery& query) const {
@@ -51,6 +53,12 @@ class ExtractionAtHand {
     }
     /// Where work on a part of the step's cells finds its values.
     const StepView& step() const { return *step_; }
+    /// The colors that cells may take over, once all surfaces have been found.
+    KnownColors colors() const;
+    /// The surroundings that are taken over where the volume stays; null: none.
+    const SurroundingField* surroundings() const;
+    /// Of the extraction at hand, which must be there.
+    Instant earlier_step() const { return from_->query.step; }
     /// The blocks that are taken over. @param only_if_same_levels for other isovalues they differ
     KnownBlocks blocks(bool only_if_same_levels) const;
 
@@ -63,13 +71,18 @@ class ExtractionAtHand {
     Shading shading_;
     bool free_;
     ExtractionPtr from_;
+    bool same_colors_ = true;
     // For the query that is being answered:
     SurfacesQuery query_;
     bool by_cells_ = false;
+    unsigned looks_ = 0; ///< at the same step, one after the other
     std::optional<StepView> step_;
-    std::optional<StayingCells> staying_;         ///< none if nothing is taken over
-    CellMeshPtr mesh_;                            ///< of the last surface that was found
-    std::vector<std::uint32_t> corners_, places_; ///< EarlierMesh
+    std::optional<StayingCells> staying_; ///< none if nothing is taken over
+    CellMeshPtr mesh_;                    ///< of the last surface that was found
+    std::vector<std::uint32_t> corners_;  ///< EarlierMesh
+    /// By surface: EarlierMesh::places; empty where nothing is kept, or nobody asks.
+    std::vector<std::vector<std::uint32_t>> places_;
+    std::size_t found_ = 0; ///< the last surface that was found
 };
 
 } // namespace isochron::index

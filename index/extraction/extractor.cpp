@@ -171,6 +171,8 @@ Extractor::State::Outcome Extractor::State::run(const Job& job) {
         if (!extraction && !job.stop.stop_requested())
             return {nullptr, "the extraction gave no result"};
         return {std::move(extraction), {}};
+    } catch (const std::bad_alloc&) {
+        return {nullptr, "there is not enough memory for these cells"};
     } catch (const std::exception& error) {
         return {nullptr, error.what()};
     } catch (...) {
@@ -269,8 +271,12 @@ void Extractor::request(const Request& request) {
                 s.answered && s.running && s.running->prefetch &&
                 (s.running->meshes_of ? s.running->meshes_of == request.meshes_of
                                       : same_but_for_step(s.running->query, request.query));
+            // Time that plays between steps asks for another moment in every frame.
+            const bool shown_late =
+                s.running && !s.running->prefetch && s.running->query.step.between() &&
+                request.query.step.between() && same_but_for_step(s.running->query, request.query);
             const bool obsolete =
-                s.running && !going_on && !answers(s.running->query, request.query);
+                s.running && !going_on && !shown_late && !answers(s.running->query, request.query);
             if (obsolete && (s.running->prefetch || !s.abandoned))
                 stop = s.running->stop;
         }

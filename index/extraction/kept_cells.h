@@ -20,8 +20,9 @@ struct SurfaceChange {
     bool operator==(const SurfaceChange&) const = default;
 };
 
-/// The number of cells of a set that stay. @param ids ascending
-std::size_t count_kept(const Grid& grid, std::span<const CellId> ids, const StayingCells& staying);
+/// The share of a set's cells that stay, by one in sixteen of them. 1 if there are none.
+/// @param ids ascending
+double share_kept(const Grid& grid, std::span<const CellId> ids, const StayingCells& staying);
 
 /// Joins the cells of an earlier set that stay with all others of a step, in the order of ids.
 /// @param earlier of the same isovalue; with points if `others` has some

@@ -48,7 +48,7 @@ ExtractionPtr RecentExtractions::find(const SurfacesQuery& query) const {
         return kept.extraction->query.mesh_room >= query.mesh_room;
     };
     if (same_but_for_step(kept_.front().extraction->query, query)) {
-        const auto known = by_step_.find(query.step);
+        const auto known = by_step_.find(query.step.number());
         return known != by_step_.end() && enough(*known->second) ? known->second->extraction
                                                                  : nullptr;
     }
@@ -81,15 +81,16 @@ std::optional<std::uint32_t> RecentExtractions::missing(const SurfacesQuery& que
 std::vector<std::uint32_t> RecentExtractions::steps(const SurfacesQuery& query) const {
     std::vector<std::uint32_t> steps;
     if (!kept_.empty() && same_but_for_step(kept_.front().extraction->query, query))
-        for (const auto& [step, place] : by_step_)
-            steps.push_back(step);
+        for (const auto& [number, place] : by_step_)
+            if (const Instant at = place->extraction->query.step; !at.between())
+                steps.push_back(at);
     std::ranges::sort(steps);
     return steps;
 }
 
 void RecentExtractions::drop(Place place, Dropped& dropped) {
     bytes_ -= place->bytes;
-    const auto known = by_step_.find(place->extraction->query.step);
+    const auto known = by_step_.find(place->extraction->query.step.number());
     if (known != by_step_.end() && known->second == place)
         by_step_.erase(known);
     dropped.push_back(std::move(place->extraction));
@@ -106,7 +107,7 @@ RecentExtractions::Place RecentExtractions::victim(const std::optional<StepsAhea
     std::vector<const Kept*> needed;
     Place last = oldest;
     for (std::uint32_t i = 0; i < ahead->count(); ++i) {
-        const auto known = by_step_.find(ahead->at(i));
+        const auto known = by_step_.find(Instant(ahead->at(i)).number());
         if (known == by_step_.end())
             break;
         last = known->second;
@@ -126,15 +127,15 @@ RecentExtractions::Dropped RecentExtractions::add(ExtractionPtr extraction,
     if (!kept_.empty() && !same_but_for_step(kept_.front().extraction->query, extraction->query)) {
         by_step_.clear(); // others are hardly needed any more: only a few stay
         largest_ = 0;
-        while (kept_.size() >= kFewest)
+        while (!kept_.empty() && (kept_.size() >= kFewest || bytes_ + bytes > budget_))
             drop(std::prev(kept_.end()), dropped);
     }
-    if (const auto known = by_step_.find(extraction->query.step); known != by_step_.end())
+    if (const auto known = by_step_.find(extraction->query.step.number()); known != by_step_.end())
         drop(known->second, dropped);
     largest_ = std::max(largest_, bytes);
     bytes_ += bytes;
     kept_.push_front({std::move(extraction), bytes});
-    by_step_[kept_.front().extraction->query.step] = kept_.begin();
+    by_step_[kept_.front().extraction->query.step.number()] = kept_.begin();
     drop_to_fit(ahead, dropped);
     return dropped;
 }

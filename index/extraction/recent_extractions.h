@@ -78,8 +78,8 @@ class RecentExtractions {
     std::uint64_t budget_, bytes_ = 0;
     std::uint64_t largest_ = 0; ///< [bytes] of extractions for the newest one's surfaces
     std::list<Kept> kept_;      ///< newest first
-    /// The extractions for the newest one's surfaces.
-    std::unordered_map<std::uint32_t, Place> by_step_;
+    /// The extractions for the newest one's surfaces, by Instant::number.
+    std::unordered_map<std::uint64_t, Place> by_step_;
 };
 
 } // namespace isochron::index

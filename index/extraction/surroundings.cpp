@@ -132,23 +132,52 @@ namespace {
 
 using Size = std::array<std::uint32_t, 3>;
 
-/// Sets 1 where a place is behind the surface; a NaN never is.
+/// Sets 1 where a place of some planes is behind the surface; a NaN never is.
 template <class T, class IsBehind>
 void find_behind(std::span<const T> stored, const Size& vertices, std::uint32_t every,
-                 const Size& size, const IsBehind& is_behind, std::uint8_t* to) {
+                 const Size& size, PlaneRange planes, const IsBehind& is_behind, std::uint8_t* to) {
+    const std::size_t plane = std::size_t{vertices[0]} * vertices[1];
     if (every == 1) {
-        for (const T value : stored)
+        for (const T value :
+             stored.subspan(planes.first * plane, (planes.end - planes.first) * plane))
             *to++ = is_behind(value);
         return;
     }
-    for (std::uint32_t z = 0; z < size[2]; ++z)
+    for (std::uint32_t z = planes.first; z < planes.end; ++z)
         for (std::uint32_t y = 0; y < size[1]; ++y) {
-            const T* const row =
-                stored.data() +
-                (std::size_t{z} * every * vertices[1] + std::size_t{y} * every) * vertices[0];
+            const T* const row = stored.data() + std::size_t{z} * every * plane +
+                                 std::size_t{y} * every * vertices[0];
             for (std::size_t x = 0; x < size[0]; ++x)
                 *to++ = is_behind(row[x * every]);
         }
+}
+
+std::uint32_t places_every(const Size& vertices) {
+    return (*std::ranges::max_element(vertices) + kMostPlaces - 1) / kMostPlaces;
+}
+
+/// The shares at some planes of places, as far as places beyond these planes are like the last ones.
+/// @param shares of these planes
+void find_shares(const StepValues& values, std::uint32_t step, const Size& size, PlaneRange planes,
+                 double isovalue, std::span<std::uint8_t> shares) {
+    const Size& vertices = values.grid.vertices;
+    const auto cut = stored_cut(values.type, values.scaling, isovalue);
+    visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
+        const auto find = [&](const auto& is_behind) {
+            find_behind(values.step<T>(step), vertices, places_every(vertices), size, planes,
+                        is_behind, shares.data());
+        };
+        if (!cut) { // all places are on one side
+            find([&](T v) { return values.scaling(static_cast<double>(v)) >= isovalue; });
+            return;
+        }
+        const T least = from_ordinal<T>(static_cast<Ordinal<T>>(*cut));
+        if (values.scaling.slope > 0)
+            find([least](T v) { return v >= least; });
+        else
+            find([least](T v) { return v < least; });
+    });
+    HWY_DYNAMIC_DISPATCH(blur)(shares, {size[0], size[1], planes.end - planes.first});
 }
 
 } // namespace
@@ -157,36 +186,38 @@ SurroundingField surroundings_of(const StepValues& values, std::uint32_t step, u
                                  std::span<const double> isovalues) {
     SurroundingField field;
     const Size& vertices = values.grid.vertices;
-    const std::uint32_t most = *std::ranges::max_element(vertices);
-    const std::uint32_t every = (most + kMostPlaces - 1) / kMostPlaces;
+    const std::uint32_t every = places_every(vertices);
     field.stride = every << level;
     for (std::size_t axis = 0; axis < 3; ++axis)
         field.size[axis] = (vertices[axis] - 1) / every + 1;
     const std::size_t places = std::size_t{field.size[0]} * field.size[1] * field.size[2];
     field.shares.resize(places * isovalues.size());
-    for (std::size_t surface = 0; surface < isovalues.size(); ++surface) {
-        const std::span<std::uint8_t> shares =
-            std::span(field.shares).subspan(surface * places, places);
-        const double isovalue = isovalues[surface];
-        const auto cut = stored_cut(values.type, values.scaling, isovalue);
-        visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-            const auto find = [&](const auto& is_behind) {
-                find_behind(values.step<T>(step), vertices, every, field.size, is_behind,
-                            shares.data());
-            };
-            if (!cut) { // all places are on one side
-                find([&](T v) { return values.scaling(static_cast<double>(v)) >= isovalue; });
-                return;
-            }
-            const T least = from_ordinal<T>(static_cast<Ordinal<T>>(*cut));
-            if (values.scaling.slope > 0)
-                find([least](T v) { return v >= least; });
-            else
-                find([least](T v) { return v < least; });
-        });
-        HWY_DYNAMIC_DISPATCH(blur)(shares, field.size);
-    }
+    for (std::size_t surface = 0; surface < isovalues.size(); ++surface)
+        find_shares(values, step, field.size, {0, field.size[2]}, isovalues[surface],
+                    std::span(field.shares).subspan(surface * places, places));
     return field;
+}
+
+void renew_surroundings(SurroundingField& field, const StepValues& values, std::uint32_t step,
+                        std::span<const double> isovalues, PlaneRange changed) {
+    if (changed.first >= changed.end)
+        return;
+    const auto [width, height, depth] = field.size;
+    const std::uint32_t every = places_every(values.grid.vertices);
+    // Planes of places: those that the change reaches, and those that these depend on.
+    const auto around = [&](std::uint32_t reach) -> PlaneRange {
+        const std::uint32_t first = changed.first / every, end = (changed.end - 1) / every + 1;
+        return {first - std::min(first, reach), std::min(end + reach, depth)};
+    };
+    const PlaneRange reached = around(kSurroundingsReach), needed = around(2 * kSurroundingsReach);
+    const std::size_t plane = std::size_t{width} * height;
+    std::vector<std::uint8_t> shares((needed.end - needed.first) * plane);
+    for (std::size_t surface = 0; surface < isovalues.size(); ++surface) {
+        find_shares(values, step, field.size, needed, isovalues[surface], shares);
+        std::copy_n(shares.data() + (reached.first - needed.first) * plane,
+                    (reached.end - reached.first) * plane,
+                    field.shares.data() + (surface * depth + reached.first) * plane);
+    }
 }
 
 } // namespace isochron::index

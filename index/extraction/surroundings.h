@@ -38,4 +38,14 @@ inline constexpr std::uint32_t kSurroundingsReach = 4;
 SurroundingField surroundings_of(const StepValues& values, std::uint32_t step, unsigned level,
                                  std::span<const double> isovalues);
 
+/// Some planes of vertices, from the first to before the end.
+struct PlaneRange {
+    std::uint32_t first = 0, end = 0;
+};
+/// Makes anew what a change of some planes has changed: the same as `surroundings_of` then.
+/// @param field of the volume before the change, at the same level and isovalues
+/// @param changed planes of `values`; none: nothing has changed
+void renew_surroundings(SurroundingField& field, const StepValues& values, std::uint32_t step,
+                        std::span<const double> isovalues, PlaneRange changed);
+
 } // namespace isochron::index

@@ -170,21 +170,29 @@ void BlockGatherer::take_marked(VolumeBlocks& blocks) {
 
 bool BlockGatherer::gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
                            const std::stop_token& stop, const KnownBlocks& known) {
-    if (!step.by_chunks() && !known.blocks)
-        return gather(step.whole(stop).values, step.at(), levels, blocks, stop);
-    return gather_chunks(step, levels, blocks, stop, known);
+    return step.by_chunks() ? gather_chunks(step, levels, blocks, stop, known)
+                            : gather_whole(step.whole(stop).values, step.at(), levels, blocks, stop,
+                                           known, known.blocks ? &step.chunk_grid() : nullptr);
 }
 
 bool BlockGatherer::gather(const StepValues& step, Instant at_step, const BlockLevels& levels,
                            VolumeBlocks& blocks, const std::stop_token& stop) {
+    return gather_whole(step, at_step, levels, blocks, stop, {}, nullptr);
+}
+
+/// @param chunks null if no blocks are known
+bool BlockGatherer::gather_whole(const StepValues& step, Instant at_step, const BlockLevels& levels,
+                                 VolumeBlocks& blocks, const std::stop_token& stop,
+                                 const KnownBlocks& known, const ChunkGrid* chunks) {
     take_marked(blocks);
-    const Room room = take_known({}, nullptr, blocks);
+    const Room room = take_known(known, chunks, blocks);
     const std::byte* first = step.step_bytes(at_step).data();
     const auto& n = grid_.vertices;
     const std::size_t size = size_of(values_.stored()), row = n[0] * size, plane = n[1] * row;
-    for (std::size_t i = 0; i < blocks.ids.size(); ++i) {
-        if (i % 256 == 0 && stop.stop_requested())
+    for (std::size_t k = 0; k < room.others.size(); ++k) {
+        if (k % 256 == 0 && stop.stop_requested())
             return false;
+        const std::uint32_t i = room.others[k];
         Box box{first, row, plane, {}};
         auto corner = at(blocks.ids[i]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -192,7 +200,7 @@ bool BlockGatherer::gather(const StepValues& step, Instant at_step, const BlockL
             box.size[axis] = std::min(kBlockEdge, n[axis] - corner[axis]);
         }
         box.first += corner[2] * plane + corner[1] * row + corner[0] * size;
-        copy(box, levels, room.first + i * blocks.block_bytes(), blocks.digests[i]);
+        copy(box, levels, room.first + k * blocks.block_bytes(), blocks.digests[i]);
     }
     return true;
 }
@@ -258,8 +266,6 @@ bool BlockGatherer::gather_chunks(const StepView& step, const BlockLevels& level
     const Room room = take_known(known, &step.chunk_grid(), blocks);
     const std::vector<std::uint32_t>& others = room.others;
     const std::size_t bytes = blocks.block_bytes();
-    if (!others.empty() && !step.by_chunks())
-        step.whole(stop); // before there are several threads
     const auto id_of = [&](std::uint32_t i) { return blocks.ids[i]; };
     const std::size_t size = size_of(values_.stored());
     const std::uint64_t layer_blocks =

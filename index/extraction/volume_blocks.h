@@ -103,6 +103,9 @@ class BlockGatherer {
         std::vector<std::uint32_t> others; ///< their places among all blocks
     };
     Room take_known(const KnownBlocks& known, const ChunkGrid* chunks, VolumeBlocks& blocks) const;
+    bool gather_whole(const StepValues& step, Instant at_step, const BlockLevels& levels,
+                      VolumeBlocks& blocks, const std::stop_token& stop, const KnownBlocks& known,
+                      const ChunkGrid* chunks);
     bool gather_chunks(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
                        const std::stop_token& stop, const KnownBlocks& known);
     void copy(const Box& from, const BlockLevels& levels, std::byte* out,

@@ -114,6 +114,8 @@ class IndexFile {
     const FileHeader& header() const { return header_; }
     /// Whether its tables say since when chunks have stayed.
     bool has_since() const { return header_.version > kVersionWithoutSince; }
+    /// Whether new steps may have values of several bytes in packed rows.
+    bool has_wide_rows() const { return header_.version > kVersionWithoutWideRows; }
     std::span<const StepEntry> step_entries() const { return step_entries_; }
     std::span<const UnitEntry> directory() const { return directory_; }
     /// The bytes of a unit of the directory, read and not checked.

@@ -43,6 +43,17 @@ std::uint32_t step_named(const IndexFile& file, std::int64_t step) {
     return static_cast<std::uint32_t>(step);
 }
 
+Instant instant_named(const IndexFile& file, std::int64_t step, std::int64_t fraction) {
+    const std::uint32_t named = step_named(file, step);
+    if (fraction < 0 || fraction >= Instant::kFractions)
+        throw Error(fmt::format("{}: fraction {}, expected 0 to {}", file.name(), fraction,
+                                Instant::kFractions - 1));
+    if (fraction > 0 && named + std::size_t{1} >= file.info().steps())
+        throw Error(fmt::format("{}: fraction {} after step {}, which is the last one: expected 0",
+                                file.name(), fraction, step));
+    return {named, static_cast<std::uint32_t>(fraction)};
+}
+
 void expect_narrow_ids(const IndexFile& file) {
     if (const Grid& grid = file.info().grid; has_wide_ids(grid))
         throw Error(fmt::format("{}: {} cells, expected fewer than 2^32 to compare", file.name(),

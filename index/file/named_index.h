@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
+#include "index/volume/instant.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,9 @@ std::size_t array_number(const IndexFile& file, const std::string& name);
 
 /// @throws Error when there is no such step
 std::uint32_t step_named(const IndexFile& file, std::int64_t step);
+/// The moment at `fraction` / Instant::kFractions of the way from a step to the next one.
+/// @throws Error naming the file when there is none, or no step follows
+Instant instant_named(const IndexFile& file, std::int64_t step, std::int64_t fraction);
 
 /// @throws Error when the cells of two queries cannot be compared, as their numbers take 64 bits
 void expect_narrow_ids(const IndexFile& file);

@@ -8,14 +8,52 @@
 
 namespace isochron::index {
 
+StepView::StepView(const ChunkStore& store, Instant at, std::size_t level,
+                   std::span<const double> isovalues)
+    : kind_{&store.info().grid, store.info().type, store.info().scaling, store.info().steps()},
+      store_(&store), at_(at.within(kind_.steps)), level_(level) {
+    set_between(isovalues);
+}
+
+StepView::StepView(const Kind& kind, const ChunkStore* store, Instant at, Load load,
+                   std::span<const double> isovalues)
+    : kind_(kind), store_(store), at_(at.within(kind_.steps)), load_(std::move(load)) {
+    set_between(isovalues);
+}
+
+void StepView::set_between(std::span<const double> isovalues) {
+    if (!between())
+        return;
+    blend_.emplace(kind_.type, kind_.scaling, at_.fraction, isovalues);
+    kind_.type = blend_->type();
+    kind_.scaling = blend_->scaling();
+    if (store_)
+        between_ = std::make_shared<const BetweenSteps>(*store_, at_, *blend_);
+}
+
 std::optional<std::uint64_t> StepView::stored_cut(double isovalue) const {
     return index::stored_cut(type(), scaling(), isovalue);
 }
 
 const LoadedStep& StepView::whole(const std::stop_token& stop) const {
-    if (!whole_)
+    if (whole_)
+        return *whole_;
+    if (!between()) {
         whole_ = load_(at_, stop);
+    } else {
+        const LoadedStep now = load_(at_.step, stop);
+        stop_if_asked(stop);
+        whole_ = BetweenSteps::whole(now, load_(at_.step + 1, stop), at_, store_, *blend_);
+    }
     return *whole_;
+}
+
+LevelMapPtr StepView::levels() const {
+    if (between_)
+        return between_->levels();
+    if (!by_chunks() && store_->is_small() && store_->carries_values())
+        whole({});
+    return store_->levels(at_);
 }
 
 std::vector<ChunkPtr> StepView::cut_out(std::uint32_t layer, std::span<const std::uint32_t> places,
@@ -57,28 +95,38 @@ std::vector<ChunkPtr> StepView::cut_out(std::uint32_t layer, std::span<const std
 
 namespace {
 
-StepView as_a_whole(const IndexFile& file, Instant at) {
+StepView as_a_whole(const IndexFile& file, Instant at, std::span<const double> isovalues = {}) {
     const SeriesInfo& info = file.info();
     return {
         {&info.grid, info.type, info.scaling, info.steps()},
         &file.chunks(),
         at,
-        [&file](std::uint32_t step, const std::stop_token& stop) { return file.load(step, stop); }};
+        [&file](std::uint32_t step, const std::stop_token& stop) { return file.load(step, stop); },
+        isovalues};
 }
 
 } // namespace
 
-StepView step_of(const IndexFile& file, Instant at) {
-    return file.better_whole(at) ? as_a_whole(file, at) : step_in_chunks(file, at);
+StepView step_of(const IndexFile& file, Instant at, std::span<const double> isovalues) {
+    // Between two steps only what is needed is blended.
+    if (at.within(file.info().steps()).between() && !file.referral())
+        return step_in_chunks(file, at, 0, isovalues);
+    return file.better_whole(at) ? as_a_whole(file, at, isovalues)
+                                 : step_in_chunks(file, at, 0, isovalues);
 }
 
 StepView part_of_step(const IndexFile& file, Instant at) {
-    const bool there = file.referral() || file.chunks().missing_bytes(at) == 0;
-    return there ? as_a_whole(file, at) : step_in_chunks(file, at);
+    if (at.within(file.info().steps()).between())
+        return step_of(file, at);
+    const ChunkStore& store = file.chunks();
+    const bool there = file.referral() || store.missing_bytes(at) == 0;
+    return there || (store.is_small() && file.better_whole(at)) ? as_a_whole(file, at)
+                                                                : step_in_chunks(file, at);
 }
 
-StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level) {
-    return {file.chunks(level), at, level};
+StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level,
+                        std::span<const double> isovalues) {
+    return {file.chunks(level), at, level, isovalues};
 }
 
 } // namespace isochron::index

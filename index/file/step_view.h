@@ -1,10 +1,11 @@
-// One step of an array as work on it asks for it: its grid, type and scaling, and its values whole
-// or in chunks.
+// One step of an array, or a moment between two, as work on it asks for it: its grid, type and
+// scaling, and its values whole or in chunks.
 //
 //     const index::StepView step = index::step_of(*file, query.step);
 //     index::LayerSearch(file).search(step, set, true, true, {}); // whole or in chunks
 #pragma once
 
+#include "index/file/between_steps.h"
 #include "index/file/chunks/chunk_store.h"
 #include "index/file/index_file.h"
 #include "index/volume/instant.h"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -21,7 +23,8 @@
 namespace isochron::index {
 
 /// Whether the work is on the whole step or on its chunks is decided when the view is made, and
-/// stays so, whatever is read meanwhile. Functions that read throw as ChunkStore does.
+/// stays so, whatever is read meanwhile. Between two steps, type, scaling, levels and values are
+/// those of their blend (index/volume/blend.h). Functions that read throw as ChunkStore does.
 class StepView {
   public:
     /// What there is to know of a step before it is read.
@@ -33,14 +36,16 @@ class StepView {
     };
     using Load = std::function<LoadedStep(std::uint32_t step, const std::stop_token& stop)>;
     /// By chunks. @param store of the array at a level of detail; outlives the view
-    StepView(const ChunkStore& store, Instant at, std::size_t level = 0)
-        : kind_{&store.info().grid, store.info().type, store.info().scaling, store.info().steps()},
-          store_(&store), at_(at), level_(level) {}
+    /// @param isovalues that values will be compared with; empty: any may be. Between two steps,
+    ///        values for some isovalues are smaller and sooner made (Blend)
+    StepView(const ChunkStore& store, Instant at, std::size_t level = 0,
+             std::span<const double> isovalues = {});
     /// As a whole. @param store null if there are no chunks @param load reads the whole step
-    StepView(const Kind& kind, const ChunkStore* store, Instant at, Load load)
-        : kind_(kind), store_(store), at_(at), load_(std::move(load)) {}
+    StepView(const Kind& kind, const ChunkStore* store, Instant at, Load load,
+             std::span<const double> isovalues = {});
 
     Instant at() const { return at_; }
+    bool between() const { return at_.between(); }
     const Grid& grid() const { return *kind_.grid; }
     ValueType type() const { return kind_.type; }
     const Scaling& scaling() const { return kind_.scaling; }
@@ -56,29 +61,41 @@ class StepView {
 
     const ChunkGrid& chunk_grid() const { return store_->grid(); }
     /// The levels whose ranks its bricks hold, which the index must have.
-    LevelMapPtr levels() const { return store_->levels(at_); }
+    /// Of a small step that is worked on as a whole they come with all else, in one request.
+    LevelMapPtr levels() const;
     /// The isovalue among these levels; none if no cell is active.
     std::optional<LevelMap::Cut> cut(double isovalue) const {
         return levels()->cut(scaling(), isovalue);
     }
-    ChunkLayerPtr layer(std::uint32_t layer) const { return store_->layer(at_, layer); }
+    ChunkLayerPtr layer(std::uint32_t layer) const {
+        return between_ ? between_->layer(layer) : store_->layer(at_, layer);
+    }
     /// Of a step that is worked on as a whole, they are cut out of it.
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                  const std::stop_token& stop) const {
-        return by_chunks() ? store_->chunks(at_, layer, places, stop)
-                           : cut_out(layer, places, stop);
+        if (!by_chunks())
+            return cut_out(layer, places, stop);
+        return between_ ? between_->chunks(layer, places, stop)
+                        : store_->chunks(at_, layer, places, stop);
     }
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
-        return by_chunks() ? store_->expect(at_, layer, places) : 0;
+        if (!by_chunks())
+            return 0;
+        return between_ ? between_->expect(layer, places) : store_->expect(at_, layer, places);
     }
     std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
                         const std::stop_token& stop) const {
-        return by_chunks() ? store_->fetch(at_, layer, places, stop) : 0;
+        if (!by_chunks())
+            return 0;
+        return between_ ? between_->fetch(layer, places, stop)
+                        : store_->fetch(at_, layer, places, stop);
     }
-    bool was_worked_on() const { return store_->was_worked_on(at_); }
+    /// Between two steps, none is read for it alone.
+    bool was_worked_on() const { return between_ || store_->was_worked_on(at_); }
     const ChunkStore& store() const { return *store_; }
 
   private:
+    void set_between(std::span<const double> isovalues);
     std::vector<ChunkPtr> cut_out(std::uint32_t layer, std::span<const std::uint32_t> places,
                                   const std::stop_token& stop) const;
 
@@ -86,16 +103,19 @@ class StepView {
     const ChunkStore* store_;
     Instant at_;
     std::size_t level_ = 0;
+    std::optional<Blend> blend_;                  ///< between two steps
+    std::shared_ptr<const BetweenSteps> between_; ///< null at a step, and without chunks
     Load load_;
     mutable std::optional<LoadedStep> whole_;
 };
 
 /// A step of the volume: whole where that is faster than work on the needed chunks alone.
-/// @param file outlives the view
-StepView step_of(const IndexFile& file, Instant at);
+/// @param file outlives the view @param isovalues as of StepView
+StepView step_of(const IndexFile& file, Instant at, std::span<const double> isovalues = {});
 /// The same for work on a part of its cells: by chunks unless it is in memory as a whole.
 StepView part_of_step(const IndexFile& file, Instant at);
 /// By chunks, at a level of detail.
-StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level = 0);
+StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level = 0,
+                        std::span<const double> isovalues = {});
 
 } // namespace isochron::index

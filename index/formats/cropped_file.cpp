@@ -140,7 +140,7 @@ VolumePart part_in(const Grid& grid, const ReadOptions& options, const std::stri
         part.count[axis] = (part.last[axis] - part.first[axis]) / part.stride[axis] + 1;
         if (part.count[axis] < 2)
             throw Error(
-                fmt::format("{}: {}:{} along {} with each {}. vertex leaves {}, expected at "
+                fmt::format("{}: {}:{} along {} with every {}th vertex leaves {}, expected at "
                             "least 2",
                             file, part.first[axis], part.last[axis], "xyz"[axis], part.stride[axis],
                             part.count[axis]));
@@ -175,7 +175,7 @@ std::string note_on_part(const Grid& whole, const VolumePart& part) {
     };
     std::string stride;
     if (part.stride != std::array<std::uint32_t, 3>{1, 1, 1})
-        stride = fmt::format(", each {}. {}. {}.", part.stride[0], part.stride[1], part.stride[2]);
+        stride = fmt::format(", stride {},{},{}", part.stride[0], part.stride[1], part.stride[2]);
     const Grid grid = grid_of_part(whole, part);
     return fmt::format("vertices {},{},{}{} of {} x {} x {}: {} x {} x {} from ({:g} {:g} {:g}), "
                        "{:g} {:g} {:g} apart; ids of cells count within them",

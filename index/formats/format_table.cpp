@@ -104,7 +104,8 @@ std::vector<Format> table() {
                   {".pvtu", {".vtu"}},
                   {".pvts", {".vts"}},
                   {".vtm", {".vti", ".vtr", ".vtu", ".vts"}},
-                  {".vth", {".vti"}}},
+                  {".vth", {".vti"}},
+                  {".vthb", {".vti"}}},
          .reader = "vtk",
          .decodes_all_arrays = true},
 

@@ -4,15 +4,18 @@
 #include "index/formats/foreign_file.h"
 #include "index/formats/foreign_names.h"
 #include "index/formats/format.h"
+#include "index/formats/series/dated_name.h"
 #include "index/formats/series/derived_series.h"
 #include "index/formats/series/file_series.h"
 #include "index/formats/series/folder_files.h"
 #include "index/formats/series/joined_blocks.h"
 #include "index/formats/series/numbered_name.h"
+#include "index/formats/series/opening.h"
 #include "index/formats/series/resampled_series.h"
 #include "index/formats/series/step_order.h"
 #include "index/formats/series/vector_arrays.h"
 #include "index/reader/reader_pool.h"
+#include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
 
@@ -40,15 +43,27 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                             file.path.string(), known_extensions()));
 }
 
-/// Orders files by the numbers in their names, which are their times.
-std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files,
-                                      const ReadOptions& options) {
+/// Orders files by the dates in their names, which are their times, or else by the numbers.
+/// @param options get the unit of dates
+std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadOptions& options) {
     if (options.time_step)
         throw Error("--times-from-names and --time-step: expected one of the two");
     std::vector<fs::path> names;
     for (const KnownFile& file : files)
         names.push_back(file.given);
-    const auto times = times_in_names(names);
+    std::vector<std::optional<double>> times;
+    if (const auto dates = dates_in_names(names)) {
+        if (!options.time_unit)
+            options.time_unit = dates->unit;
+        const auto wanted = times_in(*options.time_unit, dates->unit, dates->times);
+        if (!wanted)
+            throw Error(fmt::format("--time-unit: {}, expected a unit with a date for the dates of "
+                                    "--times-from-names, as in `hours since 2000-01-01`",
+                                    *options.time_unit));
+        times.assign(wanted->begin(), wanted->end());
+    } else {
+        times = times_in_names(names);
+    }
     std::vector<SeriesFile> series;
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (!times[i])
@@ -110,8 +125,9 @@ const Format* joining_format(const std::vector<KnownFile>& files, const ReadOpti
 }
 
 /// The steps of a series and the files of each.
+/// @param options get what the names of the files tell
 /// @param notes get what a user should know of their order
-std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const ReadOptions& options,
+std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, ReadOptions& options,
                                   std::vector<std::string>& notes) {
     if (files.empty())
         throw Error("no files given");
@@ -144,14 +160,14 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, const Rea
     return series;
 }
 
-std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given,
-                                            const ReadOptions& options) {
+std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given, ReadOptions options,
+                                            const Progress& progress) {
     const FoundFiles found = found_files(given, options);
     std::vector<std::string> notes;
     if (found.note)
         notes.push_back(*found.note);
     std::vector<SeriesFile> files = series_of(found.files, options, notes);
-    return open_file_series(std::move(files), options, notes);
+    return open_file_series(std::move(files), options, notes, progress);
 }
 
 /// Whether files have an array of exactly this name.
@@ -193,6 +209,11 @@ std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options) {
+    return open_series(files, options, {});
+}
+
+std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
+                                          const ReadOptions& options, const Progress& progress) {
     readers_of_this_process().let_read(files);
     if (const auto names = names_in_list(options.array.value_or(""));
         !names.empty() && !files.empty() && !holds_array(files.front(), options, *options.array))
@@ -215,7 +236,7 @@ std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
     }
     if (options.resample && (options.crop || options.stride))
         throw Error("--resample with --crop or --stride: expected one of them");
-    auto series = open_as_it_is(files, options);
+    auto series = open_as_it_is(files, options, progress);
     return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
 }
 

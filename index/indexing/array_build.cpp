@@ -22,12 +22,12 @@
 namespace isochron::index {
 namespace {
 
-/// The number of first steps for which cells are built. The steps of an epoch are in one tree, so
-/// its cells are built once it is complete or has at least as many new steps as old ones.
-std::uint32_t covered_steps(std::uint32_t held, std::uint32_t steps, std::uint32_t covered) {
-    const std::uint32_t begin = steps / TimePath::kMaxSteps * TimePath::kMaxSteps;
-    const std::uint32_t old = std::max(held, begin) - begin;
-    return steps - begin >= 2 * old ? steps : std::max(covered, begin);
+/// The number of first steps that have cells after new steps have come. The steps of an epoch are in
+/// one tree: new cells for an epoch that has some already mean that those are written again. They wait
+/// until twice as many steps can be added, so that all appending together writes cells 1.5 times.
+std::uint32_t covered_steps(std::uint32_t steps, std::uint32_t covered) {
+    const std::uint32_t written_again = covered % TimePath::kMaxSteps;
+    return steps - covered >= 2 * written_again ? steps : covered;
 }
 
 } // namespace
@@ -183,7 +183,7 @@ class ArrayBuild::Work {
         if (!held_ || !has(Tier::cells))
             return;
         const std::uint32_t known = held_->metadata().cell_steps;
-        steps_.covered = covered_steps(static_cast<std::uint32_t>(steps_.fresh), steps_.all, known);
+        steps_.covered = covered_steps(steps_.all, known);
         steps_.first_epoch = known / TimePath::kMaxSteps;
         const std::size_t kept = steps_.covered == known
                                      ? held_->directory().size()
@@ -269,7 +269,8 @@ class ArrayBuild::Work {
             const bool keeps = options_.plan && (found_levels_->lossless() ||
                                                  !options_.plan->tiers.has(Tier::deltas));
             metadata_.plan =
-                keeps ? *options_.plan : plan_tiers(values_, *found_levels_, options_.tiers);
+                keeps ? *options_.plan
+                      : plan_tiers(values_, *found_levels_, options_.tiers, chunks_over_values());
             if (options_.with_tree)
                 metadata_.plan.tiers = metadata_.plan.tiers.with(Tier::tree);
             if (!keeps) {
@@ -281,8 +282,19 @@ class ArrayBuild::Work {
             metadata_.levels = found_levels_;
     }
 
+    /// Bytes of the chunks of all levels of detail, with their tables, for each byte of values.
+    double chunks_over_values() const {
+        std::uint64_t bytes = 0;
+        for (const std::vector<StepEntry>& level : tables_.volume_steps)
+            for (const StepEntry& step : level)
+                bytes += step.bytes;
+        return static_cast<double>(bytes) /
+               (static_cast<double>(metadata_.info.step_bytes()) * steps_.all);
+    }
+
     ChunkContents contents() const {
-        return {bricks_, !options_.referral, options_.codec, !held_ || held_->has_since()};
+        return {bricks_, !options_.referral, options_.codec, !held_ || held_->has_since(),
+                !held_ || held_->has_wide_rows()};
     }
     WriterMeans means(const char* what) const {
         return {threads_, options_.waiting_bytes, spill(what), options_.color != nullptr};

@@ -17,6 +17,9 @@ class BuildTarget {
   public:
     virtual ~BuildTarget() = default;
     virtual ByteSink& sink() = 0;
+    /// Where what was written so far can be read. Called on rank 0.
+    /// @param name of the index
+    virtual std::filesystem::path path_to_read(const std::filesystem::path& name) const = 0;
     /// Makes what was written valid. @param header used from the rank 0 only
     virtual void commit(const FileHeader& header) = 0;
 };
@@ -26,6 +29,9 @@ class NewTarget final : public BuildTarget {
   public:
     NewTarget(Team& team, const std::filesystem::path& target);
     NewFile& sink() override { return *file_; }
+    std::filesystem::path path_to_read(const std::filesystem::path& /*name*/) const override {
+        return file_->path_to_open();
+    }
     void commit(const FileHeader& header) override;
 
   private:
@@ -45,6 +51,9 @@ class GrowingTarget final : public BuildTarget {
     GrowingTarget& operator=(const GrowingTarget&) = delete;
 
     GrowingSink& sink() override { return file_; }
+    std::filesystem::path path_to_read(const std::filesystem::path& name) const override {
+        return name;
+    }
     void commit(const FileHeader& header) override;
 
   private:

@@ -3,12 +3,14 @@
 #include "index/indexing/index_build.h"
 
 #include "index/error.h"
+#include "index/file/blend_advice.h"
 #include "index/file/sections/file_layout.h"
 #include "index/indexing/array_build.h"
 #include "index/indexing/color_pass.h"
 #include "index/indexing/section_writer.h"
 #include "index/indexing/volume_pass.h"
 #include "index/indexing/work_progress.h"
+#include "index/system/byte_source.h"
 #include "index/system/input_file.h"
 #include "index/system/parallel.h"
 
@@ -159,6 +161,27 @@ class Arrays {
     std::deque<ArrayBuild> builds_;
 };
 
+/// Measures what blends between the steps are worth, on the values as they lie in the file by now.
+/// What cannot be measured is measured by whoever asks for it.
+void measure(ArraySections& array, const ByteSource& written, std::uint32_t version) {
+    constexpr std::uint64_t kCache = 32 << 20;
+    Metadata& metadata = array.metadata;
+    metadata.blends.reset();
+    ChunkArray volume{.called = "volume",
+                      .info = metadata.info,
+                      .steps = array.steps,
+                      .has_bricks = metadata.plan.tiers.has(Tier::bricks),
+                      .has_values = !metadata.referral,
+                      .has_since = version > kVersionWithoutSince};
+    volume.steps.resize(metadata.info.steps()); // those of the volume itself come first
+    try {
+        ByteCache cache(kCache);
+        const ChunkStore store(written, cache, std::move(volume));
+        metadata.blends = measure_blends(store, metadata.stats);
+    } catch (const Error&) {
+    }
+}
+
 /// Writes all arrays, then their sections.
 /// @return false if appending is impossible
 bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
@@ -176,6 +199,9 @@ bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const B
         if (team.rank() > 0)
             return;
         auto sections = arrays.take_sections();
+        const auto written = open_bytes(target.path_to_read(out));
+        for (ArraySections& array : sections)
+            measure(array, *written, header.version);
         write_sections(sections, held, end, header, target.sink());
     });
     arrays.report_flushing();

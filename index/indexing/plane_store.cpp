@@ -1,6 +1,8 @@
 // Keeps planes of a step that are needed once more.
 #include "index/indexing/plane_store.h"
 
+#include "index/system/huge_pages.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -21,7 +23,10 @@ void PlaneStore::append(std::span<const std::byte> planes) {
     if (file_) {
         file_->write_at(end_, planes);
     } else {
-        bytes_.reserve(all_);
+        if (bytes_.capacity() < all_) {
+            bytes_.reserve(all_);
+            ask_for_huge_pages(bytes_.data(), all_);
+        }
         bytes_.insert(bytes_.end(), planes.begin(), planes.end());
     }
     end_ += planes.size();

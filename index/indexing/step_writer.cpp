@@ -16,9 +16,9 @@ constexpr std::size_t kWorthThreads = 1 << 20; ///< [bytes] of a layer for which
 
 } // namespace
 
-StepWriter::Level::Level(const Grid& level_grid, ValueType type, Codec codec,
+StepWriter::Level::Level(const Grid& level_grid, ValueType type, const ChunkContents& contents,
                          const WriterMeans& means)
-    : grid(level_grid), packer(grid, type, codec, means.threads),
+    : grid(level_grid), packer(grid, type, contents.codec, means.threads, contents.wide_rows),
       coarseners(means.threads, Coarsener(type, grid)), chooser(chooser_of_one_step(type)),
       waiting(grid.vertex_count() * size_of(type), means.waiting_bytes, means.beside) {
     if (!has_step_levels(type))
@@ -30,7 +30,7 @@ StepWriter::StepWriter(const SeriesInfo& info, const ChunkContents& contents,
     : type_(info.type), contents_(contents), threads_(means.threads), lends_(means.lends),
       own_levels_(contents.bricks && has_step_levels(type_)) {
     for (const Grid& grid : detail_grids(info.grid))
-        levels_.emplace_back(grid, type_, contents.codec, means);
+        levels_.emplace_back(grid, type_, contents, means);
     if (!contents.since)
         for (Level& level : levels_)
             level.packer.write_without_since();

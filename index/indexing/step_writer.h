@@ -24,7 +24,8 @@ struct ChunkContents {
     bool bricks = true;
     bool values = true; ///< of the steps themselves; their levels of detail always have values
     Codec codec = Codec::fitting;
-    bool since = true; ///< tables say since when chunks have stayed: not in files of version 3
+    bool since = true;     ///< tables say since when chunks have stayed: not in files of version 3
+    bool wide_rows = true; ///< packed rows for values of several bytes: not up to version 4
 };
 
 /// The resources that writing may use.
@@ -67,7 +68,8 @@ class StepWriter {
   private:
     /// A level of detail, the step itself included.
     struct Level {
-        Level(const Grid& level_grid, ValueType type, Codec codec, const WriterMeans& means);
+        Level(const Grid& level_grid, ValueType type, const ChunkContents& contents,
+              const WriterMeans& means);
 
         Grid grid;
         LayerPacker packer;

@@ -9,23 +9,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace isochron::index {
 namespace {
 
-constexpr std::uint32_t kSampledStretches = 4, kSampledSteps = 17;
-/// Up to this many bytes of values, cells are small compared with a machine's memory and always
-/// pay.
-constexpr std::uint64_t kSmallSeries = 32 << 20;
+constexpr std::uint32_t kSampledStretches = 8, kSampledSteps = 17;
+/// Up to this many bytes of values the size of an index does not matter, and it has all that makes a
+/// search faster.
+constexpr std::uint64_t kTinySeries = 128 << 10;
 /// Steps up to this size are read as a whole anyway; in larger ones bricks read less.
 constexpr std::uint64_t kSmallStep = 4 << 20;
 /// In larger series cells pay if merging in time leaves at most this fraction of the entries: a
 /// search reads its entries instead of the values around them.
 constexpr double kPayingCoherence = 0.8;
-/// In any series cells pay only if they take at most this many bytes for each byte of values. In
-/// tiny steps, tables take most of the bytes, and a search is as fast without cells.
-constexpr double kPayingBytes = 2;
+/// With cells, an index may take at most this many bytes for each byte of values: cells shorten the
+/// search alone, which is a small part of the way to a picture.
+constexpr double kPayingBytes = 1.2;
 constexpr std::uint32_t kMergedSteps = 64; ///< steps that are looked at to estimate that
 /// In larger steps cells never pay: at 512^3, with the greatest coherence in time, they took three
 /// times the bytes, and a search from disk took 5 to 16 times as long as with bricks.
@@ -111,7 +112,7 @@ void check_tiers(const Grid& grid, const TierSet& asked) {
 }
 
 TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
-                    const std::optional<TierSet>& asked) {
+                    const std::optional<TierSet>& asked, double others) {
     const bool fits = values.grid.cells()[0] <= Stretches::kMaxCells;
     if (asked) {
         check_tiers(values.grid, *asked);
@@ -146,44 +147,39 @@ TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
                               static_cast<double>(step_bytes) / (1 << 20), kLargestStep >> 20));
         return plan;
     }
-    const bool small = step_bytes <= kSmallStep && step_bytes * values.steps <= kSmallSeries;
-    const CellCost cost = small ? CellCost() : cost_of_cells(values, levels);
-    if (!small) {
-        const std::string figures =
-            fmt::format("{:.2f} entries for a cell and step, {:.2f} bytes for each byte of values",
-                        cost.entries, cost.cell_bytes);
-        const bool merges = step_bytes <= kSmallStep || cost.entries <= kPayingCoherence;
-        if (!merges || cost.cell_bytes > kPayingBytes) {
-            leave_out(
-                "cells",
-                fmt::format(
-                    "{}; more than {} do not pay: bricks and the values around them are fewer "
-                    "bytes to read; --tiers bricks,cells makes them all the same",
-                    figures,
-                    merges ? fmt::format("{} bytes", kPayingBytes)
-                           : fmt::format("{} entries", kPayingCoherence)));
-            return plan;
-        }
-        plan.reasons.push_back(fmt::format("cells pay: {}", figures));
+    const CellCost cost = cost_of_cells(values, levels);
+    const std::string figures = fmt::format(
+        "{:.2f} entries for a cell and step, {:.2f} bytes for each byte of values beside {:.2f} of "
+        "all else",
+        cost.entries, cost.cell_bytes, others);
+    const bool merges = step_bytes <= kSmallStep || cost.entries <= kPayingCoherence;
+    const bool tiny = step_bytes * values.steps <= kTinySeries;
+    if (!tiny && (!merges || cost.cell_bytes + others > kPayingBytes)) {
+        leave_out("cells",
+                  fmt::format("{}; more than {} do not pay, as cells shorten the search alone; "
+                              "--tiers bricks,cells makes them all the same",
+                              figures,
+                              merges ? fmt::format("{} bytes in all", kPayingBytes)
+                                     : fmt::format("{} entries", kPayingCoherence)));
+        return plan;
     }
+    plan.reasons.push_back(
+        fmt::format("cells pay: {}", tiny ? std::string("the series is tiny") : figures));
     add(Tier::cells,
         fmt::format("at most {} levels, none of them shared by two values", levels.levels()));
     const double changing = churn(values, levels);
     if (values.steps < 2)
         leave_out("deltas", "one step");
-    else if (cost.delta_bytes > kPayingBytes)
-        leave_out("deltas", fmt::format("{:.2f} bytes for each byte of values; at most {} pay",
-                                        cost.delta_bytes, kPayingBytes));
-    else if (changing < 1)
-        add(Tier::deltas,
-            fmt::format(
-                "a step changes {:.0f} % of the active cells{}", 100 * changing,
-                small ? ""
-                      : fmt::format(", {:.2f} bytes for each byte of values", cost.delta_bytes)));
+    else if (tiny && changing < 1)
+        add(Tier::deltas, fmt::format("a step changes {:.0f} % of the active cells, and the series "
+                                      "is tiny",
+                                      100 * changing));
     else
-        leave_out("deltas", fmt::format("a step changes {:.0f} % of the active cells: searching "
-                                        "anew is cheaper",
-                                        100 * changing));
+        leave_out("deltas",
+                  fmt::format("they would take {:.2f} bytes for each byte of values, and only "
+                              "`isochron change` is faster with them (a step changes {:.0f} % of "
+                              "the active cells); --tiers bricks,cells,deltas makes them",
+                              cost.delta_bytes, std::isfinite(changing) ? 100 * changing : 0));
     return plan;
 }
 

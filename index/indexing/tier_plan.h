@@ -19,13 +19,15 @@ void check_tiers(const Grid& grid, const TierSet& asked);
 bool cells_may_pay(const SeriesInfo& info);
 
 /// Chooses bricks always. Chooses cells if levels are lossless, so that an entry never needs the
-/// volume, and if the series is small or cells are worth their bytes. Chooses deltas if a step
-/// changes fewer cells than a search finds, under the same conditions. `asked` overrides the
-/// choice. Looks at a sample of the steps and chunks, which depends on the series only; reads no
-/// values if cells cannot pay or levels are not lossless.
+/// volume, and if the index with them takes at most 1.2 times the bytes of the values. Of series of up
+/// to 128 KiB it chooses cells whatever they take, and deltas if a step changes fewer cells than a
+/// search finds; else no deltas: on the way to a picture nothing uses them. `asked` overrides the
+/// choice. Looks at a sample of the steps and chunks, which depends on the series only; reads no values
+/// if cells cannot pay or levels are not lossless.
+/// @param others bytes of all else in the index for each byte of values
 /// @throws Error when `asked` has a tier that cannot be built
 TierPlan plan_tiers(const StepValues& values, const LevelMap& levels,
-                    const std::optional<TierSet>& asked);
+                    const std::optional<TierSet>& asked, double others = 0);
 
 /// Mean over all isovalues of (added + removed cells) / (active cells), from step to step.
 /// Infinite if no cell is ever active; 0 for one step.

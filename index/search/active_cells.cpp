@@ -7,6 +7,7 @@
 #include "index/search/whole_layers.h"
 #include "index/surface/cell_set.h"
 #include "index/system/parallel.h"
+#include "index/volume/cell_walk.h"
 
 #include <algorithm>
 #include <chrono>
@@ -46,8 +47,8 @@ class PartsSearch {
     bool operator()() {
         if (levels_ && !cut_)
             return true;
-        if (!step_.by_chunks() && !order_.staying)
-            return whole();
+        if (!step_.by_chunks())
+            return order_.staying && cut_ ? others_of_whole() : whole();
         return cut_ ? by_candidates() : scan_layers();
     }
 
@@ -74,6 +75,51 @@ class PartsSearch {
         return !stop_.stop_requested();
     }
 
+    /// Searches the bricks of a whole step that hold cells which may have changed.
+    bool others_of_whole() {
+        const LoadedStep& all = step_.whole(stop_);
+        const std::vector<std::uint8_t> bricks = bricks_of_others(all.bricks);
+        LayerResult result = results_.begin();
+        const auto begun = Clock::now();
+        std::vector<CellId>& ids = result.cells.ids;
+        result.cells.candidates = search_bricks(all.values, *levels_, bricks, order_.query, ids);
+        stop_if_asked(stop_);
+        sort_ids(ids, step_.grid().cell_count());
+        CellWalk walk(step_.grid());
+        std::erase_if(ids, [&](CellId id) {
+            walk.to(id);
+            return order_.staying->has_cell(walk.x(), walk.y(), walk.z());
+        });
+        result.searching = Clock::now() - begun;
+        shade(all.values, result);
+        results_.add(0, std::move(result));
+        return !stop_.stop_requested();
+    }
+
+    /// Bricks without candidates but for cells that do not stay.
+    std::vector<std::uint8_t> bricks_of_others(std::span<const std::uint8_t> all) const {
+        const BrickGrid grid(step_.grid());
+        const std::size_t count = grid.count();
+        std::vector<std::uint8_t> others(2 * count);
+        std::fill_n(others.begin(), count, std::uint8_t{255});
+        const ChunkGrid& chunks = step_.chunk_grid();
+        for (std::uint32_t layer = 0; layer < chunks.layers(); ++layer) {
+            const ChunkLayerPtr table = step_.layer(layer);
+            for (const std::uint32_t place : LayerCandidates::places_of(*table, *cut_)) {
+                const auto bricks =
+                    LayerCandidates::bricks_at(order_.staying->others(layer, place));
+                const auto [x, y] = chunks.at(place);
+                for (std::uint32_t i = 0; i < kBricksOfChunk && bricks >> i; ++i)
+                    if (bricks >> i & 1)
+                        if (const auto brick = brick_of_chunk(grid, {x, y, layer}, i)) {
+                            others[*brick] = all[*brick];
+                            others[count + *brick] = all[count + *brick];
+                        }
+            }
+        }
+        return others;
+    }
+
     bool scan_layers() {
         const auto places = [&](std::uint32_t) {
             std::vector<std::uint32_t> all(step_.chunk_grid().chunks_of_layer());
@@ -88,7 +134,7 @@ class PartsSearch {
             slab.fill_all();
             work_on(slab.part(), layer, std::move(result), begun);
         };
-        return work_.for_each_layer(step_, places, {}, scan_slab, stop_);
+        return work_.for_each_layer(step_, places, {}, scan_slab, work_.threads(step_), stop_);
     }
 
     bool by_candidates() {
@@ -128,7 +174,8 @@ class PartsSearch {
             [&](std::uint32_t layer) {
                 return LayerCandidates::places_of(*step_.layer(layer), *cut_, layer, order_.only);
             },
-            [&](std::uint32_t layer) { candidates.prepare(layer); }, search_cubes, stop_);
+            [&](std::uint32_t layer) { candidates.prepare(layer); }, search_cubes,
+            work_.threads_without_slabs(), stop_);
     }
 
     /// Finds the active cells of a part that is in memory, and shades them. @throws Stopped
@@ -149,17 +196,22 @@ class PartsSearch {
         result.first = part.first_around;
         result.first_plane = part.first_plane;
         stop_if_asked(stop_);
-        const auto found = Clock::now();
-        result.searching = found - begun;
-        if (order_.shaded && !ids.empty()) {
-            if (part.slab)
-                part.slab->fill_around(ids, true);
-            if (!index::shade_cells(part.around, order_.query, ids, result.cells.points,
-                                    result.cells.rows, stop_))
-                throw Stopped();
-            result.shading = Clock::now() - found;
-        }
+        result.searching = Clock::now() - begun;
+        if (order_.shaded && part.slab && !ids.empty())
+            part.slab->fill_around(ids, true);
+        shade(part.around, result);
         results_.add(static_cast<std::uint32_t>(number), std::move(result));
+    }
+
+    /// Adds points and rows to cells that have been found, if they are wanted. @throws Stopped
+    void shade(const StepValues& values, LayerResult& result) const {
+        if (!order_.shaded || result.cells.ids.empty())
+            return;
+        const auto begun = Clock::now();
+        if (!index::shade_cells(values, order_.query, result.cells.ids, result.cells.points,
+                                result.cells.rows, stop_))
+            throw Stopped();
+        result.shading = Clock::now() - begun;
     }
 
     LayerWork& work_;

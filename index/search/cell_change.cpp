@@ -139,6 +139,8 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     WorkSpace& work = *work_;
     if (const std::uint32_t last = std::max(from.step, to.step); last >= work.steps)
         throw Error(fmt::format("step {}: expected 0 to {}", last, work.steps - 1));
+    if (from.step.between() || to.step.between())
+        return from == to ? CellChange{} : searched(to);
     if (!file_->has_cells(from.step) || !file_->has_cells(to.step))
         return without_cells(from, to);
     const CellTier* cells = work.cells;

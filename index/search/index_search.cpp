@@ -45,20 +45,25 @@ class IndexSearch {
         } catch (const Stopped&) {
             return false;
         }
-        file_->chunks().worked_on(step.at());
-        answered_[step.at()] = true;
+        if (!step.between()) {
+            file_->chunks().worked_on(step.at());
+            answered_[step.at()] = true;
+        }
         return true;
     }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// The method for a query: appended steps may not have cells yet, and the cells of a step may
-    /// not have been read.
+    /// The method for a query: appended steps may not have cells yet, the cells of a step may not
+    /// have been read, and between steps only bricks help.
     SearchMethod method_at(const Query& query) const {
+        const bool bricks = can_search(*file_, SearchMethod::bricks);
+        if (query.step.between()) // cells and tree are of steps alone
+            return bricks && method_ != SearchMethod::scan ? SearchMethod::bricks
+                                                           : SearchMethod::scan;
         if (method_ != SearchMethod::cells)
             return method_;
-        const bool bricks = can_search(*file_, SearchMethod::bricks);
         if (!file_->has_cells(query.step))
             return bricks ? SearchMethod::bricks : SearchMethod::scan;
         if (!free_ || !bricks || answered_[query.step] || !std::isfinite(query.isovalue))
@@ -152,10 +157,10 @@ SearchMethod cheapest_method(const IndexFile& file) {
     return SearchMethod::scan;
 }
 
-StepView step_of_query(const IndexFile& file, Instant at) {
+StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues) {
     if (const std::size_t steps = file.info().steps(); at >= steps)
         throw Error(fmt::format("step {}: expected 0 to {}", std::uint32_t{at}, steps - 1));
-    return step_of(file, at);
+    return step_of(file, at, isovalues);
 }
 
 // `std::function` wants something that can be copied; the state of a search must not be.
@@ -172,7 +177,7 @@ Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMeth
     return [file, search = search_into(file, method, shading)](
                const Query& query, const std::stop_token& stop) -> CellSetPtr {
         auto set = std::make_shared<CellSet>();
-        const StepView step = step_of_query(*file, query.step);
+        const StepView step = step_of_query(*file, query.step, {&query.isovalue, 1});
         return search(step, query.isovalue, stop, *set) ? set : nullptr;
     };
 }

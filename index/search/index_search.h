@@ -20,7 +20,7 @@ using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 using SearchInto =
     std::function<bool(const StepView& step, double isovalue, std::stop_token, CellSet&)>;
 /// The step of a query. @throws Error if the series does not have it
-StepView step_of_query(const IndexFile& file, Instant at);
+StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues = {});
 
 /// The fastest method that the file's tiers allow: cells, else bricks, else the paper's tree, else
 /// the scan.

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <utility>
 
 namespace isochron::index {
@@ -100,7 +102,7 @@ bool LayerSearch::for_each_part(const StepView& step, const Cells& cells, bool n
               .worker = worker,
               .layer = layer});
     };
-    return work_.for_each_layer(step, places, {}, work_on_slab, stop);
+    return work_.for_each_layer(step, places, {}, work_on_slab, work_.threads(step), stop);
 }
 
 /// Those of some neighboring cells that need values.
@@ -149,7 +151,7 @@ bool LayerSearch::search(const StepView& step, CellSet& set, bool by_bricks, boo
 
 bool LayerSearch::search_others(const StepView& step, CellSet& set, const StayingCells& staying,
                                 bool shaded, const std::stop_token& stop) {
-    LayerResults results(set, StepSlab::layers(step.grid()), stop);
+    LayerResults results(set, parts_to_search(step, true), stop);
     const ChunkFilter only = [&](std::uint32_t layer, std::uint32_t place) {
         return staying.others(layer, place) != 0;
     };
@@ -213,30 +215,68 @@ bool LayerSearch::make_mesh(const StepView& step, const CellSet& set, CellMesh& 
                             const std::stop_token& stop, const ColorSource* values,
                             const EarlierMesh& earlier) {
     const Cells cells{set.ids, set.points, earlier.mesh ? &earlier : nullptr};
+    std::vector<MeshPart> made(parts(step, cells, thread_count(0)));
+    const auto take = [&](std::size_t number, MeshPart part) { made[number] = std::move(part); };
+    if (!make_parts(step, cells, set.query, take, stop, values))
+        return false;
+    mesh = join_parts(std::move(made));
+    return true;
+}
+
+bool LayerSearch::make_mesh_pieces(const StepView& step, const CellSet& set,
+                                   const std::function<void(CellMesh piece)>& take,
+                                   const std::stop_token& stop, const ColorSource* values) {
+    if (!step.by_chunks()) { // small, and where it is cut depends on the number of threads
+        CellMesh mesh;
+        if (!make_mesh(step, set, mesh, stop, values))
+            return false;
+        take(std::move(mesh));
+        return true;
+    }
+    const Cells cells{set.ids, set.points};
+    std::mutex mutex;
+    std::map<std::size_t, MeshPart> early; // whose turn has not come
+    std::size_t next = 0;
+    PartsJoiner joiner;
+    const auto take_in_order = [&](std::size_t number, MeshPart part) {
+        const std::lock_guard lock(mutex);
+        early.emplace(number, std::move(part));
+        for (; !early.empty() && early.begin()->first == next; ++next) {
+            CellMesh piece;
+            joiner.add(early.begin()->second, piece);
+            early.erase(early.begin());
+            if (!piece.cases.empty())
+                take(std::move(piece));
+        }
+    };
+    return make_parts(step, cells, set.query, take_in_order, stop, values);
+}
+
+/// Makes the mesh of each part, also of those without cells, and hands it on from the part's thread.
+bool LayerSearch::make_parts(const StepView& step, const Cells& cells, const Query& query,
+                             const TakePart& take, const std::stop_token& stop,
+                             const ColorSource* values) {
     const auto of_values = values ? std::optional(values->step(step)) : std::nullopt;
     if (of_values && !of_values->by_chunks())
         of_values->whole(stop); // before there are several threads
     makers_.resize(thread_count(0));
-    const auto most = static_cast<unsigned>(makers_.size());
-    std::vector<MeshPart> made(parts(step, cells, most));
-    const bool finished = for_each_part(
-        step, cells, true, most,
+    return for_each_part(
+        step, cells, true, static_cast<unsigned>(makers_.size()),
         [&](const CellsOfPart& part) {
-            if (part.ids.empty())
-                return;
-            MeshPart& mesh_part = made[part.number];
-            makers_[part.worker].make(part.values, set.query, part.ids, mesh_part, part.first_plane,
-                                      stop, earlier.part(part.before, part.ids.size()));
-            if (!of_values)
-                return;
-            StepSlab slab;
-            mesh_part.values = values_at(around(*of_values, part, slab, stop), step.at(),
-                                         mesh_part.vertices, part.first_plane);
+            MeshPart made;
+            if (!part.ids.empty()) {
+                const EarlierMesh earlier = cells.earlier ? *cells.earlier : EarlierMesh{};
+                makers_[part.worker].make(part.values, query, part.ids, made, part.first_plane,
+                                          stop, earlier.part(part.before, part.ids.size()));
+                if (of_values) {
+                    StepSlab slab;
+                    made.values = values_at(around(*of_values, part, slab, stop), step.at(),
+                                            made.vertices, part.first_plane);
+                }
+            }
+            take(part.number, std::move(made));
         },
         stop);
-    if (finished)
-        mesh = join_parts(std::move(made));
-    return finished;
 }
 
 /// The values of another array at the vertices of a part's cells. @param slab that holds them

@@ -36,8 +36,7 @@ class LayerSearch {
     /// @param only with bricks and by chunks: search these chunks alone
     bool search(const StepView& step, CellSet& set, bool by_bricks, bool shaded,
                 const std::stop_token& stop, const ChunkFilter& only = {});
-    /// The same without the cells that stay: by bricks, and by chunks also of a step that is worked
-    /// on as a whole.
+    /// The same by bricks, without the cells that stay.
     bool search_others(const StepView& step, CellSet& set, const StayingCells& staying, bool shaded,
                        const std::stop_token& stop);
     /// The number of active cells, without keeping the cells; empty when stopped.
@@ -50,10 +49,15 @@ class LayerSearch {
     bool shade_cells(const StepView& step, CellSet& set, const std::stop_token& stop);
     /// @param set in the order of `search`; with points, if the grid has wide ids
     /// @param values array whose values the mesh gets; null: none; else as `source` below
-    /// @param earlier only without values: has the mesh of some cells
+    /// @param earlier has the mesh of some cells
     bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
                    const std::stop_token& stop, const ColorSource* values = nullptr,
                    const EarlierMesh& earlier = {});
+    /// The same mesh in pieces, in their order, as PartsJoiner numbers them: by chunks the memory of
+    /// a few layers is enough. @param take called by one thread at a time, while the others wait
+    bool make_mesh_pieces(const StepView& step, const CellSet& set,
+                          const std::function<void(CellMesh piece)>& take,
+                          const std::stop_token& stop, const ColorSource* values = nullptr);
     /// @param set as above @param source by chunks, has chunks at the step's level of detail
     /// @param corners eight for each cell (color_corners); empty: they are not wanted
     bool color_cells(const StepView& step, const CellSet& set, const ColorSource& source,
@@ -84,6 +88,9 @@ class LayerSearch {
     static std::vector<CellId> without_earlier(const Cells& cells, std::span<const CellId> some);
     bool for_each_part(const StepView& step, const Cells& cells, bool normals, unsigned most,
                        const Work& work, const std::stop_token& stop);
+    using TakePart = std::function<void(std::size_t number, MeshPart part)>;
+    bool make_parts(const StepView& step, const Cells& cells, const Query& query,
+                    const TakePart& take, const std::stop_token& stop, const ColorSource* values);
     static StepValues around(const StepView& other, const CellsOfPart& part, StepSlab& slab,
                              const std::stop_token& stop);
     std::span<const CellId> of_layer(const StepView& step, const Cells& cells,

@@ -1,7 +1,6 @@
 // Prepares, reads ahead, and works on layers in parallel.
 #include "index/search/layer_work.h"
 
-#include "index/system/parallel.h"
 #include "index/system/read_ahead.h"
 
 #include <algorithm>
@@ -14,7 +13,6 @@ unsigned LayerWork::threads(const StepView& step) {
         file_->cache().budget / 4 / StepSlab::bytes(step.grid(), step.type()) + 1;
     const auto threads = static_cast<unsigned>(std::min<std::uint64_t>(thread_count(0), room));
     slabs_.resize(std::max<std::size_t>(slabs_.size(), threads));
-    cubes_.resize(slabs_.size());
     return threads;
 }
 
@@ -25,13 +23,12 @@ StepSlab& LayerWork::slab(unsigned worker) {
 }
 
 bool LayerWork::for_each_layer(const StepView& step, const PlacesOf& places, const Prepare& prepare,
-                               const Work& work, const std::stop_token& stop) {
+                               const Work& work, unsigned threads, const std::stop_token& stop) {
     const std::uint32_t layers = StepSlab::layers(step.grid());
     ReadAhead ahead(layers, [&](std::uint32_t layer) {
         stop_if_asked(stop);
         return step.fetch(layer, places(layer), stop);
     });
-    const unsigned threads = this->threads(step);
     // Each item prepares a layer, and works on one that has been prepared a while ago.
     const unsigned before = prepare ? threads : 0;
     try {

@@ -44,6 +44,30 @@ struct SurfaceMeshes::WorkSpace {
           search(search_into(of, std::nullopt, wide ? Shading::cells : Shading::none)), layers(of) {
     }
 
+    using Make =
+        std::function<bool(const StepView& step, const CellSet& cells, const ColorSource* values)>;
+    /// @param wanted null, or gets the cells, with points @return false when stopped
+    bool search_and_make(const Query& query, const MeshWishes& wishes, const std::stop_token& stop,
+                         CellSet* wanted, const Make& make) {
+        const StepView step = step_of_query(*file, query.step, {&query.isovalue, 1});
+        std::optional<ColorSource> source;
+        if (wishes.values) {
+            if (const std::size_t count = ColorSource::count(*file); *wishes.values >= count)
+                throw Error(fmt::format("array {} to color by: {} has {}", *wishes.values,
+                                        file->name(), count));
+            source.emplace(*file, *wishes.values);
+        }
+        CellSet found;
+        CellSet& cells = wanted ? *wanted : found;
+        try {
+            return search(step, query.isovalue, stop, cells) &&
+                   make(step, cells, source ? &*source : nullptr) &&
+                   (!wanted || wide || layers.shade_cells(step, cells, stop));
+        } catch (const Stopped&) {
+            return false;
+        }
+    }
+
     std::shared_ptr<const IndexFile> file;
     bool wide;
     SearchInto search;
@@ -55,28 +79,23 @@ SurfaceMeshes::SurfaceMeshes(std::shared_ptr<const IndexFile> file)
 SurfaceMeshes::~SurfaceMeshes() = default;
 
 std::optional<CellMesh> SurfaceMeshes::make_packed(const Query& query, const MeshWishes& wishes,
-                                                   const std::stop_token& stop, CellSet* wanted) {
-    const IndexFile& file = *work_->file;
-    const StepView step = step_of_query(file, query.step);
-    std::optional<ColorSource> source;
-    if (wishes.values) {
-        if (const std::size_t count = ColorSource::count(file); *wishes.values >= count)
-            throw Error(
-                fmt::format("array {} to color by: {} has {}", *wishes.values, file.name(), count));
-        source.emplace(file, *wishes.values);
-    }
-    CellSet found;
-    CellSet& cells = wanted ? *wanted : found;
+                                                   const std::stop_token& stop, CellSet* cells) {
     CellMesh mesh;
-    try {
-        if (!work_->search(step, query.isovalue, stop, cells) ||
-            !work_->layers.make_mesh(step, cells, mesh, stop, source ? &*source : nullptr) ||
-            (wanted && !work_->wide && !work_->layers.shade_cells(step, cells, stop)))
-            return std::nullopt;
-    } catch (const Stopped&) {
+    const auto make = [&](const StepView& step, const CellSet& found, const ColorSource* source) {
+        return work_->layers.make_mesh(step, found, mesh, stop, source);
+    };
+    if (!work_->search_and_make(query, wishes, stop, cells, make))
         return std::nullopt;
-    }
     return mesh;
+}
+
+bool SurfaceMeshes::make_pieces(const Query& query, const MeshWishes& wishes,
+                                const std::function<void(CellMesh piece)>& take,
+                                const std::stop_token& stop, CellSet* cells) {
+    const auto make = [&](const StepView& step, const CellSet& found, const ColorSource* source) {
+        return work_->layers.make_mesh_pieces(step, found, take, stop, source);
+    };
+    return work_->search_and_make(query, wishes, stop, cells, make);
 }
 
 std::optional<SurfaceMesh> SurfaceMeshes::make(const Query& query, const MeshWishes& wishes,

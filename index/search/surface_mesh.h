@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -62,6 +63,14 @@ class SurfaceMeshes {
     /// not. @param cells null, or gets the cells, with points
     std::optional<CellMesh> make_packed(const Query& query, const MeshWishes& wishes = {},
                                         const std::stop_token& stop = {}, CellSet* cells = nullptr);
+
+    /// The same in pieces, in their order: each has the vertices that those before it do not have,
+    /// and triangles whose corners are numbered through all pieces. They are in its own piece or in
+    /// the one before it. A step of any size needs the memory of its cells and a few layers.
+    /// @param take called by one thread at a time @return false when stopped
+    bool make_pieces(const Query& query, const MeshWishes& wishes,
+                     const std::function<void(CellMesh piece)>& take,
+                     const std::stop_token& stop = {}, CellSet* cells = nullptr);
 
   private:
     struct WorkSpace;

@@ -64,14 +64,19 @@ void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
 }
 
 /// Copies the vertices that a cell is the first to have.
-/// @param first number of the first of them @param corners of the cell, in the new mesh
+/// @param first, end numbers of these @param corners of the cell, in the new mesh
 void take_vertices(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
-                   std::span<const std::uint32_t> corners, std::vector<MeshVertex>& vertices) {
+                   std::uint32_t end, std::span<const std::uint32_t> corners,
+                   std::vector<MeshVertex>& vertices) {
     const std::uint32_t* const of_earlier =
         earlier.mesh->triangles.data() + earlier.corners[earlier.places[cell]];
+    // Which corners are new follows no pattern that a processor could foresee: all are noted
+    // without a branch, those with older vertices behind the others.
+    std::array<std::uint32_t, kCellEdges + 1> from{};
     for (std::size_t k = 0; k < corners.size(); ++k)
-        if (corners[k] >= first)
-            vertices[corners[k]] = earlier.mesh->vertices[of_earlier[k]];
+        from[std::min<std::uint32_t>(corners[k] - first, kCellEdges)] = of_earlier[k];
+    for (std::uint32_t number = first; number < end; ++number)
+        vertices[number] = earlier.mesh->vertices[from[number - first]];
 }
 
 } // namespace
@@ -255,7 +260,7 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
             if (!earlier.mesh)
                 continue;
             if (earlier.has(i))
-                take_vertices(earlier, i, before,
+                take_vertices(earlier, i, before, pass.vertices(),
                               std::span(part.triangles).subspan(corner, pass.corners() - corner),
                               part.vertices);
             else

@@ -1,7 +1,6 @@
 // Joins parts at the vertices that they share, and divides a mesh into parts.
 #include "index/surface/mesh_parts.h"
 
-#include "index/surface/edge_key.h"
 #include "index/system/parallel.h"
 
 #include <algorithm>
@@ -9,86 +8,20 @@
 namespace isochron::index {
 namespace {
 
-/// A vertex that the next part may also have.
-struct SharedVertex {
-    EdgeKey key;
-    std::uint32_t number;
-};
-
-class PartsJoiner {
-  public:
-    explicit PartsJoiner(const std::vector<MeshPart>& parts) {
-        std::size_t vertices = 0, triangles = 0, cells = 0, values = 0;
-        for (const MeshPart& part : parts) {
-            vertices += part.vertices.size();
-            triangles += part.triangles.size();
-            cells += part.cases.size();
-            values += part.values.size();
-        }
-        all_.vertices.reserve(vertices);
-        all_.triangles.reserve(triangles);
-        all_.cases.reserve(cells);
-        all_.values.reserve(values);
+/// Makes room for all parts, since a mesh that grows is copied.
+void reserve(const std::vector<MeshPart>& parts, CellMesh& mesh) {
+    std::size_t vertices = 0, triangles = 0, cells = 0, values = 0;
+    for (const MeshPart& part : parts) {
+        vertices += part.vertices.size();
+        triangles += part.triangles.size();
+        cells += part.cases.size();
+        values += part.values.size();
     }
-
-    void add(const MeshPart& part) {
-        if (part.vertices.empty())
-            return;
-        find_known(part);
-        const auto first = static_cast<std::uint32_t>(numbers_.size());
-        const std::uint32_t offset = static_cast<std::uint32_t>(all_.vertices.size()) - first;
-        all_.vertices.insert(all_.vertices.end(), part.vertices.begin() + first,
-                             part.vertices.end());
-        if (!part.values.empty())
-            all_.values.insert(all_.values.end(), part.values.begin() + first, part.values.end());
-        const auto number = [&](std::uint32_t of_part) {
-            return of_part < first ? numbers_[of_part] : of_part + offset;
-        };
-        const std::size_t before = all_.triangles.size();
-        all_.triangles.resize(before + part.triangles.size());
-        std::ranges::transform(
-            part.triangles, all_.triangles.begin() + static_cast<std::ptrdiff_t>(before), number);
-        all_.cases.insert(all_.cases.end(), part.cases.begin(), part.cases.end());
-        share_top(part, number);
-    }
-    CellMesh take() { return std::move(all_); }
-
-  private:
-    /// Finds the vertices that the part before also has: only vertices of the part's first plane of
-    /// cells can be shared, and these come first.
-    void find_known(const MeshPart& part) {
-        const std::uint32_t end = part.vertices.front().z + 1u;
-        numbers_.clear();
-        for (const MeshVertex& vertex : part.vertices) {
-            if (vertex.z > end)
-                return;
-            const EdgeKey key = key_of(vertex);
-            const auto found = std::ranges::lower_bound(shared_, key, {}, &SharedVertex::key);
-            if (found != shared_.end() && found->key == key) {
-                numbers_.push_back(found->number);
-            } else {
-                numbers_.push_back(static_cast<std::uint32_t>(all_.vertices.size()));
-                all_.vertices.push_back(vertex);
-                if (!part.values.empty())
-                    all_.values.push_back(part.values[numbers_.size() - 1]);
-            }
-        }
-    }
-
-    template <class Number>
-    void share_top(const MeshPart& part, const Number& number) {
-        const std::uint32_t top = std::ranges::max_element(part.vertices, {}, &MeshVertex::z)->z;
-        shared_.clear();
-        for (std::uint32_t i = 0; i < part.vertices.size(); ++i)
-            if (part.vertices[i].z == top)
-                shared_.push_back({key_of(part.vertices[i]), number(i)});
-        std::ranges::sort(shared_, {}, &SharedVertex::key);
-    }
-
-    CellMesh all_;
-    std::vector<SharedVertex> shared_;   ///< in the last plane of the part before
-    std::vector<std::uint32_t> numbers_; ///< of the part's first vertices, in the whole mesh
-};
+    mesh.vertices.reserve(vertices);
+    mesh.triangles.reserve(triangles);
+    mesh.cases.reserve(cells);
+    mesh.values.reserve(values);
+}
 
 /// The index in `ids` of the first cell of a plane at about `i` of `n` equal parts.
 std::size_t cut_at(const Grid& grid, std::span<const CellId> ids, std::size_t i, std::size_t n) {
@@ -102,13 +35,62 @@ std::size_t cut_at(const Grid& grid, std::span<const CellId> ids, std::size_t i,
 
 } // namespace
 
+void PartsJoiner::add(const MeshPart& part, CellMesh& to) {
+    if (part.vertices.empty())
+        return;
+    find_known(part, to);
+    const auto first = static_cast<std::uint32_t>(numbers_.size());
+    const std::uint32_t offset = vertices_ - first;
+    to.vertices.insert(to.vertices.end(), part.vertices.begin() + first, part.vertices.end());
+    vertices_ += static_cast<std::uint32_t>(part.vertices.size()) - first;
+    if (!part.values.empty())
+        to.values.insert(to.values.end(), part.values.begin() + first, part.values.end());
+    const auto number = [&](std::uint32_t of_part) {
+        return of_part < first ? numbers_[of_part] : of_part + offset;
+    };
+    const std::size_t before = to.triangles.size();
+    to.triangles.resize(before + part.triangles.size());
+    std::ranges::transform(part.triangles,
+                           to.triangles.begin() + static_cast<std::ptrdiff_t>(before), number);
+    to.cases.insert(to.cases.end(), part.cases.begin(), part.cases.end());
+    const std::uint32_t top = std::ranges::max_element(part.vertices, {}, &MeshVertex::z)->z;
+    shared_.clear();
+    for (std::uint32_t i = 0; i < part.vertices.size(); ++i)
+        if (part.vertices[i].z == top)
+            shared_.push_back({key_of(part.vertices[i]), number(i)});
+    std::ranges::sort(shared_, {}, &SharedVertex::key);
+}
+
+/// Finds the vertices that the part before also has: only vertices of the part's first plane of
+/// cells can be shared, and these come first.
+void PartsJoiner::find_known(const MeshPart& part, CellMesh& to) {
+    const std::uint32_t end = part.vertices.front().z + 1u;
+    numbers_.clear();
+    for (const MeshVertex& vertex : part.vertices) {
+        if (vertex.z > end)
+            return;
+        const EdgeKey key = key_of(vertex);
+        const auto found = std::ranges::lower_bound(shared_, key, {}, &SharedVertex::key);
+        if (found != shared_.end() && found->key == key) {
+            numbers_.push_back(found->number);
+        } else {
+            numbers_.push_back(vertices_++);
+            to.vertices.push_back(vertex);
+            if (!part.values.empty())
+                to.values.push_back(part.values[numbers_.size() - 1]);
+        }
+    }
+}
+
 CellMesh join_parts(std::vector<MeshPart> parts) {
     if (parts.size() == 1)
         return std::move(parts.front());
-    PartsJoiner joiner(parts);
+    CellMesh mesh;
+    reserve(parts, mesh);
+    PartsJoiner joiner;
     for (const MeshPart& part : parts)
-        joiner.add(part);
-    return joiner.take();
+        joiner.add(part, mesh);
+    return mesh;
 }
 
 std::vector<std::span<const CellId>> cut_at_planes(const Grid& grid, std::span<const CellId> ids,

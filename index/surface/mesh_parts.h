@@ -1,13 +1,37 @@
 // Joins parts of a mesh that were made in parallel.
 #pragma once
 
+#include "index/surface/edge_key.h"
 #include "index/surface/mesh_maker.h"
 
+#include <cstdint>
 #include <span>
 #include <stop_token>
 #include <vector>
 
 namespace isochron::index {
+
+/// Joins the parts of consecutive planes one after the other. Vertices on the border between two
+/// parts are shared.
+class PartsJoiner {
+  public:
+    /// Appends a part: the vertices that the part before does not have, and its triangles, whose
+    /// corners are numbered through all parts.
+    /// @param to what was joined so far, or an empty mesh that gets this part alone
+    void add(const MeshPart& part, CellMesh& to);
+
+  private:
+    /// A vertex that the next part may also have.
+    struct SharedVertex {
+        EdgeKey key;
+        std::uint32_t number;
+    };
+    void find_known(const MeshPart& part, CellMesh& to);
+
+    std::uint32_t vertices_ = 0;         ///< of all parts
+    std::vector<SharedVertex> shared_;   ///< in the last plane of the part before
+    std::vector<std::uint32_t> numbers_; ///< of the part's first vertices
+};
 
 /// Joins the parts of consecutive planes, which together are all planes of a step. Vertices on the
 /// border between two parts are shared.

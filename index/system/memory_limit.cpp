@@ -1,12 +1,15 @@
 // Finds the limit by the machine's memory, control groups and resource limits.
 #include "index/system/memory_limit.h"
 
+#include <fmt/format.h>
+
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 namespace isochron::index {
@@ -27,14 +30,46 @@ std::uint64_t group_limit(const fs::path& root, fs::path group, const char* file
     }
 }
 
+constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+
+/// The machine's memory [bytes].
+std::uint64_t whole_memory() {
+    return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+           static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// The limit of the address space [bytes] (`ulimit -v`), or kNone.
+std::uint64_t limit_of_addresses() {
+    struct rlimit space {};
+    const bool limited = ::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
+    return limited ? space.rlim_cur : kNone;
+}
+
+/// Address space and memory that this process uses [bytes]; 0 where the kernel does not say.
+struct Used {
+    std::uint64_t addresses = 0, memory = 0;
+};
+
+Used used(const fs::path& root) {
+    const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+    std::uint64_t all = 0, resident = 0;
+    if (!(std::ifstream(root / "proc/self/statm") >> all >> resident))
+        return {};
+    return {all * page, std::min(all, resident) * page};
+}
+
+/// Address space of this process that holds no memory [bytes]: libraries, stacks, what may be needed.
+rlim_t only_addresses(const fs::path& root) {
+    const Used now = used(root);
+    return now.addresses - now.memory;
+}
+
 } // namespace
 
 std::uint64_t memory_limit(const fs::path& root) {
-    std::uint64_t limit = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    struct rlimit space {};
-    if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
-        limit = std::min<std::uint64_t>(limit, space.rlim_cur);
+    std::uint64_t limit = whole_memory();
+    if (const std::uint64_t addresses = limit_of_addresses(); addresses != kNone)
+        limit = std::min(limit, addresses - std::min(addresses / 2, only_addresses(root)));
     // Lines like `0::/user.slice` (version 2) or `9:memory:/user.slice` (version 1).
     std::ifstream groups(root / "proc/self/cgroup");
     for (std::string line; std::getline(groups, line);) {
@@ -51,6 +86,23 @@ std::uint64_t memory_limit(const fs::path& root) {
                 group_limit(root / "sys/fs/cgroup/memory", group, "memory.limit_in_bytes", limit);
     }
     return limit;
+}
+
+std::uint64_t addresses_left() {
+    const std::uint64_t limit = limit_of_addresses();
+    return limit == kNone ? kNone : limit - std::min(limit, used("/").addresses);
+}
+
+std::string shortage_of_memory() {
+    const std::uint64_t all = whole_memory(), addresses = limit_of_addresses(),
+                        limit = memory_limit();
+    if (addresses < all)
+        return fmt::format("there is not enough memory: the program may use {} MiB of address "
+                           "space (ulimit -v)",
+                           addresses >> 20);
+    if (limit < all)
+        return fmt::format("there is not enough memory: the program may use {} MiB", limit >> 20);
+    return "there is not enough memory";
 }
 
 } // namespace isochron::index

@@ -23,9 +23,15 @@ LevelMap::LevelMap(ValueType type, std::vector<std::uint64_t> thresholds, bool l
     : type_(type), thresholds_(std::move(thresholds)), lossless_(lossless), lowest_(lowest) {
     assert(thresholds_.size() < kMaxLevels);
     assert(std::is_sorted(thresholds_.begin(), thresholds_.end()));
-    if (size_of(type) <= 2)
-        for (std::uint64_t ordinal = 0; ordinal < 1u << 8 * size_of(type); ++ordinal)
-            table_.push_back(rank_of(thresholds_, ordinal));
+    if (size_of(type) > 2)
+        return;
+    table_.resize(std::size_t{1} << 8 * size_of(type));
+    std::size_t rank = 0;
+    for (std::size_t ordinal = 0; ordinal < table_.size(); ++ordinal) {
+        while (rank < thresholds_.size() && thresholds_[rank] <= ordinal)
+            ++rank;
+        table_[ordinal] = static_cast<std::uint8_t>(rank);
+    }
 }
 
 LevelMap LevelMap::of_type(ValueType type) {

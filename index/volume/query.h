@@ -29,10 +29,17 @@ constexpr std::size_t kMostSurfaces = 8;
 /// The quantity of the cells' color coordinates (index/surface/cell_colors.h).
 enum class CellColoring : std::uint8_t {
     none,
-    value,         ///< an array to color by, on the surface
-    first_crossing ///< the time at which a surface of the isovalue first passed through the cell
+    value,          ///< an array to color by, on the surface
+    first_crossing, ///< the time of the first step at which the cell is active
+    /// The time of the first instant at which the cell is active, where steps are blended.
+    first_blended_crossing
 };
-constexpr std::array<std::string_view, 3> kCellColoringNames{"none", "value", "first_crossing"};
+constexpr std::array<std::string_view, 4> kCellColoringNames{"none", "value", "first_crossing",
+                                                             "first_blended_crossing"};
+constexpr bool by_first_crossing(CellColoring coloring) {
+    return coloring == CellColoring::first_crossing ||
+           coloring == CellColoring::first_blended_crossing;
+}
 
 /// How many cells an extraction may hold, and how fine it needs to be. By default it holds all
 /// cells of the volume itself.

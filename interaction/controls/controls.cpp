@@ -96,17 +96,11 @@ struct Controls::State {
     /// Saves the volume's place in this frame under the next free name; drops the oldest view if
     /// there are `kMostViews`.
     void save_view(const ControlContext& context, Commands& commands) {
-        std::vector<Viewpoint> views = context.settings.views;
-        std::size_t number = 1;
-        const auto name = [&] { return fmt::format("view-{}", number); };
-        while (std::ranges::find(views, name(), &Viewpoint::name) != views.end())
-            ++number;
-        if (views.size() == kMostViews)
-            views.erase(views.begin());
-        views.push_back(
-            {name(), commands.room_from_physical.value_or(context.settings.room_from_physical)});
-        notes.push_back(fmt::format("viewpoint {} saved: N goes there", views.back().name));
-        commands.views = std::move(views);
+        commands.views =
+            with_view(context.settings.views,
+                      commands.room_from_physical.value_or(context.settings.room_from_physical));
+        notes.push_back(
+            fmt::format("viewpoint {} saved: N goes there", commands.views->back().name));
     }
 
     void switches(const Reading& now, const ControlContext& context, Seconds time,
@@ -168,6 +162,8 @@ struct Controls::State {
         commands.screenshot = now.pressed(Action::screenshot);
         commands.copy = now.pressed(Action::copy);
         commands.save = now.pressed(Action::save_session);
+        if (now.pressed(Action::export_surfaces))
+            commands.exporting = ExportWork{.goes_on = !context.settings.exporting.goes_on};
     }
 
     /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
@@ -253,7 +249,8 @@ struct Controls::State {
     void tell_bounds(const Reading& now, const ControlContext& context, const Similarity& volume) {
         if (!now.key(Action::control) && Reading::valuator(now.mouse, kMouseWheel) != 0 &&
             volume == context.settings.room_from_physical)
-            notes.emplace_back("the wheel goes no further: Home shows all data again");
+            notes.emplace_back(
+                "the data can be made no larger or smaller; Home resets the view and all settings");
     }
 
     ToolBox::Outcome with_tools(const Reading& now, const ControlContext& context,

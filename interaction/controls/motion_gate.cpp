@@ -10,6 +10,7 @@ namespace isochron::interaction {
 namespace {
 
 constexpr Seconds kWindow{0.1};     ///< window over which stillness is judged
+constexpr Seconds kStandsLong{0.1}; ///< a step of playing time that stands so long is at rest
 constexpr Seconds kReaction{0.020}; ///< shortest window to notice a start despite tracker noise
 
 bool below(const Velocity& speeds, const StillnessLimits& limits, double factor) {
@@ -27,7 +28,7 @@ bool is_pending(const DeviceState& device) {
 
 bool is_pending(const Commands& commands) {
     return commands.array || commands.isovalue || commands.isosurfaces || commands.step ||
-           commands.playback || commands.room_from_physical;
+           commands.fraction || commands.playback || commands.room_from_physical;
 }
 
 } // namespace
@@ -58,9 +59,13 @@ struct MotionGate::State {
             head.add(input.time, *tracked->pose);
         else
             head.forget();
-        if (pending(input, commands, how)) {
+        const bool waits = pending(input, commands, how);
+        const bool by_steps = playing && how == Playing::moves_by_steps;
+        if (waits) {
             automatic = Pace::moving;
             still_since.reset();
+            if (by_steps) // what is on screen stands from now on
+                still_since = input.time;
         } else if (automatic == Pace::settled) {
             if (!below(head.sudden(), limits, limits.leave_factor)) {
                 automatic = Pace::moving;
@@ -71,7 +76,8 @@ struct MotionGate::State {
         } else {
             if (!still_since)
                 still_since = input.time;
-            if (input.time - *still_since >= limits.settle)
+            const Seconds settle = by_steps ? std::min(limits.settle, kStandsLong) : limits.settle;
+            if (input.time - *still_since >= settle)
                 automatic = Pace::settled;
         }
     }

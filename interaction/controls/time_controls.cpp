@@ -4,6 +4,7 @@
 #include "interaction/step_track.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -48,51 +49,83 @@ StepRange chosen_range(const Reading& now, const Settings& settings) {
     return range;
 }
 
-/// The bookmarks with the step in addition, or without it if it is among them.
-std::vector<Bookmark> toggled(std::vector<Bookmark> bookmarks, std::uint32_t step,
+/// The bookmarks with the moment in addition, or without it; says what has become of it.
+std::vector<Bookmark> toggled(const std::vector<Bookmark>& bookmarks, const Moment& at,
                               std::vector<std::string>& notes) {
-    if (std::erase_if(bookmarks, [&](const Bookmark& each) { return each.step == step; }) > 0) {
-        notes.push_back(fmt::format("step {} is no bookmark any more", step + 1));
-    } else if (bookmarks.size() == kMostBookmarks) {
-        notes.push_back(fmt::format("no more than {} times can be bookmarked", kMostBookmarks));
-    } else {
-        const auto after =
-            std::ranges::find_if(bookmarks, [&](const Bookmark& each) { return each.step > step; });
-        bookmarks.insert(after, {fmt::format("step {}", step + 1), step});
-        notes.push_back(
-            fmt::format("step {} is bookmarked: Ctrl + N goes to the next bookmark", step + 1));
-    }
-    return bookmarks;
+    std::vector<Bookmark> now = toggled_bookmark(bookmarks, at);
+    notes.push_back(
+        now.size() < bookmarks.size() ? fmt::format("the bookmark at {} is removed", name_of(at))
+        : now.size() > bookmarks.size()
+            ? fmt::format("{} is bookmarked: Ctrl + N goes to the next bookmark", name_of(at))
+            : fmt::format("there are {} bookmarks, and there is no room for more", kMostBookmarks));
+    return now;
+}
+
+/// A stick that is pushed at least so far counts as a key.
+constexpr double kPushed = 0.5;
+
+/// How fast time is pushed on, -1 to 1.
+double push_rate(const Reading& now, bool blends) {
+    const double stick = blends ? now.wand_rate(WandValuator::step) : 0.0;
+    return std::clamp(now.wand_rate(WandValuator::time) + stick, -1.0, 1.0);
 }
 
 } // namespace
 
-std::uint32_t TimeControls::moved(const Reading& now, const ControlContext& context, Seconds time,
-                                  std::uint32_t steps) {
+Moment TimeControls::moved(const Reading& now, const ControlContext& context, Seconds time,
+                           std::uint32_t steps) {
     const Settings& settings = context.settings;
     PlaybackState by = settings.playback;
     if (now.key(Action::shift)) // finely, as it moves the isovalue
         by.every = 1;
-    std::uint32_t step = settings.step;
+    const Moment from = settings.moment();
+    Moment to = from;
+    const double stick = settings.blends() ? 0.0 : now.wand_rate(WandValuator::step);
     const int forward = forward_.presses(
-        now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper), time);
-    const int back =
-        back_.presses(now.key(Action::step_back) || now.pad(GamepadButton::left_bumper), time);
+        now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper) || stick > kPushed,
+        time);
+    const int back = back_.presses(now.key(Action::step_back) ||
+                                       now.pad(GamepadButton::left_bumper) || stick < -kPushed,
+                                   time);
     for (int i = back; i < forward; ++i)
-        step = next_step(step, by, steps);
-    for (int i = forward; i < back; ++i)
-        step = previous_step(step, by, steps);
+        to = next_step(to.step, by, steps);
+    for (int i = forward; i < back; ++i) // the step before a moment is the one that it follows
+        to = to.fraction > 0 ? to.step : previous_step(to.step, by, steps);
     if (now.pressed(Action::first_step))
-        step = first_of(settings.play_range, steps);
+        to = first_of(settings.play_range, steps);
     if (now.pressed(Action::last_step))
-        step = last_of(settings.play_range, steps);
+        to = last_of(settings.play_range, steps);
+    const Moment before = to;
     if (now.pressed(Action::next_time) || now.pressed(WandButton::next_time) ||
         now.pressed(GamepadButton::right))
-        step = next_bookmark(settings.bookmarks, step).value_or(step);
+        if (const auto next = next_bookmark(settings.bookmarks, before, settings.blends()))
+            to = *next;
     if (now.pressed(Action::previous_time) || now.pressed(WandButton::previous_time) ||
         now.pressed(GamepadButton::left))
-        step = previous_bookmark(settings.bookmarks, step).value_or(step);
-    return step;
+        if (const auto previous = previous_bookmark(settings.bookmarks, before, settings.blends()))
+            to = *previous;
+    return to;
+}
+
+/// Pushed by the wand, time runs on as it plays, at a rate of its own, and stops at the ends.
+Moment TimeControls::pushed(const Reading& now, const ControlContext& context, const Moment& from,
+                            Seconds elapsed) {
+    constexpr double kSeriesSeconds = 4.0;
+    const std::vector<double>& times = *context.series.times;
+    const Settings& settings = context.settings;
+    const double rate = push_rate(now, settings.blends());
+    PlaybackState state;
+    state.playing = rate != 0;
+    state.reverse = rate < 0;
+    state.loop = false;
+    state.speed = std::abs(rate) * kRoundSeconds / kSeriesSeconds;
+    const auto steps = static_cast<std::uint32_t>(times.size());
+    const Moment end =
+        state.reverse ? first_of(settings.play_range, steps) : last_of(settings.play_range, steps);
+    state.playing = state.playing && from != end; // it would start over
+    const Playback::Result reached =
+        pushed_.advance(times, from, state, elapsed, settings.play_range, settings.blends());
+    return state.playing ? Moment(reached.step, reached.fraction) : from;
 }
 
 void TimeControls::update(const Reading& now, const ControlContext& context, Seconds time,
@@ -103,16 +136,26 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
     const Settings& settings = context.settings;
     PlaybackState state = chosen(now, settings.playback, times);
     const StepRange range = chosen_range(now, settings);
-    std::uint32_t step = settings.step;
+    const Moment from = settings.moment();
+    Moment to = from;
     if (steps > 0)
-        step = moved(now, context, time, steps);
-    if (step != settings.step)
+        to = moved(now, context, time, steps);
+    if (steps > 0 && to == from)
+        to = pushed(now, context, from, elapsed);
+    if (to != from || push_rate(now, settings.blends()) != 0)
         state.playing = false;
-    const Playback::Result reached = playback_.advance(times, step, state, elapsed, range);
+    const Playback::Result reached =
+        playback_.advance(times, to, state, elapsed, range, settings.blends());
     state.playing = reached.playing;
     state.reverse = reached.reverse;
-    if (reached.step != settings.step)
+    if (Moment(reached.step, reached.fraction) != from) {
         commands.step = reached.step;
+        if (settings.blends())
+            commands.fraction = reached.fraction;
+    }
+    if (now.pressed(Action::between_steps))
+        commands.between =
+            settings.between == BetweenSteps::blend ? BetweenSteps::hold : BetweenSteps::blend;
     if (now.pressed(Action::follow)) {
         commands.follow = !settings.follow;
         if (*commands.follow && steps > 0)
@@ -124,7 +167,7 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
         commands.play_range = range;
     if (now.pressed(Action::save_time) || now.pressed(WandButton::save_time) ||
         now.pressed(GamepadButton::up))
-        commands.bookmarks = toggled(settings.bookmarks, settings.step, notes);
+        commands.bookmarks = toggled(settings.bookmarks, settings.moment(), notes);
 }
 
 } // namespace isochron::interaction

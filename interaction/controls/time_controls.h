@@ -19,11 +19,14 @@ class TimeControls {
                 Commands& commands, std::vector<std::string>& notes);
 
   private:
-    std::uint32_t moved(const Reading& now, const ControlContext& context, Seconds time,
-                        std::uint32_t steps);
+    Moment moved(const Reading& now, const ControlContext& context, Seconds time,
+                 std::uint32_t steps);
+    Moment pushed(const Reading& now, const ControlContext& context, const Moment& from,
+                  Seconds elapsed);
 
     KeyRepeat forward_, back_;
     Playback playback_;
+    Playback pushed_; ///< how far the wand has pushed time on
 };
 
 } // namespace isochron::interaction

@@ -43,7 +43,7 @@ std::span<const KeyLine> key_lines() {
         {"Space", "play, pause", {{Key::space, play}}},
         {"R", "reverse the direction of time", {{letter('R'), reverse}}},
         {"L, Ctrl + L",
-         "loop, play to and fro: on, off",
+         "loop, play back and forth: on, off",
          {{letter('L'), loop}, {letter('L'), ping_pong, Chord::control}}},
         {"Ctrl + , and Ctrl + .",
          "the range that plays begins, ends here (again: no more)",
@@ -66,6 +66,9 @@ std::span<const KeyLine> key_lines() {
         {"Ctrl + R",
          "speed: of the whole series, steps a second, the data's time",
          {{letter('R'), speed_unit, Chord::control}}},
+        {"Ctrl + T",
+         "between two steps: blend them, hold the step before",
+         {{letter('T'), between_steps, Chord::control}}},
         {"Home", "reset everything (Ctrl + Z undoes it)", {{Key::home, reset}}},
         {"8 9",
          "look along the next axis, from a corner",
@@ -106,6 +109,9 @@ std::span<const KeyLine> key_lines() {
         {"Ctrl + C, Ctrl + S",
          "copy the value under the cursor or mark; save the session",
          {{letter('C'), copy, Chord::control}, {letter('S'), save_session, Chord::control}}},
+        {"Ctrl + X",
+         "export the surfaces as files (again: cancel)",
+         {{letter('X'), export_surfaces, Chord::control}}},
         {"M", "stamp this moment in the recording", {{letter('M'), stamp}}},
         {"Tab", "panel on, off", {{Key::tab, panel}}},
         {"Y", "panel in the room, beside the data: on, off", {{letter('Y'), room_panel}}},
@@ -137,7 +143,7 @@ std::span<const KeyLine> key_lines() {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 35> kLines{{
+    static constexpr std::array<ControlLine, 36> kLines{{
         {mouse, "Click", "pick the surface there, or what the tool does (4 5 6)"},
         {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},
@@ -147,7 +153,7 @@ std::span<const ControlLine> control_lines() {
         {mouse, "Ctrl + wheel", "isovalue by 0.1 % of the range"},
         {mouse, "Mouse", "aims the wand"},
         {keyboard, "F1 or ?", "help: keys, mouse and devices"},
-        {keyboard, "F11", "whole screen on, off"},
+        {keyboard, "F11", "full screen on, off"},
         {keyboard, "Ctrl + O", "open other data"},
         {hands, "Wand button 1 (hold)", "grab: the volume follows the wand"},
         {hands, "Wand button 2 (hold)", "fly where the wand points"},
@@ -163,6 +169,7 @@ std::span<const ControlLine> control_lines() {
          "button 1 clicks, drags; title moves it, stick scrolls"},
         {hands, "Wand valuator 3", "fly where the wand points, or back"},
         {hands, "Wand valuator 4", "turn by 30 degrees"},
+        {hands, "Wand valuator 5", "time forward, back: the whole series in 4 s"},
         {hands, "Both wands' button 1", "move, turn and scale the volume between two hands"},
         {gamepad, "back", "panel in the room"},
         {gamepad, "thumb buttons", "recenter (left), next saved viewpoint (right)"},

@@ -94,6 +94,8 @@ enum class Action : std::uint8_t {
     save_session,
     ask_to_quit,
     flip_clip,
+    between_steps,
+    export_surfaces,
     count
 };
 /// Recordings keep 64 bits of a device. Those of older versions have no `more_keys`.
@@ -132,8 +134,9 @@ enum class WandButton : std::uint8_t {
     mark_range
 };
 /// Valuators of the device `wand`, each in [-1, 1] and 0 at rest: rate of the isovalue, rate of the
-/// scale, speed of flying in the direction of the wand, and snap turns (right positive).
-enum class WandValuator : std::uint8_t { isovalue, scale, fly, turn, count };
+/// scale, speed of flying in the direction of the wand, snap turns (right positive), rate of time, and
+/// a headset's stick for time: where steps are blended its rate, else a push is a step.
+enum class WandValuator : std::uint8_t { isovalue, scale, fly, turn, time, step, count };
 
 /// Bits of the device `gamepad`, in the order in which windowing libraries report them.
 enum class GamepadButton : std::uint8_t {

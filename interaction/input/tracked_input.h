@@ -3,6 +3,7 @@
 
 #include "interaction/pose.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -41,6 +42,14 @@ struct InputState {
     const DeviceState* find(std::string_view name) const;
     bool operator==(const InputState&) const = default;
 };
+
+/// Whether a button is down or a valuator is not at rest.
+inline bool is_held(const InputState& input) {
+    return std::ranges::any_of(input.devices, [](const DeviceState& device) {
+        return device.buttons != 0 ||
+               std::ranges::any_of(device.valuators, [](float value) { return value != 0.0f; });
+    });
+}
 
 /// A source of device states. Polling is the one call that advances it; the state it returns is a
 /// value.

@@ -2,8 +2,10 @@
 // library.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -99,5 +101,13 @@ struct GamepadEvent {
 
 using WindowEvent = std::variant<KeyEvent, TextEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent,
                                  FocusEvent, GamepadEvent>;
+
+/// Whether a key was pressed among these events, and not a combination with it.
+inline bool is_pressed(Key key, std::span<const WindowEvent> events) {
+    return std::ranges::any_of(events, [key](const WindowEvent& event) {
+        const auto* change = std::get_if<KeyEvent>(&event);
+        return change && change->key == key && change->down && change->alone();
+    });
+}
 
 } // namespace isochron::interaction

@@ -3,6 +3,9 @@
 
 #include "interaction/navigation/axis_views.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace isochron::interaction {
@@ -232,6 +235,17 @@ Similarity Navigator::update(const Reading& now, const ControlContext& context, 
         volume = resized(now, context, volume, seconds);
     }
     return is_valid(volume) ? volume : context.settings.room_from_physical;
+}
+
+std::vector<Viewpoint> with_view(std::vector<Viewpoint> views, const Similarity& place) {
+    std::size_t number = 1;
+    const auto name = [&] { return fmt::format("view-{}", number); };
+    while (std::ranges::find(views, name(), &Viewpoint::name) != views.end())
+        ++number;
+    if (views.size() == kMostViews)
+        views.erase(views.begin());
+    views.push_back({name(), place});
+    return views;
 }
 
 } // namespace isochron::interaction

@@ -6,6 +6,8 @@
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigation.h"
 
+#include <vector>
+
 namespace isochron::interaction {
 
 /// The place on the floor to which releasing the teleport button would lead: under the eye's ray
@@ -30,5 +32,9 @@ class Navigator {
     bool turn_armed_ = true; ///< the turning valuator has been at rest since it last turned
     std::optional<glm::dvec3> teleport_target_;
 };
+
+/// The viewpoints with a place in addition, under the next free name; without the oldest one if there
+/// are kMostViews.
+std::vector<Viewpoint> with_view(std::vector<Viewpoint> views, const Similarity& place);
 
 } // namespace isochron::interaction

@@ -16,6 +16,7 @@ struct RecordingHeader {
     std::string data;            ///< path of the index as given
     std::string data_hash;       ///< hexadecimal content hash
     std::array<int, 2> window{}; ///< [pixels] at the start; 0: as the configuration says
+    double text = 0;             ///< height of words, as a share of the window's; 0: as usual
     Commands start;              ///< the state at the start: every setting
     bool operator==(const RecordingHeader&) const = default;
 };

@@ -137,10 +137,13 @@ void add_commands(json& to, const char* key, const Commands& commands) {
 } // namespace
 
 json to_json(const RecordingHeader& header) {
-    return {{"format", kFormat},         {"version", header.version},
-            {"program", header.program}, {"configuration", header.configuration},
-            {"data", header.data},       {"data_hash", header.data_hash},
-            {"window", header.window},   {"start", commands_json(header.start)}};
+    json value{{"format", kFormat},         {"version", header.version},
+               {"program", header.program}, {"configuration", header.configuration},
+               {"data", header.data},       {"data_hash", header.data_hash},
+               {"window", header.window},   {"start", commands_json(header.start)}};
+    if (header.text > 0)
+        value["text"] = header.text;
+    return value;
 }
 
 RecordingHeader header_from_json(const json& value) {
@@ -164,9 +167,11 @@ RecordingHeader header_from_json(const json& value) {
         for (std::size_t i = 0; i < 2; ++i)
             header.window[i] = static_cast<int>(natural(size[i], "window", kWidest));
     }
+    if (const json* share = members.find("text"))
+        header.text = number(*share, "text", 0, 1);
     header.start = commands_from(members.at("start"), "start");
-    members.done(
-        {"format", "version", "program", "configuration", "data", "data_hash", "window", "start"});
+    members.done({"format", "version", "program", "configuration", "data", "data_hash", "window",
+                  "text", "start"});
     return header;
 }
 

@@ -11,6 +11,9 @@ namespace {
 /// Most cells handled in one call (about 1 ms), so that a large set does not delay a frame.
 constexpr std::size_t kIdsLookedAt = 1 << 18;
 constexpr std::size_t kMessageWord = sizeof(std::uint32_t);
+/// More points than these are not kept for the next set: with a driver that draws on the processor
+/// they are the process's memory.
+constexpr std::size_t kPointsKept = (std::size_t{8} << 20) / sizeof(index::CellPoint);
 
 } // namespace
 
@@ -105,6 +108,8 @@ bool ArrivingSet::send_styles(StagingRing& ring, SendBudget& budget, UploadCount
 
 Slots ArrivingSet::swap_points(DeviceArray& points) {
     std::swap(points, points_);
+    if (points_.capacity() > kPointsKept)
+        points_ = points_array(*gl_);
     return ranked_->take();
 }
 

@@ -54,7 +54,6 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
     auto slots = std::make_shared<Slots>();
     slots->largest = largest;
     for (const index::CellPoint& point : points) {
-        slots->slot_of_rank.push_back(static_cast<std::uint32_t>(slots->places.size()));
         slots->places.push_back({point.x, point.y, point.z, point.style});
         slots->planes.push_back(point.plane);
     }
@@ -236,7 +235,7 @@ bool CellBuffers::send_colors(const index::Extraction& set, const Slots& slots, 
         colors_by_slot_.resize(ranked ? 0 : set.corner_colors.size());
         for (std::size_t rank = 0; !ranked && rank < cells; ++rank)
             std::copy_n(&set.corner_colors[kOfCell * rank], kOfCell,
-                        &colors_by_slot_[kOfCell * slots.slot_of_rank[rank]]);
+                        &colors_by_slot_[kOfCell * slots.slot_of(rank)]);
     }
     const std::span<const std::uint16_t> all = ranked ? set.corner_colors : colors_by_slot_;
     const std::size_t part = std::min(budget.left() / kBytes, cells - colors_sent_);

@@ -8,7 +8,6 @@ namespace isochron::render {
 RankedPoints::RankedPoints(const index::Extraction& set) : set_(&set) {
     slots_.places.reserve(set.cells());
     slots_.planes.reserve(set.cells());
-    slots_.slot_of_rank.reserve(set.cells());
     if (set.coarse())
         slots_.largest = 1u << set.coarsest;
 }
@@ -24,7 +23,6 @@ std::span<const index::CellPoint> RankedPoints::next(std::size_t most) {
             given_.push_back(point);
             slots_.places.push_back({point.x, point.y, point.z, point.style});
             slots_.planes.push_back(point.plane);
-            slots_.slot_of_rank.push_back(static_cast<std::uint32_t>(rank));
         }
         at_ += part.size();
         if (part.size() < from.size())

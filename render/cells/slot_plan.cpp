@@ -48,15 +48,15 @@ bool SlotPlan::follow(std::size_t& cells) {
         const std::size_t added =
             added_at_ < change.added.size() ? change.added[added_at_] : new_end;
         if (old_at_ == removed && old_at_ < old_end) {
-            free_.push_back(slots_->slot_of_rank[old_rank_++]);
+            free_.push_back(slots_->slot_of(old_rank_++));
             ++old_at_, ++removed_at_, --cells;
         } else if (new_at_ == added && new_at_ < new_end) {
             next_.slot_of_rank[new_rank_++] = kNoSlot;
             ++new_at_, ++added_at_, --cells;
         } else {
             const std::size_t run = std::min({removed - old_at_, added - new_at_, cells});
-            std::copy_n(slots_->slot_of_rank.begin() + static_cast<std::ptrdiff_t>(old_rank_), run,
-                        next_.slot_of_rank.begin() + static_cast<std::ptrdiff_t>(new_rank_));
+            for (std::size_t i = 0; i < run; ++i)
+                next_.slot_of_rank[new_rank_ + i] = slots_->slot_of(old_rank_ + i);
             old_at_ += run, new_at_ += run, old_rank_ += run, new_rank_ += run, cells -= run;
         }
     }
@@ -81,9 +81,9 @@ bool SlotPlan::merge(std::size_t cells) {
             const bool comes =
                 !goes && (old_at_ == before.size() || after[new_at_] < before[old_at_]);
             if (goes)
-                free_.push_back(slots_->slot_of_rank[old_rank_]);
+                free_.push_back(slots_->slot_of(old_rank_));
             else
-                next_.slot_of_rank[new_rank_++] = comes ? kNoSlot : slots_->slot_of_rank[old_rank_];
+                next_.slot_of_rank[new_rank_++] = comes ? kNoSlot : slots_->slot_of(old_rank_);
             new_at_ += !goes;
             old_at_ += !comes;
             old_rank_ += !comes;
@@ -95,7 +95,7 @@ bool SlotPlan::merge(std::size_t cells) {
 }
 
 void SlotPlan::find_free_slots() {
-    const auto now = static_cast<std::uint32_t>(slots_->slot_of_rank.size());
+    const auto now = static_cast<std::uint32_t>(slots_->places.size());
     const auto then = static_cast<std::uint32_t>(cells_);
     std::erase_if(free_, [&](std::uint32_t slot) { return slot >= then; });
     for (std::uint32_t slot = now; slot < then; ++slot)

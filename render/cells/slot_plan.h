@@ -28,8 +28,12 @@ constexpr std::uint16_t cell_style(std::size_t surface, unsigned color) {
 
 /// The cells of all surfaces in slots 0 to n - 1.
 struct Slots {
-    /// By *rank*: surface by surface, and within a surface in the order of its ids.
+    /// By *rank*: surface by surface, and within a surface in the order of its ids. Empty: the slots
+    /// are the ranks.
     std::vector<std::uint32_t> slot_of_rank;
+    std::uint32_t slot_of(std::size_t rank) const {
+        return slot_of_rank.empty() ? static_cast<std::uint32_t>(rank) : slot_of_rank[rank];
+    }
     std::vector<CellPlace> places; ///< by slot
     /// By slot, the third word of an index::CellPoint; empty if only the GPU has them.
     std::vector<std::uint32_t> planes;

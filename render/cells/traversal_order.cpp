@@ -143,9 +143,9 @@ template <class Entry>
 class PassesOf final : public SortPasses {
   public:
     PassesOf(std::size_t cells, Distances distances)
-        : distances_(std::move(distances)), from_(std::make_unique_for_overwrite<Entry[]>(cells)),
+        : distances_(std::move(distances)), cells_(cells),
+          from_(std::make_unique_for_overwrite<Entry[]>(cells)),
           to_(std::make_unique_for_overwrite<Entry[]>(cells)) {
-        order.resize(cells);
         while (distances_.largest >> (digits_ * kDigitBits) != 0)
             ++digits_;
     }
@@ -157,8 +157,7 @@ class PassesOf final : public SortPasses {
         if (pass == 0)
             make(slots, begin, end);
         else if (pass == count() - 1)
-            std::ranges::transform(std::span(from_.get(), end).subspan(begin),
-                                   order.begin() + begin, &Entry::slot);
+            take_slots(begin, end);
         else if (pass % 2 == 1)
             count_digits(shift, begin, end);
         else
@@ -168,9 +167,18 @@ class PassesOf final : public SortPasses {
   private:
     void make(const Slots& slots, std::size_t begin, std::size_t end) {
         for (std::size_t rank = begin; rank < end; ++rank) {
-            const std::uint32_t slot = slots.slot_of_rank[rank];
+            const std::uint32_t slot = slots.slot_of(rank);
             from_[rank] = {distances_.largest - distances_.of(slots.places[slot]), slot};
         }
+    }
+
+    void take_slots(std::size_t begin, std::size_t end) {
+        if (begin == 0) {
+            to_.reset(); // so that both and the order are never there together
+            order.resize(cells_);
+        }
+        std::ranges::transform(std::span(from_.get(), end).subspan(begin), order.begin() + begin,
+                               &Entry::slot);
     }
 
     void count_digits(int shift, std::size_t begin, std::size_t end) {
@@ -189,11 +197,12 @@ class PassesOf final : public SortPasses {
         }
         for (std::size_t i = begin; i < end; ++i)
             to_[begin_[digit(from_[i], shift)]++] = from_[i];
-        if (end == order.size())
+        if (end == cells_)
             from_.swap(to_);
     }
 
     const Distances distances_;
+    const std::size_t cells_;
     std::size_t digits_ = 0;
     std::unique_ptr<Entry[]> from_, to_;
     std::array<std::uint32_t, 1 << kDigitBits> begin_{}; ///< counts, then places, by digit

@@ -41,6 +41,9 @@ void RenderTarget::allocate() {
     if (samples_ > 1)
         return allocate_samples();
     gl_->TextureStorage2D(depth_.name(), 1, GL_DEPTH_COMPONENT32F, size_.x, size_.y);
+    // Depths are fetched one at a time; not every device can filter them.
+    gl_->TextureParameteri(depth_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_->TextureParameteri(depth_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl_->NamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
     expect_complete(framebuffer_.name());
 }

@@ -34,6 +34,7 @@ class RenderTarget {
     /// With several samples these hold the last resolved picture.
     GLuint framebuffer() const { return framebuffer_.name(); }
     GLuint color_texture() const { return color_.name(); }
+    GLuint depth_texture() const { return depth_.name(); } ///< with one sample alone
     /// The framebuffer to draw into: color and depth of every sample.
     GLuint drawn_framebuffer() const { return many_ ? many_->framebuffer.name() : framebuffer(); }
 

@@ -4,6 +4,7 @@
 #include "render/gl/gl_memory.h"
 #include "render/gl/shader.h"
 #include "render/gl/viewport.h"
+#include "render/passes/pixel_box.h"
 
 #include <fmt/format.h>
 
@@ -13,34 +14,6 @@
 #include <cassert>
 
 namespace isochron::render {
-
-namespace {
-
-struct PixelBox {
-    glm::ivec2 low, high;
-};
-
-/// The pixels of a view that show a box; all of the view if a corner is behind the eye.
-PixelBox box_in(const View& view, const glm::mat4& room_from_box) {
-    const glm::mat4 clip_from_box = view.clip_from_eye * view.eye_from_room * room_from_box;
-    glm::vec2 low(1.0f), high(-1.0f);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec4 at =
-            clip_from_box * glm::vec4(corner & 1, corner >> 1 & 1, corner >> 2, 1.0f);
-        if (at.w <= 0.0f)
-            return {view.corner, view.corner + view.size};
-        const glm::vec2 place = glm::clamp(glm::vec2(at) / at.w, -1.0f, 1.0f);
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-    }
-    const glm::vec2 size(view.size);
-    const auto pixel = [&](glm::vec2 place) { return 0.5f * (place + 1.0f) * size; };
-    return {view.corner + glm::ivec2(glm::floor(pixel(low))),
-            view.corner +
-                glm::max(glm::ivec2(glm::ceil(pixel(high))), glm::ivec2(glm::floor(pixel(low))))};
-}
-
-} // namespace
 
 EnlargePass::Target::Target(const Gl& gl, glm::ivec2 pixels, bool linear_light)
     : size(pixels), linear(linear_light), color(gl, GL_TEXTURE_2D), depth(gl, GL_TEXTURE_2D),
@@ -115,7 +88,7 @@ void EnlargePass::end(std::span<const View> views, const glm::mat4& room_from_bo
         const glm::vec2 scale = glm::vec2(few_[i].size) / glm::vec2(views[i].size);
         const glm::vec2 offset = glm::vec2(few_[i].corner) - scale * glm::vec2(views[i].corner);
         set_viewport(*gl_, views[i]);
-        const PixelBox box = box_in(views[i], room_from_box);
+        const PixelBox box = pixel_box(views[i], room_from_box);
         gl_->ScissorIndexed(0, box.low.x, box.low.y, box.high.x - box.low.x,
                             box.high.y - box.low.y);
         gl_->ProgramUniform4f(program, 0, scale.x / whole.x, scale.y / whole.y, offset.x / whole.x,

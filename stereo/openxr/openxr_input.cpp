@@ -115,6 +115,7 @@ void OpenXrInput::poll_hand(Seconds now, const OpenXrSession& session, const Ope
     set(WandValuator::isovalue, HandAction::isovalue, Hand::other);
     set(WandValuator::fly, HandAction::fly_speed, Hand::wand);
     set(WandValuator::turn, HandAction::turn, Hand::wand);
+    set(WandValuator::step, HandAction::step, Hand::other);
 }
 
 void OpenXrInput::poll_keys(const OpenXrSession& session, const OpenXrActions& actions) {
@@ -128,6 +129,8 @@ void OpenXrInput::poll_keys(const OpenXrSession& session, const OpenXrActions& a
     add(pressed(HandAction::panel), Action::room_panel);
     add(pressed(HandAction::next_view), Action::next_view);
     add(pressed(HandAction::pick), Action::pick);
+    if (actions.has(session.handle(), Hand::wand)) // whose device has the stick
+        return;
     const float step = actions.value(session.handle(), HandAction::step, Hand::other);
     add(step > kStepAt, Action::step_forward);
     add(step < -kStepAt, Action::step_back);

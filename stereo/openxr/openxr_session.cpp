@@ -180,13 +180,15 @@ void OpenXrSession::end_frame(const HeadsetPictures* pictures, bool again) {
     std::array<XrCompositionLayerDepthInfoKHR, 2> depths{};
     std::array<XrCompositionLayerProjectionView, 2> views{};
     const bool copy = !again || !filled_;
+    if (copy)
+        drawn_views_ = views_;
     for (std::size_t i = 0; pictures && i < views.size(); ++i) {
         const auto& [target, corner] = (*pictures)[i];
         Images& images = images_[i];
         if (copy)
             images.color->copy_from(target->framebuffer(), corner);
-        views[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, views_[i].pose,
-                    views_[i].fov, images.color->image()};
+        views[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, drawn_views_[i].pose,
+                    drawn_views_[i].fov, images.color->image()};
         if (!images.depth)
             continue;
         if (copy)

@@ -65,8 +65,9 @@ class OpenXrSession {
     interaction::Pose room_from_space_;
     std::array<glm::ivec2, 2> sizes_{};
     std::array<Images, 2> images_;
-    bool filled_ = false;           ///< the runtime has got pictures
-    std::array<XrView, 2> views_{}; ///< as located last
+    bool filled_ = false;                 ///< the runtime has got pictures
+    std::array<XrView, 2> views_{};       ///< as located last
+    std::array<XrView, 2> drawn_views_{}; ///< of the pictures that the images hold
     XrEnvironmentBlendMode blending_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::optional<XrTime> display_time_;
 };

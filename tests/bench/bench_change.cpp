@@ -4,6 +4,8 @@
 #include "app/command_line/progress_bar.h"
 #include "index/extraction/extraction.h"
 #include "index/indexing/index_build.h"
+#include "render/cells/cell_buffers.h"
+#include "stereo/context/gl_context.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/changing_series.h"
@@ -17,6 +19,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 
 namespace isochron::bench {
@@ -27,6 +30,7 @@ namespace fs = std::filesystem;
 struct ChangeArguments {
     fs::path json, work = fs::temp_directory_path();
     unsigned size = 256, cells = 90'000, repeats = 3;
+    std::string only; ///< a part of the names of what is measured
 };
 
 /// What is asked after what, and the floor of its ratio.
@@ -41,11 +45,15 @@ struct ChangeUse {
     const char* name;
     index::Shading shading;
     std::uint64_t mesh_room;
+    index::CellColoring coloring = index::CellColoring::none;
 };
 constexpr std::array kUses{
     ChangeUse{"cells and volume", index::Shading::none, 0},
     ChangeUse{"with planes", index::Shading::cells, 0},
-    ChangeUse{"with planes and mesh", index::Shading::cells, std::uint64_t{1} << 32}};
+    ChangeUse{"with planes and mesh", index::Shading::cells, std::uint64_t{1} << 32},
+    ChangeUse{"colored, with planes", index::Shading::cells, 0, index::CellColoring::value},
+    ChangeUse{"colored, with mesh", index::Shading::cells, std::uint64_t{1} << 32,
+              index::CellColoring::value}};
 
 /// Processor time of all threads, milliseconds.
 struct ChangeRow {
@@ -60,9 +68,20 @@ struct ChangeRow {
 
 enum class How { kept, anew, alone };
 
+constexpr int kDragged = 20; ///< times that an isovalue is moved to and fro before it is measured
+
+/// Sends a set to the GPU, but does not show it: for that, a GPU computes normals of cells without
+/// planes, which software GL does for longer than all else takes.
+void send_to_gpu(const render::Gl& gl, render::CellBuffers& cells,
+                 const index::ExtractionPtr& set) {
+    while (!cells.stage(set, std::numeric_limits<std::size_t>::max()))
+        ;
+    gl.Finish();
+}
+
 /// From a file that is opened anew, whose bytes are in memory.
-double time_change(const fs::path& path, const ChangeUse& use, const ChangeCase& of, How how,
-                   bool again, std::size_t& cells) {
+double time_change(const render::Gl& gl, const fs::path& path, const ChangeUse& use,
+                   const ChangeCase& of, How how, bool again, std::size_t& cells) {
     const auto file = index::IndexFile::open(path);
     // A method that is asked for takes nothing over.
     const index::Extract extract = index::extract_from(
@@ -70,19 +89,31 @@ double time_change(const fs::path& path, const ChangeUse& use, const ChangeCase&
         use.shading);
     index::SurfacesQuery before = of.before, after = of.after;
     before.mesh_room = after.mesh_room = use.mesh_room;
-    // A step that is looked at again may be decoded as a whole; that is not measured.
-    for (int i = 0; again && i < 2; ++i)
+    before.coloring = after.coloring = use.coloring;
+    // A step that is looked at again, or often with other isovalues, may be decoded as a whole; that
+    // is not measured.
+    const int looks = of.before.step == of.after.step ? kDragged : 2;
+    for (int i = 0; again && i < looks; ++i)
         for (const index::SurfacesQuery& query : {before, after})
             extract(query, {});
-    if (again || how != How::alone)
-        extract(before, {});
+    const index::ExtractionPtr shown =
+        again || how != How::alone
+            ? extract(before, {})
+            : index::extract_from(index::IndexFile::open(path), {}, use.shading)(before, {});
+    render::CellBuffers buffers(gl, file->info().grid);
+    while (buffers.shown() != shown)
+        buffers.upload(shown, std::numeric_limits<std::size_t>::max());
+    gl.Finish();
     const Stopwatch watch(Stopwatch::Of::all_threads);
-    cells = extract(after, {})->cells();
-    return 1e3 * watch.seconds();
+    const index::ExtractionPtr set = extract(after, {});
+    send_to_gpu(gl, buffers, set);
+    const double seconds = watch.seconds();
+    cells = set->cells();
+    return 1e3 * seconds;
 }
 
-ChangeRow measure(const fs::path& path, const ChangeUse& use, const std::vector<ChangeCase>& alike,
-                  bool again) {
+ChangeRow measure(const render::Gl& gl, const fs::path& path, const ChangeUse& use,
+                  const std::vector<ChangeCase>& alike, bool again) {
     ChangeRow row{
         .what = alike.front().what, .use = use.name, .again = again, .floor = alike.front().floor};
     constexpr std::array kTurns{How::kept, How::anew, How::alone};
@@ -91,7 +122,8 @@ ChangeRow measure(const fs::path& path, const ChangeUse& use, const std::vector<
         for (std::size_t first = 0; first < kTurns.size(); ++first) // each comes first once
             for (std::size_t i = 0; i < kTurns.size(); ++i) {
                 const std::size_t turn = (first + i) % kTurns.size();
-                times[turn].push_back(time_change(path, use, of, kTurns[turn], again, row.cells));
+                times[turn].push_back(
+                    time_change(gl, path, use, of, kTurns[turn], again, row.cells));
             }
     row.kept_ms = median(times[0]);
     row.anew_ms = median(times[1]);
@@ -128,6 +160,7 @@ void write_rows(const fs::path& path, const std::vector<ChangeRow>& rows, const 
     write_text(path, nlohmann::json{{"commit", header.commit},
                                     {"processor", header.processor},
                                     {"load", load},
+                                    {"until", "is on the GPU"},
                                     {"rows", list}}
                              .dump(1) +
                          "\n");
@@ -142,6 +175,9 @@ std::string load_now() {
 void run_bench_change(const ChangeArguments& arguments) {
     const app::CancelOnSignal signals;
     const WorkFolder folder(arguments.work);
+    const auto context =
+        stereo::make_context(stereo::ContextKind::egl, {.size = {16, 16}, .vsync = false});
+    const render::Gl gl(context->loader());
     const struct { double stay, floor; } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
     std::vector<double> stay;
     for (const auto& share : shares)
@@ -152,9 +188,12 @@ void run_bench_change(const ChangeArguments& arguments) {
                "cells", "kept ms", "anew ms", "alone ms", "/anew", "/alone", "floor");
     for (const Changing changing : {Changing::together, Changing::scattered}) {
         ChangingSeries series(arguments.size, arguments.cells, stay, changing);
+        ChangingSeries colors(arguments.size, arguments.cells, stay, changing);
+        colors.call("color");
         const fs::path path = folder.path() / "change.isochron";
         app::ProgressBar bar;
-        index::build_index(series, path, {.tiers = index::TierSet().with(index::Tier::bricks)},
+        index::build_index(series, path,
+                           {.tiers = index::TierSet().with(index::Tier::bricks), .color = &colors},
                            [&](std::string_view phase, double done) {
                                signals.check();
                                bar.show(phase, done);
@@ -183,8 +222,10 @@ void run_bench_change(const ChangeArguments& arguments) {
         for (const ChangeUse& use : kUses)
             for (const std::vector<ChangeCase>& alike : cases)
                 for (const bool again : {false, true}) {
+                    if (alike.front().what.find(arguments.only) == std::string::npos)
+                        continue;
                     signals.check();
-                    rows.push_back(measure(path, use, alike, again));
+                    rows.push_back(measure(gl, path, use, alike, again));
                     fmt::print("{}", table_line(rows.back()));
                     std::fflush(stdout);
                 }
@@ -211,6 +252,8 @@ void add_change(app::Command& program) {
     command.option("--repeats", arguments->repeats, "Steps that are measured of each kind")
         .between(1, 100)
         .shows_default();
+    command.option("--only", arguments->only, "Measure only what has this in its name")
+        .type_name("TEXT");
     command.option("--json", arguments->json, "Write the rows, with commit and processor")
         .type_name("FILE");
     command.option("--work", arguments->work, "Folder for the series")
@@ -219,8 +262,9 @@ void add_change(app::Command& program) {
         .shows_default();
     command.footer(
         "Ratios are of two times in turn. A set is timed from the question to the set that "
-        "is handed over. `first`: nothing of\nthe step is decoded yet, its bytes are in "
-        "memory; `again`: it has been looked at before.");
+        "is on the GPU. `first`: nothing of\nthe step is decoded yet, its bytes are in "
+        "memory; `again`: it has been looked at before, with both isovalues twenty times where "
+        "these move.");
     command.on_run([arguments] { run_bench_change(*arguments); });
 }
 

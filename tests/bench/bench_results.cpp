@@ -24,7 +24,8 @@ std::string read_text(const fs::path& path) {
 }
 
 struct ResultFiles {
-    fs::path index, render, artifacts, scale, gpu, agreement, motion, out;
+    fs::path index, render, artifacts, scale, gpu, agreement, motion, building, change, between,
+        public_files, out;
 };
 
 void run_bench_results(const ResultFiles& files) {
@@ -34,7 +35,11 @@ void run_bench_results(const ResultFiles& files) {
                                          .scale = files.scale.string(),
                                          .gpu = files.gpu.string(),
                                          .agreement = files.agreement.string(),
-                                         .motion = files.motion.string()},
+                                         .motion = files.motion.string(),
+                                         .building = files.building.string(),
+                                         .change = files.change.string(),
+                                         .between = files.between.string(),
+                                         .public_files = files.public_files.string()},
                                         read_text);
     if (files.out.empty()) {
         fmt::print("{}", page.text);
@@ -71,6 +76,16 @@ void add_results(app::Command& program) {
         .type_name("FILE.json");
     command.option("--motion", files->motion, "Results of `isochron-bench motion --json`")
         .type_name("FILE.json");
+    command.option("--building", files->building, "Results of `isochron-bench building --json`")
+        .type_name("FILE.json");
+    command.option("--change", files->change, "Results of `isochron-bench change --json`")
+        .type_name("FILE.json");
+    command.option("--between", files->between, "Results of `isochron-bench between --json`")
+        .type_name("FILE.json");
+    command
+        .option("--public", files->public_files,
+                "What tests/index/conformance/public.py printed of public files")
+        .type_name("FILE.txt");
     command
         .option(
             "-o,--out", files->out,

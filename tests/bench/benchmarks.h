@@ -7,6 +7,8 @@ namespace isochron::bench {
 
 void add_index(app::Command& program);
 void add_render(app::Command& program);
+void add_between(app::Command& program);
+void add_building(app::Command& program);
 void add_change(app::Command& program);
 void add_artifacts(app::Command& program);
 void add_detail(app::Command& program);

@@ -1,4 +1,5 @@
-// Fuzz targets: configurations, files that are imported as such, and messages of a cluster.
+// Fuzz targets: configurations, files that are imported as such, messages of a cluster, requests of the
+// control socket.
 #include "tests/fuzz/targets.h"
 
 #include "app/cluster/cluster_messages.h"
@@ -7,9 +8,14 @@
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
 #include "app/config/toml_reader.h"
+#include "app/control/control_answers.h"
+#include "app/control/control_request.h"
+#include "interaction/recording/commands_json.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace isochron::fuzz {
 namespace {
@@ -65,11 +71,33 @@ void fuzz_cluster(Bytes input) {
     }
 }
 
+void fuzz_control(Bytes input) {
+    const std::string_view lines(reinterpret_cast<const char*>(input.data()), input.size());
+    for (std::size_t from = 0; from <= lines.size();) {
+        const std::size_t end = std::min(lines.find('\n', from), lines.size());
+        std::string id;
+        try {
+            const app::ControlRequest request =
+                app::request_from(lines.substr(from, end - from), id);
+            std::string again_id;
+            claim(app::request_from(app::line_of(request, id), again_id) == request,
+                  "a request comes back as it was written");
+            claim(id == again_id, "so does its name");
+            claim(!interaction::unwritable_field(request.commands), "numbers are finite");
+        } catch (const interaction::Error& error) {
+            claim_one_line(error.what());
+            claim_one_line(app::refused(id, error.what()).line.substr(0, id.size()));
+        }
+        from = end + 1;
+    }
+}
+
 } // namespace
 
 std::span<const Target> app_targets() {
     static constexpr std::array kTargets{Target{"toml", fuzz_toml}, Target{"pvx", fuzz_pvx},
-                                         Target{"cluster", fuzz_cluster}};
+                                         Target{"cluster", fuzz_cluster},
+                                         Target{"control", fuzz_control}};
     return kTargets;
 }
 

@@ -35,7 +35,7 @@ std::span<const Target> index_targets();
 std::span<const Target> interaction_targets();
 
 /// Configurations, ParaView's descriptions of CAVEs, and what the processes of a cluster tell each
-/// other: a byte that says which message, then its CBOR.
+/// other: a byte that says which message, then its CBOR. Requests of the control socket, line by line.
 std::span<const Target> app_targets();
 
 } // namespace isochron::fuzz

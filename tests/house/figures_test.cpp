@@ -29,6 +29,10 @@ const std::vector<KnownConstant>& known_constants() {
     static const std::vector<KnownConstant> constants{
         {"docs/guide/exploring.md", "10 s", "interaction/step_track.h", "kRoundSeconds = 10.0"},
         {"docs/guide/exploring.md", "1 %", "interaction/controls/controls.cpp", "kCoarse = 0.01"},
+        {"docs/guide/export.md", "16 MiB", "index/export/exported_mesh.cpp",
+         "kMostHeld = std::uint64_t{16} << 20"},
+        {"docs/guide/export.md", "128 MiB", "app/commands/command_export.cpp",
+         "kMostKept = std::uint64_t{128} << 20"},
         {"docs/guide/headsets.md", "100 ms", "app/quality/frame_quality.h", "kStillAfter{0.1}"},
         {"docs/guide/limits.md", "90 Hz", "tests/bench/pages/results_page.cpp",
          "a display of 90 Hz"},

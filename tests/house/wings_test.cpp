@@ -25,7 +25,7 @@ const std::map<std::string, Steps> kOrder{
       {"explore"},
       {"session", "indexing", "generate"},
       {"panel", "output"},
-      {"scene", "cluster"},
+      {"scene", "cluster", "control"},
       {"quality"},
       {"frame"},
       {"config", "command_line"},

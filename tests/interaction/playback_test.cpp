@@ -167,5 +167,82 @@ TEST(Playback, UnevenAndAwkwardTimesNeverStick) {
     }
 }
 
+TEST(Playback, BlendedTimePassesThroughTheMomentsBetweenTheSteps) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        std::vector<double> times{0};
+        while (times.size() < 3 + seed)
+            times.push_back(times.back() + uniform(random, 1, 2.9)); // no gaps
+        for (const bool reverse : {false, true}) {
+            Playback playback;
+            Moment at = reverse ? Moment(static_cast<std::uint32_t>(times.size() - 1)) : Moment();
+            double before = times[at.step];
+            const double per_frame = period(times) / 1000;
+            for (int i = 0; i < 2500; ++i) { // more than two rounds
+                const auto now =
+                    playback.advance(times, at, playing(reverse), Seconds(0.01), {}, true);
+                at = {now.step, now.fraction};
+                const double shown = at.fraction == 0
+                                         ? times[at.step]
+                                         : std::lerp(times[at.step], times[at.step + 1],
+                                                     at.fraction / double(kFractions));
+                const double moved = (shown - before) * (reverse ? -1 : 1);
+                const bool held = shown == times.back() || before == times.back();
+                if (!held) { // else it stands for the last step, or goes around
+                    EXPECT_NEAR(moved, per_frame, 1e-4) << "frame " << i;
+                }
+                before = shown;
+            }
+        }
+    }
+}
+
+TEST(Playback, GapsAreHeldAndSoAreStepsThatAreLeftOut) {
+    const std::vector<double> times{0, 1, 2, 3, 13, 14, 15}; // ten where one is usual
+    EXPECT_EQ(gap_between(times), 3);
+    Playback playback;
+    Moment at;
+    std::set<std::uint32_t> blended_in;
+    for (int i = 0; i < 1000; ++i) {
+        const auto now = playback.advance(times, at, playing(), Seconds(0.01), {}, true);
+        at = {now.step, now.fraction};
+        if (at.fraction != 0)
+            blended_in.insert(at.step);
+    }
+    EXPECT_EQ(blended_in, (std::set<std::uint32_t>{0, 1, 2, 4, 5}));
+    PlaybackState every_second = playing();
+    every_second.every = 2;
+    for (int i = 0; i < 1000; ++i)
+        EXPECT_EQ(playback.advance(times, 0, every_second, Seconds(0.01), {}, true).fraction, 0u);
+}
+
+TEST(Playback, BlendedTimeGoesOnFromAMomentThatWasChosenElsewhere) {
+    const std::vector<double> times{0, 1, 2, 3};
+    Playback playback;
+    const Moment chosen(1, kFractions / 4);
+    const auto rests = playback.advance(times, chosen, {}, Seconds(1), {}, true);
+    EXPECT_EQ(Moment(rests.step, rests.fraction), chosen);
+    const auto now = playback.advance(times, chosen, playing(), Seconds(0.5), {}, true);
+    EXPECT_EQ(Moment(now.step, now.fraction), Moment(1, kFractions / 4 + kFractions / 5));
+}
+
+TEST(Playback, WithoutLoopBlendedTimeEndsAtTheEndsThemselves) {
+    const std::vector<double> times{0, 1, 2, 3};
+    for (const bool reverse : {false, true}) {
+        Playback playback;
+        Moment at = reverse ? Moment(3) : Moment(0);
+        bool plays = true;
+        for (int i = 0; i < 2000 && plays; ++i) {
+            const auto now =
+                playback.advance(times, at, playing(reverse, false), Seconds(0.01), {}, true);
+            at = {now.step, now.fraction};
+            plays = now.playing;
+        }
+        EXPECT_FALSE(plays);
+        EXPECT_EQ(at, reverse ? Moment(0) : Moment(3));
+    }
+}
+
 } // namespace
 } // namespace isochron::interaction

@@ -190,5 +190,18 @@ TEST(StepTrack, BookmarksAreVisitedInOrderAndAround) {
     EXPECT_EQ(previous_bookmark({}, 1), std::nullopt);
 }
 
+TEST(StepTrack, BookmarksBetweenStepsHaveTheirMoment) {
+    const std::vector<Bookmark> marks =
+        toggled_bookmark(toggled_bookmark({}, Moment(3)), Moment(3, kFractions / 2));
+    ASSERT_EQ(marks.size(), 2u);
+    EXPECT_EQ(marks[1].name, "step 4.50");
+    EXPECT_EQ(next_bookmark(marks, 3), Moment(3, kFractions / 2));
+    EXPECT_EQ(next_bookmark(marks, Moment(3, kFractions / 2)), 3u) << "around";
+    EXPECT_EQ(previous_bookmark(marks, Moment(3, 7)), 3u);
+    EXPECT_EQ(toggled_bookmark(marks, Moment(3, kFractions / 2)).size(), 1u) << "it goes again";
+    EXPECT_EQ(next_bookmark({{{"a", 3, 9}, {"b", 5, 0}}}, 3, false), 5u)
+        << "where steps are held, all of step 3 is the same";
+}
+
 } // namespace
 } // namespace isochron::interaction

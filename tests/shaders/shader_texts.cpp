@@ -13,6 +13,7 @@
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
 #include "render/passes/picture_pass.h"
+#include "render/passes/reproject_pass.h"
 #include "render/passes/solid_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
@@ -133,6 +134,7 @@ void make_all_passes(const Gl& gl) {
         throw render::Error("shader_texts: cells should be drawn for two eyes at once, too");
     const render::BackgroundPass background(gl);
     const render::EnlargePass enlarge(gl);
+    const render::ReprojectPass reproject(gl);
     const render::LinePass lines(gl);
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);

@@ -222,6 +222,33 @@ TEST_P(MultiplexTest, InvertedHalvesHoldTheOtherEye) {
     EXPECT_EQ(blue(inverted(StereoMode::top_bottom), 5, 40), 40);
 }
 
+/// Every pixel of every eye's picture is where the same pixel of an upright display would be, turned
+/// about the middle of its place; rows, columns and squares stay those of the window.
+TEST_P(MultiplexTest, ADisplayThatHangsUpsideDownShowsEachEyesPictureTurnedInItsPlace) {
+    for (Window window : odd_windows()) {
+        for (Viewport& viewport : window.viewports)
+            viewport.upside_down = true;
+        Display display = display_of(window);
+        for (const StereoMode mode :
+             {StereoMode::mono, StereoMode::vertical_interlaced, StereoMode::horizontal_interlaced,
+              StereoMode::checkerboard}) {
+            SCOPED_TRACE(testing::Message()
+                         << name_of(mode) << ", " << window.size.x << " x " << window.size.y);
+            const Image picture = draw(display, mode);
+            for (std::size_t v = 0; v < window.viewports.size(); ++v) {
+                const auto [low, high] = pixels_of(window.viewports[v], window.size);
+                for (int y = low.y; y < high.y; ++y)
+                    for (int x = low.x; x < high.x; ++x) {
+                        const Eye eye = mode == StereoMode::mono ? Eye::center : owner(mode, x, y);
+                        const Rgb expected = color_of(eye, v, high.x - 1 - x, high.y - 1 - y);
+                        const std::uint8_t* pixel = picture.at(x, y);
+                        ASSERT_EQ((Rgb{pixel[0], pixel[1], pixel[2]}), expected) << x << ' ' << y;
+                    }
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(, MultiplexTest, testing::Values(ContextKind::egl, ContextKind::osmesa),
                          [](const auto& kind) { return std::string(name_of(kind.param)); });
 

@@ -1,9 +1,13 @@
 // Names of stereo modes, further names that are accepted, and the eyes' places in inverted modes.
 #include "stereo/installation.h"
+#include "stereo/screen.h"
 #include "stereo/stereo_mode.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <set>
 #include <string>
@@ -72,6 +76,29 @@ TEST(StereoMode, LiveEyeSeparationMovesEveryViewersEyesInProportion) {
     EXPECT_EQ(separation(1, 0.0f), 0.0f);
     installation.viewers[1].eye_separation = 0.09f;
     EXPECT_EQ(separation(1, 0.1f), 0.1f) << "no eyes are wider apart";
+}
+
+TEST(StereoMode, MeasuredEyesAreWhereTheyWereMeasuredAndMoveFromTheirMiddle) {
+    Viewer viewer;
+    const interaction::Pose head{{1, 2, 3}, glm::angleAxis(0.7f, glm::vec3(0, 1, 0))};
+    const auto eye = [&](Eye which, float separation) {
+        return eye_position(head, which, eyes_of_viewer(viewer, separation));
+    };
+    const auto in_room = [&](glm::vec3 place) { return head.position + head.orientation * place; };
+    const auto expect_at = [](glm::vec3 got, glm::vec3 expected) {
+        EXPECT_LT(glm::distance(got, expected), 1e-6f) << got.x << ' ' << got.y << ' ' << got.z;
+    };
+    expect_at(eye(Eye::left, 0.06f), in_room({-0.03f, 0, 0}));
+    viewer.left_eye = {-0.035f, 0.01f, -0.02f};
+    viewer.right_eye = {0.029f, 0.012f, -0.021f};
+    viewer.eye_separation = glm::distance(*viewer.left_eye, *viewer.right_eye);
+    expect_at(eye(Eye::left, viewer.eye_separation), in_room(*viewer.left_eye));
+    expect_at(eye(Eye::right, viewer.eye_separation), in_room(*viewer.right_eye));
+    const glm::vec3 middle = 0.5f * (*viewer.left_eye + *viewer.right_eye);
+    expect_at(eye(Eye::center, 0.05f), in_room(middle));
+    expect_at(eye(Eye::left, 0), in_room(middle));
+    expect_at(eye(Eye::right, 0.5f * viewer.eye_separation),
+              in_room(0.5f * (middle + *viewer.right_eye)));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "app/session/session.h"
 #include "index/indexing/index_build.h"
+#include "index/volume/blend.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 
@@ -44,6 +45,38 @@ class MovingSphere final : public index::VolumeSeries {
     }
 
   private:
+    index::SeriesInfo info_;
+};
+
+/// The six steps of a moving sphere, and what lies between two of them as a seventh step.
+class StepsAndABlend final : public index::VolumeSeries {
+  public:
+    static constexpr std::size_t kSteps = 6;
+    explicit StepsAndABlend(index::Instant at) : at_(at) {
+        info_ = sphere_.info();
+        info_.type = index::ValueType::f64;
+        info_.times.push_back(99);
+    }
+    const index::SeriesInfo& info() const override { return info_; }
+    void read(std::size_t step, std::span<std::byte> out) override {
+        const std::vector<float> now = values(step < kSteps ? step : at_.step);
+        std::vector<double> all(now.begin(), now.end());
+        if (step == kSteps) {
+            const std::vector<float> next = values(at_.step + 1);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                all[i] = index::blended(now[i], next[i], at_.fraction);
+        }
+        std::memcpy(out.data(), all.data(), out.size());
+    }
+
+  private:
+    std::vector<float> values(std::size_t step) {
+        std::vector<float> all(info_.grid.vertex_count());
+        sphere_.read(step, std::as_writable_bytes(std::span(all)));
+        return all;
+    }
+    MovingSphere sphere_{kSteps};
+    index::Instant at_;
     index::SeriesInfo info_;
 };
 

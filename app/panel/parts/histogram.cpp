@@ -8,10 +8,12 @@
 
 #include <glm/vec3.hpp>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -44,7 +46,23 @@ struct Plot {
     }
 };
 
-void columns(const Plot& plot, const std::vector<std::uint64_t>& bins, bool logarithmic) {
+/// The part of the range that is seen, as shares of it.
+struct Zoom {
+    float low = 0.0f, high = 1.0f;
+
+    bool is_whole() const { return low <= 0.0f && high >= 1.0f; }
+    /// Nearer or farther about a place in the plot. @param at 0 to 1
+    void turn(float notches, float at) {
+        constexpr float kNotch = 1.25f, kNearest = 1.0f / 128;
+        const float width = std::clamp((high - low) / std::pow(kNotch, notches), kNearest, 1.0f);
+        const float middle = std::lerp(low, high, at);
+        low = std::clamp(middle - at * width, 0.0f, 1.0f - width);
+        high = low + width;
+    }
+};
+
+void columns(const Plot& plot, const Zoom& zoom, const std::vector<std::uint64_t>& bins,
+             bool logarithmic) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(plot.low, plot.high, packed(Ink::control), ImGui::GetStyle().FrameRounding);
     if (bins.empty())
@@ -53,13 +71,22 @@ void columns(const Plot& plot, const std::vector<std::uint64_t>& bins, bool loga
         const auto number = static_cast<double>(count);
         return logarithmic ? std::log1p(number) : number;
     };
-    const double most = std::max(scaled(*std::ranges::max_element(bins)), 1e-9);
-    const float width = (plot.high.x - plot.low.x) / static_cast<float>(bins.size());
+    const auto number = static_cast<float>(bins.size());
+    const auto first = static_cast<std::size_t>(zoom.low * number);
+    const auto end =
+        std::clamp(static_cast<std::size_t>(std::ceil(zoom.high * number)), first + 1, bins.size());
+    const double most =
+        std::max(scaled(*std::max_element(bins.begin() + static_cast<std::ptrdiff_t>(first),
+                                          bins.begin() + static_cast<std::ptrdiff_t>(end))),
+                 1e-9);
     const float room = plot.high.y - plot.low.y - 12.0f; // the handles lie above
-    for (std::size_t bin = 0; bin < bins.size(); ++bin) {
+    const auto x_of = [&](std::size_t bin) {
+        const float share = (static_cast<float>(bin) / number - zoom.low) / (zoom.high - zoom.low);
+        return std::lerp(plot.low.x, plot.high.x, std::clamp(share, 0.0f, 1.0f));
+    };
+    for (std::size_t bin = first; bin < end; ++bin) {
         const float height = room * static_cast<float>(scaled(bins[bin]) / most);
-        const float x = plot.low.x + width * static_cast<float>(bin);
-        list.AddRectFilled({x, plot.high.y - height}, {x + width, plot.high.y},
+        list.AddRectFilled({x_of(bin), plot.high.y - height}, {x_of(bin + 1), plot.high.y},
                            packed(Ink::columns));
     }
 }
@@ -118,7 +145,8 @@ std::optional<std::uint32_t> line_near(const Plot& plot, const PanelModel& model
 }
 
 /// Linear or logarithmic counts: a word in the plot's corner.
-void scale_choice(const Plot& plot, bool& logarithmic) {
+/// Beside it the whole range again, where a part of it is seen.
+void scale_choice(const Plot& plot, bool& logarithmic, Zoom& zoom) {
     const char* word = logarithmic ? "log" : "lin";
     const ImVec2 size = ImGui::CalcTextSize(word);
     const ImVec2 corner(plot.high.x - size.x - 12.0f, plot.low.y + 14.0f);
@@ -127,6 +155,13 @@ void scale_choice(const Plot& plot, bool& logarithmic) {
     if (ImGui::Button(word, {size.x + 10.0f, size.y + 4.0f}))
         logarithmic = !logarithmic;
     tip("heights of the columns: logarithmic or linear");
+    if (!zoom.is_whole()) {
+        const float all = ImGui::CalcTextSize("all").x + 10.0f;
+        ImGui::SetCursorScreenPos({corner.x - all - 4.0f, corner.y});
+        if (ImGui::Button("all", {all, size.y + 4.0f}))
+            zoom = {};
+        tip("the whole range of values again");
+    }
     ImGui::SetCursorScreenPos(after);
 }
 
@@ -157,13 +192,22 @@ void histogram(const PanelModel& model, Commands& commands) {
     int* const grabbed = kept.GetIntRef(ImGui::GetID("grabbed"), kNobody);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
-    const Plot plot{
-        corner, {corner.x + width, corner.y + kPlotHeight}, model.stats.low, model.stats.high};
+    float* const seen_low = kept.GetFloatRef(ImGui::GetID("low"), 0.0f);
+    float* const seen_high = kept.GetFloatRef(ImGui::GetID("high"), 1.0f);
+    Zoom zoom{*seen_low, *seen_high};
+    const Plot plot{corner,
+                    {corner.x + width, corner.y + kPlotHeight},
+                    std::lerp(model.stats.low, model.stats.high, static_cast<double>(zoom.low)),
+                    std::lerp(model.stats.low, model.stats.high, static_cast<double>(zoom.high))};
     ImGui::InvisibleButton("histogram", {width, kPlotHeight});
     ImGui::SetItemAllowOverlap(); // the word in its corner
     const bool active = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
     const float pointed = ImGui::GetIO().MousePos.x;
-    columns(plot, model.stats.histogram, *logarithmic);
+    if (hovered) {
+        ImGui::SetItemUsingMouseWheel(); // the column does not scroll then
+        zoom.turn(ImGui::GetIO().MouseWheel, std::clamp((pointed - corner.x) / width, 0.0f, 1.0f));
+    }
+    columns(plot, zoom, model.stats.histogram, *logarithmic);
     lines_behind(plot, model);
     const auto& surfaces = model.asked.isosurfaces;
     for (std::uint32_t i = 0; i < surfaces.size(); ++i)
@@ -180,8 +224,11 @@ void histogram(const PanelModel& model, Commands& commands) {
         commands.isovalue = plot.value_at(pointed);
     }
     if (hovered && plot.has_span())
-        ImGui::SetTooltip("%s", with_unit(plot.value_at(pointed), model.info.value_unit).c_str());
-    scale_choice(plot, *logarithmic);
+        ImGui::SetTooltip("%s\nthe wheel zooms",
+                          with_unit(plot.value_at(pointed), model.info.value_unit).c_str());
+    scale_choice(plot, *logarithmic, zoom);
+    *seen_low = zoom.low;
+    *seen_high = zoom.high;
     ImGui::Dummy({width, kAxisHeight});
 }
 

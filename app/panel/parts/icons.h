@@ -38,6 +38,13 @@ enum class Icon : std::uint8_t {
     view,
     flip,
     remove,
+    to_and_fro,
+    bookmark,
+    bookmark_back,
+    bookmark_forward,
+    up,
+    go,
+    send,
     count
 };
 

@@ -58,22 +58,24 @@ constexpr std::pair<Action, const char*> kWords[]{
     {Action::next_color_array, "next array to color by"},
     {Action::undo, "undo"},
     {Action::redo, "redo"},
-    {Action::first_tools, "tool: pick and mark"},
+    {Action::first_tools, "tool: pick and grab"},
     {Action::clip_tool, "tool: clip plane"},
-    {Action::ruler_tool, "tool: ruler, measures a length"},
-    {Action::loop, "loop: begin again at the end, on, off"},
-    {Action::ping_pong, "play to and fro: on, off"},
-    {Action::range_first, "the range that plays begins at this step"},
-    {Action::range_last, "the range that plays ends at this step"},
-    {Action::range_all, "the range that plays is all steps"},
+    {Action::ruler_tool, "tool: ruler (measures a length)"},
+    {Action::loop, "loop: start again after the last step"},
+    {Action::ping_pong, "play back and forth: on, off"},
+    {Action::between_steps, "between steps: blend them, or hold the step before"},
+    {Action::range_first, "begin playing at this step"},
+    {Action::range_last, "end playing at this step"},
+    {Action::range_all, "play all steps"},
     {Action::first_step, "go to the first step"},
     {Action::last_step, "go to the last step"},
     {Action::skip_more, "skip more steps while time plays"},
     {Action::skip_fewer, "skip fewer steps while time plays"},
-    {Action::save_time, "bookmark this time, or take its bookmark away"},
-    {Action::next_time, "go to the next bookmark of time"},
-    {Action::previous_time, "go to the previous bookmark of time"},
+    {Action::save_time, "bookmark this step, or remove its bookmark"},
+    {Action::next_time, "go to the next bookmark"},
+    {Action::previous_time, "go to the previous bookmark"},
     {Action::save_session, "save the session now"},
+    {Action::export_surfaces, "export the surfaces as files, or cancel the export"},
     {Action::flip_clip, "clip plane: cut away the other side"},
 };
 
@@ -100,13 +102,13 @@ KeyCommand command_of(const interaction::KeyLine& line, const interaction::KeyBi
                        : binding.chord == Chord::control     ? "Ctrl + "
                                                              : "";
     return {words == std::end(kWords) ? std::string(line.effect) : words->second,
-            with + name_of_key(binding.key), binding.key, binding.chord};
+            with + name_of_key(binding.key), binding.key, binding.chord, binding.action};
 }
 
 std::vector<KeyCommand> all_key_commands() {
     std::vector<KeyCommand> all{{"open other data", "Ctrl + O", Key{'O'}, Chord::control},
                                 {"help: keys, mouse and devices", "F1", Key::f1},
-                                {"whole screen on, off", "F11", Key::f11}};
+                                {"full screen on, off", "F11", Key::f11}};
     std::vector<Action> listed(kHeld.begin(), kHeld.end());
     for (const interaction::KeyLine& line : interaction::key_lines())
         for (const interaction::KeyBinding& binding : line.bindings) {
@@ -212,7 +214,7 @@ std::vector<interaction::WindowEvent> KeySearch::draw(const PanelBox& picture) {
         ImGui::PopID();
     }
     if (lines.empty())
-        note("nothing that a key does has these words", color_of(Ink::dim));
+        note("no command has these words", color_of(Ink::dim));
     ImGui::EndChild();
     const bool left = !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&
                       ImGui::IsMouseClicked(ImGuiMouseButton_Left);
@@ -220,6 +222,61 @@ std::vector<interaction::WindowEvent> KeySearch::draw(const PanelBox& picture) {
     if (wanted || left)
         shown_ = false;
     return wanted ? presses_of(*wanted) : std::vector<interaction::WindowEvent>();
+}
+
+/// Only what a hand in the room can do: no other data, and no window of the desktop.
+const KeyCommand* KeySearch::lines_in_room() {
+    constexpr float kLine = 30.0f, kGap = 12.0f;
+    const KeyCommand* wanted = nullptr;
+    bool any = false;
+    for (const KeyCommand* line : found(text_)) {
+        if (!line->action)
+            continue;
+        any = true;
+        ImGui::PushID(line);
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const float width = ImGui::GetContentRegionAvail().x;
+        if (ImGui::Selectable("##line", false, 0, {0.0f, kLine}))
+            wanted = line;
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const float y = corner.y + (kLine - ImGui::GetFontSize()) / 2;
+        const float words = ImGui::CalcTextSize(line->words.c_str()).x;
+        const float key = ImGui::CalcTextSize(line->name.c_str()).x;
+        list.AddText({corner.x + 4.0f, y}, packed(Ink::text), line->words.c_str());
+        if (words + key + kGap < width)
+            list.AddText({corner.x + width - key - 4.0f, y}, packed(Ink::dim), line->name.c_str());
+        ImGui::PopID();
+    }
+    if (!any)
+        note("no command has these words", color_of(Ink::dim));
+    return wanted;
+}
+
+std::optional<interaction::Action> KeySearch::draw_in_room(const PanelBox& place) {
+    if (!shown_)
+        return std::nullopt;
+    ImGui::SetNextWindowPos({place.low.x, place.low.y});
+    ImGui::SetNextWindowSize({place.size().x, place.size().y});
+    if (std::exchange(fresh_, false))
+        ImGui::SetNextWindowFocus();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::Begin("###search", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    constexpr float kClose = 80.0f;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - kClose -
+                            ImGui::GetStyle().ItemSpacing.x);
+    finished_text("##search", "what do you want to do?", text_);
+    ImGui::SameLine();
+    const bool left = ImGui::Button("Close", {kClose, 0.0f});
+    ImGui::BeginChild("lines");
+    const KeyCommand* const wanted = lines_in_room();
+    ImGui::EndChild();
+    ImGui::End();
+    ImGui::PopStyleVar();
+    if (wanted || left)
+        shown_ = false;
+    return wanted ? wanted->action : std::nullopt;
 }
 
 } // namespace isochron::app

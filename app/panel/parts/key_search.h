@@ -5,6 +5,7 @@
 #include "interaction/input/actions.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,8 @@ struct KeyCommand {
     std::string words, name; ///< `play, pause`, `Space`
     interaction::Key key;
     interaction::Chord chord = interaction::Chord::none;
+    /// What the key leads to; empty: something that a window does itself.
+    std::optional<interaction::Action> action{};
 };
 /// The events of someone who presses its key and lets it go.
 std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command);
@@ -37,8 +40,14 @@ class KeySearch {
     /// Lays it out in the current Dear ImGui frame, at the top of the picture.
     /// @return what is to be pressed for the command that the user chose; then it closes
     std::vector<interaction::WindowEvent> draw(const PanelBox& picture);
+    /// The same on a panel in the room, which it covers: the text is typed on keys of the panel.
+    /// @param place that it covers
+    /// @return the command that the user chose; then it closes
+    std::optional<interaction::Action> draw_in_room(const PanelBox& place);
 
   private:
+    const KeyCommand* lines_in_room();
+
     bool shown_ = false, fresh_ = false;
     std::string text_;
     int chosen_ = 0; ///< among the lines that are found

@@ -44,7 +44,7 @@ StateWords state_words(const FrameReport& frame, interaction::QualityMode mode) 
     if (best && whole && frame.final && !frame.in_parts)
         return {"exact", true};
     if (best && frame.final)
-        return {whole ? "exact" : "exact, of coarser cells", whole};
+        return {whole ? "exact" : "exact, coarser cells", whole};
     return {fmt::format("{} {} of {}", fast ? "fast" : "preview",
                         static_cast<int>(frame.footprint) + 1, render::kFootprints),
             false};
@@ -58,7 +58,8 @@ std::string quality_line(const FrameReport& frame) {
     if (frame.expected)
         line += fmt::format(", {:.1f} of {:.1f} ms", frame.expected->count(), frame.budget.count());
     if (frame.reason == QualityReason::over_budget && frame.better)
-        line += fmt::format(" (the next better one takes {:.1f} ms)", frame.better->count());
+        line +=
+            fmt::format(" (the next better way of drawing takes {:.1f} ms)", frame.better->count());
     // The line already tells that the picture moves or fits.
     else if (!fast && frame.reason != QualityReason::moving && frame.reason != QualityReason::fits)
         line += fmt::format(" ({})", name_of(frame.reason));
@@ -131,7 +132,7 @@ void progress_window(const std::string& name, const std::string& line, float fra
     text(name);
     ImGui::ProgressBar(fraction, {-1.0f, 0.0f});
     text(line);
-    note("Escape: leave", color_of(Ink::dim));
+    note("Escape cancels", color_of(Ink::dim));
     ImGui::End();
 }
 
@@ -141,14 +142,14 @@ void leaving_window(const PanelModel& model, Commands& commands) {
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowFocus();
-    ImGui::Begin("Leave Isochron?###leaving", nullptr,
+    ImGui::Begin("Quit Isochron?###leaving", nullptr,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
     if (model.recording)
-        ImGui::TextUnformatted("The recording ends and is saved.");
+        ImGui::TextUnformatted("The recording will end and be saved.");
     if (model.movies.progress)
-        ImGui::TextUnformatted("The movie that is being made is discarded.");
-    if (ImGui::Button("Leave (Enter)"))
+        ImGui::TextUnformatted("The movie being made will be discarded.");
+    if (ImGui::Button("Quit (Enter)"))
         commands.quit = true;
     ImGui::SameLine();
     if (ImGui::Button("Stay (Escape)"))

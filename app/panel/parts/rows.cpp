@@ -2,12 +2,16 @@
 #include "app/panel/parts/rows.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/room_keys.h"
 #include "app/panel/parts/theme.h"
+#include "app/text.h"
 
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 
 namespace isochron::app {
 namespace {
@@ -43,6 +47,35 @@ void paper_of_field(const char* id, float share, float width) {
                            ImGui::GetColorU32(color_of(Ink::chosen)), rounding);
 }
 
+/// The number that a hand without a keyboard has typed for a field. @return whether there is one
+bool keyed(ImGuiID id, ImGuiDataType type, void* value, const FieldRange& range) {
+    if (RoomKeys::here() == nullptr)
+        return false;
+    const bool whole = type == ImGuiDataType_S32;
+    const double now = whole ? static_cast<double>(*static_cast<int*>(value))
+                       : type == ImGuiDataType_Double
+                           ? *static_cast<double*>(value)
+                           : static_cast<double>(*static_cast<float*>(value));
+    const auto typed = keyed_text(id, whole ? RoomKeys::Kind::whole_number : RoomKeys::Kind::number,
+                                  human_number(now));
+    if (!typed)
+        return false;
+    double number = 0;
+    const char* const end = typed->data() + typed->size();
+    const auto read = std::from_chars(typed->data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number))
+        return false;
+    if (range.bounded)
+        number = std::clamp(number, range.low, range.high);
+    if (whole)
+        *static_cast<int*>(value) = static_cast<int>(number);
+    else if (type == ImGuiDataType_Double)
+        *static_cast<double*>(value) = number;
+    else
+        *static_cast<float*>(value) = static_cast<float>(number);
+    return true;
+}
+
 bool field(const char* id, ImGuiDataType type, void* value, double shown, const FieldRange& range,
            const void* low, const void* high, const char* format) {
     const float width = ImGui::CalcItemWidth();
@@ -58,7 +91,7 @@ bool field(const char* id, ImGuiDataType type, void* value, double shown, const 
         std::clamp((range.high / 2 - range.low / 2) / static_cast<double>(width) * 2, 0.0, 1e37));
     const bool changed = ImGui::DragScalar(id, type, value, speed, low, high, format, flags);
     ImGui::PopStyleColor(3);
-    return changed;
+    return keyed(ImGui::GetID(id), type, value, range) || changed;
 }
 
 } // namespace
@@ -110,15 +143,24 @@ bool whole_number_field(const char* id, int* value, int low, int high, const cha
 }
 
 std::optional<std::size_t> choice_field(const char* id, const std::string& current,
-                                        std::span<const std::string> words, const char* effect) {
+                                        std::span<const std::string> words, const char* effect,
+                                        std::span<const std::string> notes) {
     if (!ImGui::BeginCombo(id, current.c_str())) {
         tip(effect);
         return std::nullopt;
     }
     std::optional<std::size_t> chosen;
-    for (std::size_t i = 0; i < words.size(); ++i)
+    float widest = 0.0f;
+    for (const std::string& each : words)
+        widest = std::max(widest, ImGui::CalcTextSize(each.c_str()).x);
+    for (std::size_t i = 0; i < words.size(); ++i) {
         if (ImGui::Selectable(words[i].c_str(), words[i] == current))
             chosen = i;
+        if (i >= notes.size())
+            continue;
+        ImGui::SameLine(widest + 3 * ImGui::GetStyle().WindowPadding.x);
+        ImGui::TextColored(color_of(Ink::dim), "%s", notes[i].c_str());
+    }
     ImGui::EndCombo();
     return chosen;
 }

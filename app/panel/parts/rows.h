@@ -39,8 +39,10 @@ bool number_field(const char* id, float& value, const FieldRange& range, const c
 bool whole_number_field(const char* id, int* value, int low, int high, const char* format);
 
 /// One word of several. @param effect its tip @return the one that the user chose
+/// @param notes beside the words in the list, dim; empty: none
 std::optional<std::size_t> choice_field(const char* id, const std::string& current,
-                                        std::span<const std::string> words, const char* effect);
+                                        std::span<const std::string> words, const char* effect,
+                                        std::span<const std::string> notes = {});
 
 /// A box to tick. @return whether it has changed
 bool tick_field(const char* id, bool& on, const char* words = "");

@@ -6,17 +6,23 @@
 #include "app/panel/panel_statistics.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/color_section.h"
+#include "app/panel/parts/named_list.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
+#include "app/panel/parts/view_cube.h"
+#include "app/scene/look.h"
 #include "app/text.h"
 #include "interaction/navigation/navigation.h"
+#include "interaction/navigation/navigator.h"
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -31,8 +37,9 @@ void data_section(const PanelModel& model, Commands& commands) {
     if (model.arrays.names.size() > 1) {
         row("array");
         const std::vector<std::string> names(model.arrays.names.begin(), model.arrays.names.end());
-        const auto chosen = choice_field("##array", names[model.arrays.asked], names,
-                                         "array whose isosurfaces are shown (Ctrl + A)");
+        const auto chosen =
+            choice_field("##array", names[model.arrays.asked], names,
+                         "array whose isosurfaces are shown (Ctrl + A)", model.arrays.notes);
         if (chosen && *chosen != model.arrays.asked)
             interaction::merge(commands, model.arrays.way_to(*chosen));
     } else {
@@ -59,11 +66,36 @@ void named_row(const char* label, Value& value, const char* effect) {
         value = static_cast<Value>(*chosen);
 }
 
+/// Where the light comes from, as two angles.
+void light_row(interaction::Look& look) {
+    const std::array<double, 2> usual = light_angles(render::CellAppearance{}.key_direction);
+    std::array<double, 2> angles = look.light.value_or(usual);
+    constexpr float kReset = 22.0f;
+    row("light", look.light ? kReset + 6.0f : 0.0f);
+    const float width = (ImGui::CalcItemWidth() - ImGui::GetStyle().ItemSpacing.x) / 2;
+    ImGui::SetNextItemWidth(width);
+    bool turned = number_field("##turn", angles[0], {.low = -180, .high = 180}, "turn %.0f\u00b0");
+    tip("from where the light comes: to the right of the viewer, in degrees");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    turned |= number_field("##height", angles[1], {.low = -90, .high = 90}, "height %.0f\u00b0");
+    tip("how high above the floor the light stands, in degrees");
+    if (turned)
+        look.light = angles;
+    if (!look.light)
+        return;
+    ImGui::SameLine();
+    if (icon_button("usual light", Icon::close, "the usual light again", false, kReset))
+        look.light.reset();
+}
+
 void look_rows(const PanelModel& model, Commands& commands) {
     interaction::Look look = model.asked.look;
     named_row("background", look.background,
-              "what is behind the data; with the light one the panel is light too");
+              "what is behind the data: gray shows dark surfaces; with the light one the panel is "
+              "light, too");
     named_row("material", look.material, "how surfaces shine");
+    light_row(look);
     row("occlusion");
     float percent = 100.0f * look.occlusion;
     if (number_field("##occlusion", percent, {.low = 0, .high = 100}, "%.0f %%"))
@@ -91,6 +123,42 @@ void projection_rows(const PanelModel& model, Commands& commands) {
         commands.room_from_physical = exaggerated(model.asked.room_from_physical,
                                                   physical_center(model.info.grid), exaggeration);
     tip("vertical exaggeration, along z (Ctrl + E, Ctrl + Shift + E)");
+}
+
+/// The saved viewpoints by name, each with a picture of how the data lie there.
+void viewpoint_row(const PanelModel& model, Commands& commands) {
+    auto views = model.asked.views;
+    row("viewpoints");
+    const std::string words =
+        views.empty() ? std::string("save this one") : fmt::format("{} saved", views.size());
+    if (ImGui::Button(words.c_str(), {ImGui::CalcItemWidth(), 0.0f})) {
+        if (views.empty())
+            commands.views = with_view(views, model.asked.room_from_physical);
+        else
+            ImGui::OpenPopup("viewpoints");
+    }
+    tip("places to look from, to come back to (B, N)");
+    if (!ImGui::BeginPopup("viewpoints"))
+        return;
+    if (ImGui::MenuItem("save this viewpoint", "B"))
+        commands.views = with_view(views, model.asked.room_from_physical);
+    ImGui::Separator();
+    std::vector<NamedRow> rows;
+    for (const interaction::Viewpoint& each : views)
+        rows.push_back({each.name, {}, each.room_from_physical == model.asked.room_from_physical});
+    const NamedChange change =
+        named_list(rows, "go to this viewpoint", [&](std::size_t i, const ImVec2& middle) {
+            small_cube(model, views[i].room_from_physical, middle, 7.0f);
+        });
+    if (change.chosen)
+        commands.room_from_physical = views[*change.chosen].room_from_physical;
+    if (change.renamed)
+        views[change.renamed->first].name = change.renamed->second;
+    if (change.removed)
+        views.erase(views.begin() + static_cast<std::ptrdiff_t>(*change.removed));
+    if (change.renamed || change.removed)
+        commands.views = views;
+    ImGui::EndPopup();
 }
 
 /// Only where there is something to set: with one picture for both eyes there is none.
@@ -140,12 +208,14 @@ void hand_rows(const PanelModel& model, Commands& commands) {
 void view_section(const PanelModel& model, Commands& commands) {
     interaction::QualityMode quality = model.asked.quality;
     named_row("quality", quality,
-              "auto (1): quads while something moves, then the best that fits the frame's time\n"
-              "fast (2): always quads\nquality (3): always the best, however long it takes");
+              "auto (1): the best that keeps up while something moves, then the exact surface\n"
+              "fast (2): quads of all cells, always\n"
+              "quality (3): the exact surface or triangles of all cells, however long they take");
     if (quality != model.asked.quality)
         commands.quality = quality;
     look_rows(model, commands);
     projection_rows(model, commands);
+    viewpoint_row(model, commands);
     stereo_rows(model, commands);
     hand_rows(model, commands);
 }

@@ -59,10 +59,10 @@ void menu_of_surface(const PanelModel& model, std::uint32_t i, ListChange& chang
         ImGui::OpenPopup("surface");
     if (!ImGui::BeginPopup("surface"))
         return;
-    if (ImGui::MenuItem("keys and wheel move this one", "I", model.asked.picked == i))
+    if (ImGui::MenuItem("move this one with keys and wheel", "I", model.asked.picked == i))
         change.picked = i;
     const auto& mark = model.asked.mark.point;
-    if (ImGui::MenuItem("isovalue of the mark", nullptr, false, mark.has_value())) {
+    if (ImGui::MenuItem("isovalue: the value at the mark", nullptr, false, mark.has_value())) {
         change.picked = i;
         change.isovalue = mark->value;
     }
@@ -117,15 +117,16 @@ void line_on_isovalues(const PanelModel& model) {
     const double asked = model.asked.isovalue();
     const float width = ImGui::GetContentRegionAvail().x;
     if (asked < model.stats.low || asked > model.stats.high)
-        return fitted_text(fmt::format("beyond the data's {} to {}", human_number(model.stats.low),
+        return fitted_text(fmt::format("no surface: the data are {} to {}",
+                                       human_number(model.stats.low),
                                        with_unit(model.stats.high, model.info.value_unit)),
                            width, color_of(Ink::warning));
     if (surfaces.size() < 2)
         return text(" ");
     const bool through =
         std::ranges::any_of(surfaces, [](const Isosurface& each) { return each.opacity < 1.0f; });
-    fitted_text(through ? "lower isovalues lie outside: translucent"
-                        : "lower isovalues lie outside: they hide others",
+    fitted_text(through ? "lower isovalues lie outside, translucent"
+                        : "lower isovalues lie outside and hide others",
                 width, color_of(Ink::dim));
 }
 

@@ -3,42 +3,39 @@
 
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
+#include "app/panel/parts/named_list.h"
 #include "app/panel/parts/rows.h"
-#include "app/panel/parts/theme.h"
-#include "index/volume/time_unit.h"
+#include "app/panel/parts/time_track.h"
+#include "interaction/step_track.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 namespace {
 
 using interaction::Commands;
 
-constexpr float kSpeedField = 46.0f, kStepField = 104.0f;
-constexpr float kTrack = 16.0f; ///< its height
-
-std::uint32_t last_step(const PanelModel& model) {
-    return static_cast<std::uint32_t>(model.asked.known_steps(model.info.steps()) - 1);
-}
-
-std::string time_of(const PanelModel& model, std::uint32_t step) {
-    return index::time_text(model.info.times, step, model.info.time_unit);
-}
+constexpr float kSpeedField = 46.0f, kRateField = 92.0f, kStepField = 104.0f;
+constexpr float kWideTime = 900.0f;   ///< has room for all buttons
+constexpr float kNarrowTime = 460.0f; ///< below, what has a line in the menu is left out
 
 void play_buttons(const PanelModel& model, interaction::PlaybackState& playback,
                   Commands& commands) {
     const std::uint32_t last = last_step(model), step = model.asked.step;
+    const interaction::StepRange& range = model.asked.play_range;
     const auto go_to = [&](std::uint32_t to) {
         commands.step = to;
         playback.playing = false;
     };
-    if (icon_button("first", Icon::first, "first step"))
-        go_to(0);
+    if (icon_button("first", Icon::first, "first step (Ctrl + Left)"))
+        go_to(first_of(range, last + 1));
     ImGui::SameLine(0.0f, 2.0f);
     if (icon_button("back", Icon::back, "one step back (Left)"))
         go_to(step == 0 ? (playback.loop ? last : 0) : step - 1);
@@ -50,8 +47,8 @@ void play_buttons(const PanelModel& model, interaction::PlaybackState& playback,
     if (icon_button("forward", Icon::forward, "one step forward (Right)"))
         go_to(step == last ? (playback.loop ? 0 : last) : step + 1);
     ImGui::SameLine(0.0f, 2.0f);
-    if (icon_button("last", Icon::last, "last step"))
-        go_to(last);
+    if (icon_button("last", Icon::last, "last step (Ctrl + Right)"))
+        go_to(last_of(range, last + 1));
 }
 
 /// What is chosen less often than the step.
@@ -61,30 +58,159 @@ void menu_of_time(const PanelModel& model, interaction::PlaybackState& playback,
         ImGui::OpenPopup("time");
     if (!ImGui::BeginPopup("time"))
         return;
+    ImGui::MenuItem("start again after the last step", "L", &playback.loop);
+    ImGui::MenuItem("play back and forth", "Ctrl + L", &playback.ping_pong);
     ImGui::MenuItem("play backwards", "R", &playback.reverse);
+    bool blends = model.asked.between == interaction::BetweenSteps::blend;
+    if (ImGui::MenuItem("blend between steps", "Ctrl + T", &blends))
+        commands.between =
+            blends ? interaction::BetweenSteps::blend : interaction::BetweenSteps::hold;
     bool follow = model.asked.follow;
     if (ImGui::MenuItem("always show the newest step", "End", &follow)) {
         commands.follow = follow;
         if (follow)
             commands.step = last_step(model);
     }
+    const interaction::StepRange range = model.asked.play_range;
+    if (ImGui::MenuItem("begin playing at this step", "Ctrl + ,"))
+        commands.play_range = interaction::begun_at(model.asked.step, range);
+    if (ImGui::MenuItem("end playing at this step", "Ctrl + ."))
+        commands.play_range = interaction::ended_at(model.asked.step, range);
+    if (ImGui::MenuItem("play all steps", "Ctrl + Shift + .", false,
+                        range != interaction::StepRange{}))
+        commands.play_range = interaction::StepRange{};
+    ImGui::Separator();
+    row("play");
+    ImGui::SetNextItemWidth(150.0f);
+    auto every = static_cast<int>(playback.every);
+    const int most = std::clamp(static_cast<int>(last_step(model)), 2,
+                                static_cast<int>(interaction::kMostSkipped));
+    if (whole_number_field("##every", &every, 1, most, every == 1 ? "every step" : "1 step in %d"))
+        playback.every = static_cast<std::uint32_t>(every);
+    tip("skips steps while time plays (Ctrl + +, Ctrl + -)");
+    row("speed in");
+    ImGui::SetNextItemWidth(150.0f);
+    const std::vector<std::string> units{"series in 10 s", "steps a second", "the data's time"};
+    if (const auto unit = choice_field("##unit", units[static_cast<std::size_t>(playback.unit)],
+                                       units, "what the speed counts (Ctrl + R)"))
+        playback =
+            counted_in(static_cast<interaction::SpeedUnit>(*unit), playback, model.info.times);
     ImGui::EndPopup();
 }
 
-void way_of_playing(const PanelModel& model, interaction::PlaybackState& playback,
+/// The speed, in the unit in which it counts.
+void speed_field(const PanelModel& model, interaction::PlaybackState& playback) {
+    using interaction::SpeedUnit;
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (kIconButton - ImGui::GetFrameHeight()) / 2);
+    if (playback.unit == SpeedUnit::series) {
+        ImGui::SetNextItemWidth(kSpeedField);
+        number_field(
+            "##speed", playback.speed,
+            {.low = interaction::kSlowest, .high = interaction::kFastest, .logarithmic = true},
+            "x %.3g");
+        tip("how fast time plays: the whole series takes 10 s at x 1 (+, -)");
+        return;
+    }
+    // The data say how fast is usual: from a hundredth of the whole series a second to all of it.
+    const bool steps = playback.unit == SpeedUnit::steps;
+    const double whole = steps ? 240.0 : interaction::period(model.info.times);
+    const std::string& unit = model.info.time_unit;
+    const bool named = !steps && !unit.empty() && unit.size() < 6;
+    ImGui::SetNextItemWidth(kRateField);
+    number_field("##rate", playback.rate,
+                 {.low = whole > 0 ? whole / 1000 : interaction::kSlowestRate,
+                  .high = whole > 0 ? whole : interaction::kFastestRate,
+                  .logarithmic = true,
+                  .bounded = false},
+                 (steps   ? std::string("%.3g steps/s")
+                  : named ? format_with(unit + "/s")
+                          : std::string("%.3g a second"))
+                     .c_str());
+    playback.rate = std::clamp(playback.rate, interaction::kSlowestRate, interaction::kFastestRate);
+    tip(steps ? "how many steps are shown in a second (+, -)"
+              : "how much of the data's time passes in a second (+, -)");
+}
+
+void way_of_playing(const PanelModel& model, float width, interaction::PlaybackState& playback,
                     Commands& commands) {
-    ImGui::SameLine(0.0f, 8.0f);
-    if (icon_button("loop", Icon::loop, "start again after the last step (L)", playback.loop))
-        playback.loop = !playback.loop;
-    ImGui::SameLine(0.0f, 2.0f);
+    ImGui::SameLine(0.0f, width >= kNarrowTime ? 8.0f : 4.0f);
+    if (width >= kNarrowTime) {
+        if (icon_button("loop", Icon::loop, "start again after the last step (L)", playback.loop))
+            playback.loop = !playback.loop;
+        ImGui::SameLine(0.0f, 2.0f);
+    }
+    if (width >= kWideTime) {
+        if (icon_button("fro", Icon::to_and_fro, "play back and forth (Ctrl + L)",
+                        playback.ping_pong))
+            playback.ping_pong = !playback.ping_pong;
+        ImGui::SameLine(0.0f, 2.0f);
+    }
     menu_of_time(model, playback, commands);
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(kSpeedField);
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (kIconButton - ImGui::GetFrameHeight()) / 2);
-    number_field("##speed", playback.speed,
-                 {.low = interaction::kSlowest, .high = interaction::kFastest, .logarithmic = true},
-                 "x %.3g");
-    tip("how fast time plays: the whole series takes 10 s at x 1 (+, -)");
+    speed_field(model, playback);
+}
+
+/// The bookmarks by name, which the user renames and removes.
+void list_of_bookmarks(const PanelModel& model, interaction::PlaybackState& playback,
+                       Commands& commands) {
+    if (!ImGui::BeginPopup("bookmarks"))
+        return;
+    auto marks = model.asked.bookmarks;
+    std::vector<NamedRow> rows;
+    for (const interaction::Bookmark& each : marks)
+        rows.push_back({each.name,
+                        each.step < model.info.steps() ? time_of(model, each.step) : std::string(),
+                        each.moment() == model.asked.moment()});
+    const bool marked = std::ranges::any_of(rows, [](const NamedRow& each) { return each.here; });
+    if (ImGui::MenuItem(marked ? "remove the bookmark of this time" : "bookmark this time",
+                        "Ctrl + B"))
+        commands.bookmarks = interaction::toggled_bookmark(marks, model.asked.moment());
+    const auto go_to = [&](const std::optional<interaction::Moment>& at) {
+        if (at)
+            show(*at, commands);
+        playback.playing = false;
+    };
+    if (ImGui::MenuItem("next bookmark", "Ctrl + N", false, !marks.empty()))
+        go_to(next_bookmark(marks, model.asked.moment(), model.asked.blends()));
+    if (ImGui::MenuItem("previous bookmark", "Ctrl + Shift + N", false, !marks.empty()))
+        go_to(previous_bookmark(marks, model.asked.moment(), model.asked.blends()));
+    if (!marks.empty()) {
+        ImGui::Separator();
+        const NamedChange change = named_list(rows, "show this time");
+        if (change.chosen)
+            go_to(marks[*change.chosen].moment());
+        if (change.renamed)
+            marks[change.renamed->first].name = change.renamed->second;
+        if (change.removed)
+            marks.erase(marks.begin() + static_cast<std::ptrdiff_t>(*change.removed));
+        if (change.renamed || change.removed)
+            commands.bookmarks = marks;
+    }
+    ImGui::EndPopup();
+}
+
+void bookmark_buttons(const PanelModel& model, bool wide, interaction::PlaybackState& playback,
+                      Commands& commands) {
+    const auto& marks = model.asked.bookmarks;
+    const auto leap = [&](const char* id, Icon icon, const char* words,
+                          const std::optional<interaction::Moment>& at) {
+        ImGui::BeginDisabled(!at);
+        if (icon_button(id, icon, words) && at) {
+            show(*at, commands);
+            playback.playing = false;
+        }
+        ImGui::EndDisabled();
+        ImGui::SameLine(0.0f, 2.0f);
+    };
+    if (wide) {
+        leap("bookmark back", Icon::bookmark_back, "previous bookmark (Ctrl + Shift + N)",
+             previous_bookmark(marks, model.asked.moment(), model.asked.blends()));
+        leap("bookmark forward", Icon::bookmark_forward, "next bookmark (Ctrl + N)",
+             next_bookmark(marks, model.asked.moment(), model.asked.blends()));
+    }
+    if (icon_button("bookmarks", Icon::bookmark, "bookmarks: times to come back to (Ctrl + B)"))
+        ImGui::OpenPopup("bookmarks");
+    list_of_bookmarks(model, playback, commands);
 }
 
 /// The number of the step, and its time below.
@@ -92,115 +218,38 @@ void step_field(const PanelModel& model, Commands& commands) {
     const auto last = static_cast<int>(last_step(model));
     int number = static_cast<int>(model.asked.step) + 1; // people count from 1
     ImGui::SetNextItemWidth(kStepField);
-    const std::string format = fmt::format("step %d of {}", last + 1);
+    const index::Instant at = model.asked.instant();
+    const std::string format = at.between() ? fmt::format("between %d and {}", number + 1)
+                                            : fmt::format("step %d of {}", last + 1);
     if (whole_number_field("##step", &number, 1, std::max(1, last + 1), format.c_str()))
         commands.step = static_cast<std::uint32_t>(number - 1);
     tip("step: drag, or click and type (Left, Right)");
-}
-
-/// The steps on the track. A step has its width; its middle stands for its time.
-struct Track {
-    ImVec2 low, high;
-    std::uint32_t steps;
-
-    float width() const { return (high.x - low.x) / static_cast<float>(steps); }
-    float left_of(std::uint32_t step) const { return low.x + width() * static_cast<float>(step); }
-    float middle_of(std::uint32_t step) const { return left_of(step) + width() / 2; }
-    std::uint32_t step_at(float x) const {
-        const float at = std::floor((x - low.x) / width());
-        return static_cast<std::uint32_t>(std::clamp(at, 0.0f, static_cast<float>(steps - 1)));
-    }
-};
-
-/// Texts of some steps below the track, as many as fit.
-void times_below(const Track& track, const PanelModel& model) {
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const auto width_of = [&](std::uint32_t step) {
-        return ImGui::CalcTextSize(time_of(model, step).c_str()).x;
-    };
-    constexpr float kGap = 18.0f;
-    const float widest = std::max(width_of(0), width_of(track.steps - 1));
-    const auto most =
-        static_cast<std::uint32_t>(std::max(1.0f, (track.high.x - track.low.x) / (widest + kGap)));
-    std::uint32_t every = 1;
-    for (const std::uint32_t factor : {2u, 5u, 10u})
-        while ((track.steps - 1) / every + 1 > most && every < factor)
-            every = factor;
-    while ((track.steps - 1) / every + 1 > most)
-        every *= 2;
-    float taken = track.low.x - 1.0f;
-    for (std::uint32_t step = 0; step < track.steps; step += every) {
-        const std::string text = time_of(model, step);
-        const float width = ImGui::CalcTextSize(text.c_str()).x, middle = track.middle_of(step);
-        list.AddLine({middle, track.high.y}, {middle, track.high.y + 3.0f}, packed(Ink::dim));
-        const float left = std::clamp(middle - width / 2, track.low.x,
-                                      std::max(track.low.x, track.high.x - width));
-        if (left < taken || left + width > track.high.x + 1.0f)
-            continue;
-        list.AddText({left, track.high.y + 4.0f}, packed(Ink::dim), text.c_str());
-        taken = left + width + kGap / 2;
-    }
-}
-
-/// Runs of steps that can be shown without a search, shaded. The marks may differ from wall to
-/// wall, and a single step needs none.
-void steps_at_hand(const Track& track, const PanelModel& model) {
-    if (model.place == PanelPlace::in_room || model.work.at_hand_steps.size() < 2)
-        return;
-    for (const std::uint32_t step : model.work.at_hand_steps)
-        if (step < track.steps)
-            ImGui::GetWindowDrawList()->AddRectFilled({track.left_of(step), track.low.y},
-                                                      {track.left_of(step + 1), track.high.y},
-                                                      packed(Ink::columns));
-}
-
-void track_of_steps(const PanelModel& model, Commands& commands) {
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    const Track track{corner, {corner.x + width, corner.y + kTrack}, last_step(model) + 1};
-    ImGui::InvisibleButton("track", {width, kTrack});
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(track.low, track.high, packed(Ink::control), 3.0f);
-    steps_at_hand(track, model);
-    const auto handle = [&](std::uint32_t step, Ink ink, float thick) {
-        const float x = track.middle_of(std::min(step, track.steps - 1));
-        list.AddRectFilled({x - thick - 1, track.low.y - 2}, {x + thick + 1, track.high.y + 2},
-                           packed(Ink::bar), 2.0f);
-        list.AddRectFilled({x - thick, track.low.y - 1}, {x + thick, track.high.y + 1}, packed(ink),
-                           2.0f);
-    };
-    const auto& shown = model.frame.shown;
-    if (shown && shown->step != model.asked.step)
-        handle(shown->step, Ink::dim, 1.0f);
-    handle(model.asked.step, Ink::accent, 2.5f);
-    const std::uint32_t pointed = track.step_at(ImGui::GetIO().MousePos.x);
-    if (ImGui::IsItemActive() && pointed != model.asked.step)
-        commands.step = pointed;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("step %u: %s", pointed + 1, time_of(model, pointed).c_str());
-    times_below(track, model);
 }
 
 } // namespace
 
 void time_bar(const PanelModel& model, bool two_rows, Commands& commands) {
     interaction::PlaybackState playback = model.asked.playback;
+    const float width = ImGui::GetWindowWidth();
     ImGui::BeginDisabled(last_step(model) == 0);
     const ImVec2 start = ImGui::GetCursorPos();
-    const float row_height = two_rows ? 36.0f : ImGui::GetWindowHeight();
+    const float row_height = two_rows ? 34.0f : ImGui::GetWindowHeight();
     ImGui::SetCursorPos({start.x, (row_height - kIconButton) / 2});
     play_buttons(model, playback, commands);
-    way_of_playing(model, playback, commands);
+    way_of_playing(model, width, playback, commands);
     ImGui::SameLine();
     ImGui::SetCursorPosY((row_height - ImGui::GetFrameHeight()) / 2);
     step_field(model, commands);
+    ImGui::SameLine(0.0f, 4.0f);
+    ImGui::SetCursorPosY((row_height - kIconButton) / 2);
+    bookmark_buttons(model, width >= kWideTime, playback, commands);
     if (two_rows) {
-        ImGui::SetCursorPos({start.x, row_height + 4.0f});
+        ImGui::SetCursorPos({start.x, row_height});
     } else {
-        ImGui::SameLine(0.0f, 14.0f);
-        ImGui::SetCursorPosY((row_height - kTrack - ImGui::GetFontSize() - 4.0f) / 2);
+        ImGui::SameLine(0.0f, 12.0f);
+        ImGui::SetCursorPosY(2.0f);
     }
-    track_of_steps(model, commands);
+    time_track(model, commands);
     ImGui::EndDisabled();
     if (playback != model.asked.playback)
         commands.playback = playback;

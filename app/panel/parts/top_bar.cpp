@@ -2,18 +2,19 @@
 #include "app/panel/parts/top_bar.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/clip_lines.h"
+#include "app/panel/parts/export_section.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
+#include "app/panel/parts/written_pictures.h"
 #include "app/scene/mark.h"
-#include "interaction/tools/clip_tool.h"
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace isochron::app {
@@ -74,12 +75,23 @@ void tool_buttons(const PanelModel& model, Commands& commands) {
         commands.tools = tools;
 }
 
-void movie_button(const PanelModel& model, PanelPages& pages) {
+/// Beside the button that saves a picture: what pictures show.
+void picture_menu(const PanelModel& model, Commands& commands) {
+    ImGui::SameLine(0.0f, 0.0f);
+    if (icon_button("picture menu", Icon::menu, "what pictures show, and their size", false, 20.0f))
+        ImGui::OpenPopup("pictures");
+    if (!ImGui::BeginPopup("pictures"))
+        return;
+    picture_rows(model, commands);
+    ImGui::EndPopup();
+}
+
+void movie_button(const PanelModel& model, PanelPages& pages, Commands& commands) {
     if (icon_button("movie", Icon::movie, "make a movie", model.movies.progress.has_value()))
         ImGui::OpenPopup("movies");
     if (!ImGui::BeginPopup("movies"))
         return;
-    pages.movie = movie_section(model);
+    pages.movie = movie_rows(model, commands);
     if (pages.movie)
         ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
@@ -108,10 +120,20 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
     gap_between_groups();
     tool_buttons(model, commands);
     gap_between_groups();
-    if (icon_button("picture", Icon::picture, "save a picture of every window (P)"))
+    if (icon_button("picture", Icon::picture, "save a screenshot of every window (P)"))
         commands.screenshot = true;
-    if (in_room)
+    if (whole >= kNarrowBar)
+        picture_menu(model, commands);
+    if (whole >= kNarrowBar) {
+        ImGui::SameLine(0.0f, 2.0f);
+        export_button(model, commands);
+    }
+    if (in_room) {
+        go_to_end(kIconButton);
+        if (icon_button("search", Icon::search, "find a command and run it"))
+            pages.search = true;
         return;
+    }
     if (model.movies.offered && whole >= kNarrowBar) {
         ImGui::SameLine(0.0f, 2.0f);
         if (icon_button("record", Icon::record,
@@ -120,7 +142,7 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
                         model.recording))
             pages.movie = MovieWish::record;
         ImGui::SameLine(0.0f, 2.0f);
-        movie_button(model, pages);
+        movie_button(model, pages, commands);
     }
     constexpr float kSearch = 170.0f, kGap = 4.0f;
     const bool words = whole >= kWideBar;
@@ -143,59 +165,7 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
         pages.help = true;
 }
 
-std::optional<MovieWish> movie_section(const PanelModel& model) {
-    std::optional<MovieWish> wish;
-    if (model.movies.progress) {
-        ImGui::ProgressBar(*model.movies.progress, {160.0f, 0.0f});
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel"))
-            wish = MovieWish::give_up;
-        tip("stop and delete the movie");
-        return wish;
-    }
-    ImGui::BeginDisabled(model.asked.known_steps(model.info.steps()) < 2);
-    if (ImGui::Button("all steps, this view"))
-        wish = MovieWish::series;
-    ImGui::EndDisabled();
-    tip("movie of all steps with this view, at the playback speed; saved in the screenshot folder");
-    ImGui::SameLine();
-    ImGui::BeginDisabled(!model.movies.recorded);
-    if (ImGui::Button("recording so far"))
-        wish = MovieWish::recording;
-    ImGui::EndDisabled();
-    tip(model.movies.recorded ? "movie of this session; saved in the screenshot folder"
-                              : "movie of this session; needs a recording");
-    return wish;
-}
-
 namespace {
-
-void clip_line(const PanelModel& model, Commands& commands) {
-    constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(color_of(Ink::dim), "clip across");
-    for (int axis = 0; axis < 3; ++axis) {
-        ImGui::SameLine();
-        ImGui::PushID(axis);
-        if (ImGui::Button(kAxes[static_cast<std::size_t>(axis)], {26.0f, 0.0f}))
-            commands.clip = snapped(model.asked.clip, axis, model.data);
-        tip("clip plane across this axis; again: the other side (7)");
-        ImGui::PopID();
-    }
-    if (!model.asked.clip.shown)
-        return;
-    ImGui::SameLine();
-    if (icon_button("flip", Icon::flip, "cut away the other side", false,
-                    ImGui::GetFrameHeight())) {
-        interaction::ClipPlane other = model.asked.clip;
-        other.normal = -other.normal;
-        commands.clip = other;
-    }
-    ImGui::SameLine();
-    if (icon_button("no clip", Icon::remove, "remove the clip plane (Delete)", false,
-                    ImGui::GetFrameHeight()))
-        commands.clip = interaction::ClipPlane{};
-}
 
 void ruler_line(const PanelModel& model, Commands& commands) {
     ImGui::AlignTextToFramePadding();
@@ -220,7 +190,7 @@ void mark_line(const PanelModel& model, Commands& commands) {
     ImGui::SameLine();
     if (ImGui::Button("isovalue here"))
         commands.isovalue = point.value;
-    tip("set the isovalue to that of the picked place");
+    tip("set the isovalue to the value at the mark");
     ImGui::SameLine();
     if (icon_button("no mark", Icon::remove, "remove the mark (Delete)", false,
                     ImGui::GetFrameHeight()))
@@ -240,7 +210,7 @@ void tool_strip(const PanelModel& model, Commands& commands) {
     const ToolKind tool =
         model.place == PanelPlace::in_room ? model.asked.tools.wand : model.asked.tools.mouse;
     if (tool == ToolKind::clip || model.asked.clip.shown)
-        clip_line(model, commands);
+        clip_lines(model, commands);
     if (tool == ToolKind::ruler || !model.asked.ruler.places.empty())
         ruler_line(model, commands);
     if (model.asked.mark.point)

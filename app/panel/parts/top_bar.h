@@ -18,10 +18,6 @@ struct PanelPages {
 /// Lays it out in the current window.
 void top_bar(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 
-/// Buttons that start movies, and the progress of the movie that is being made.
-/// @return what the user wants
-std::optional<MovieWish> movie_section(const PanelModel& model);
-
 /// What can be done with the chosen tool, and with what tools have made: a line for each in the
 /// current window.
 void tool_strip(const PanelModel& model, interaction::Commands& commands);

@@ -11,6 +11,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,10 +30,11 @@ constexpr double kLegible = 0.4; ///< likewise, with its name
 /// From directions of the data to the window: x to the right, y down, z towards the viewer.
 class Turn {
   public:
-    Turn(const PanelModel& model, const ImVec2& middle)
+    Turn(const PanelModel& model, const interaction::Similarity& placed, const ImVec2& middle,
+         float half_edge)
         : turn_(glm::conjugate(glm::normalize(glm::dquat(model.head.orientation))) *
-                model.asked.room_from_physical.rotation),
-          middle_(middle) {}
+                placed.rotation),
+          middle_(middle), half_edge_(half_edge) {}
 
     double towards_viewer(const glm::dvec3& way) const { return (turn_ * way).z; }
     ImVec2 way(const glm::dvec3& way) const {
@@ -41,12 +43,13 @@ class Turn {
     }
     ImVec2 place(const glm::dvec3& corner) const {
         const ImVec2 at = way(corner);
-        return {middle_.x + kHalfEdge * at.x, middle_.y + kHalfEdge * at.y};
+        return {middle_.x + half_edge_ * at.x, middle_.y + half_edge_ * at.y};
     }
 
   private:
     glm::dquat turn_;
     ImVec2 middle_;
+    float half_edge_;
 };
 
 struct Face {
@@ -112,6 +115,23 @@ std::optional<ImVec2> nearest_corner(const std::vector<Face>& faces, const Turn&
 
 } // namespace
 
+void small_cube(const PanelModel& model, const interaction::Similarity& placed,
+                const ImVec2& middle, float half_edge) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    for (const Face& face : seen_faces(Turn(model, placed, middle, half_edge))) {
+        const glm::dvec3& way = face.view->towards_eye;
+        // The faces towards the higher ends of the axes are lighter.
+        const double shade = way.x + way.y + way.z > 0 ? 0.92 : 0.55;
+        const auto part = [&](double along) {
+            return static_cast<float>(shade * (0.45 + 0.55 * std::abs(along)));
+        };
+        list.AddConvexPolyFilled(
+            face.corners.data(), 4,
+            ImGui::ColorConvertFloat4ToU32({part(way.x), part(way.y), part(way.z), 1.0f}));
+        list.AddPolyline(face.corners.data(), 4, packed(Ink::line), ImDrawFlags_Closed, 1.0f);
+    }
+}
+
 void view_cube(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands) {
     if (picture.size().x < 3 * kSide || picture.size().y < 2 * kSide)
         return;
@@ -126,7 +146,8 @@ void view_cube(const PanelModel& model, const PanelBox& picture, interaction::Co
     const bool pressed = ImGui::InvisibleButton("cube", {kSide, kSide});
     const bool hovered = ImGui::IsItemHovered();
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const Turn turn(model, {corner.x + kSide / 2, corner.y + kSide / 2});
+    const Turn turn(model, model.asked.room_from_physical,
+                    {corner.x + kSide / 2, corner.y + kSide / 2}, kHalfEdge);
     const std::vector<Face> faces = seen_faces(turn);
     const std::optional<ImVec2> tip_of_cube = nearest_corner(faces, turn);
     const auto near_tip = [&] {

@@ -15,12 +15,13 @@ import os as _os
 from collections.abc import Callable, Iterable
 
 from . import _native
+from ._control import Session
 from ._native import Error
 from ._place import program_folder as _program_folder
 from ._run import Run
 from ._steps import Step
 
-__all__ = ["Error", "Run", "Step", "build", "open"]
+__all__ = ["Error", "Run", "Session", "Step", "build", "connect", "open"]
 __version__: str = _native.__version__
 
 Error.__module__ = "isochron"
@@ -36,6 +37,17 @@ def open(path: str | _os.PathLike[str]) -> Run:
     Raises Error if the file is missing, is no index, or is damaged.
     """
     return Run(path)
+
+
+def connect(path: str | _os.PathLike[str] | None = None, *, token: str | None = None) -> Session:
+    """Connects to a session that `isochron explore --control` began.
+
+    path: of its socket, or 127.0.0.1:PORT; None: where `--control` without a value opens it.
+    token: of 127.0.0.1:PORT; None: the one that the session wrote for this user.
+
+    Raises Error if nobody listens there.
+    """
+    return Session(path, token=token)
 
 
 def _expanded(patterns: Iterable[str | _os.PathLike[str]]) -> list[str]:

@@ -100,14 +100,17 @@ class Run:
         """The lowest and the highest value of all steps."""
         return self._array(array).description()["range"]
 
-    def cells(self, isovalue: float, step: int = 0, *, array: str | None = None) -> NDArray[np.uint32]:
+    def cells(
+        self, isovalue: float, step: int = 0, *, fraction: int = 0, array: str | None = None
+    ) -> NDArray[np.uint32]:
         """The numbers of the active cells, ascending: those with min < isovalue <= max over their eight vertices.
 
         Cell (x, y, z) of a step of shape (nz, ny, nx) has the number (z * (ny - 1) + y) * (nx - 1) + x, which
         numpy.unravel_index(cells, (nz - 1, ny - 1, nx - 1)) takes apart. The array is read-only and owns its memory. It
-        is of type uint64 where a step has 2^32 cells or more.
+        is of type uint64 where a step has 2^32 cells or more. `fraction`: so many 65536ths of the way to the next step,
+        where values are blended linearly and compared exactly.
         """
-        return self._array(array).cells(step, isovalue)
+        return self._array(array).cells(step, fraction, isovalue)
 
     def change(
         self,
@@ -116,28 +119,43 @@ class Run:
         to_step: int | None = None,
         to_isovalue: float | None = None,
         *,
+        fraction: int = 0,
+        to_fraction: int | None = None,
         array: str | None = None,
     ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """The cells that become active, and those that cease to be, from one step or isovalue to another."""
+        """The cells that become active, and those that cease to be, from one moment or isovalue to another.
+
+        Moments are steps and 65536ths of the way to the next one, as for `cells`; `to_fraction` is the same as
+        `fraction` unless it or `to_step` is given.
+        """
+        same = fraction if to_step is None else 0
         return self._array(array).change(
             step,
+            fraction,
             isovalue,
             step if to_step is None else to_step,
+            same if to_fraction is None else to_fraction,
             isovalue if to_isovalue is None else to_isovalue,
         )
 
     def mesh(
-        self, isovalue: float, step: int = 0, *, array: str | None = None, dtype: DTypeLike = np.float32
+        self,
+        isovalue: float,
+        step: int = 0,
+        *,
+        fraction: int = 0,
+        array: str | None = None,
+        dtype: DTypeLike = np.float32,
     ) -> tuple[NDArray[Any], NDArray[np.uint32]]:
         """The isosurface as points (N, 3) and triangles (M, 3) of numbers of points.
 
         With float32 points count from `origin`; with float64 they are absolute. Triangles are counter-clockwise as
-        seen from the side of lower values, and neighbors share their points.
+        seen from the side of lower values, and neighbors share their points. `fraction`: as for `cells`.
         """
         kind = np.dtype(dtype)
         if kind not in (np.dtype(np.float32), np.dtype(np.float64)):
             raise TypeError(f"dtype: expected float32 or float64, got {kind}")
-        return self._array(array).mesh(step, isovalue, kind == np.float64)
+        return self._array(array).mesh(step, fraction, isovalue, kind == np.float64)
 
     def values(
         self,
@@ -146,12 +164,15 @@ class Run:
         y: slice | int = slice(None),
         x: slice | int = slice(None),
         *,
+        fraction: int = 0,
         array: str | None = None,
     ) -> NDArray[Any]:
         """The values at vertices, (z, y, x), a whole step or a part: only the chunks in which it lies are read.
 
         Whole numbers drop their axis, as NumPy's do. The type is that of the file, and float64 if its values have to be
         scaled.
+        Between two steps (`fraction`, as for `cells`) it is float64: the greatest number that is not above the exact
+        blend, and NaN where a value of the two steps is missing or infinite.
         """
         of = self._array(array)
         about = of.description() if array is not None else self._about
@@ -169,7 +190,9 @@ class Run:
                     raise IndexError(f"{name}: vertex {place}, expected {-size} to {size - 1}")
                 box.append((place % size, place % size + 1))
                 rest.append(0)
-        stored = of.values(step, box)[tuple(rest)]
+        stored = of.values(step, fraction, box)[tuple(rest)]
+        if fraction != 0:
+            return stored
         if about["slope"] == 1 and about["intercept"] == 0:
             return stored
         scaled: NDArray[Any] = stored * np.float64(about["slope"])

@@ -120,6 +120,7 @@ ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
             throw interaction::Error(
                 fmt::format("{}: how it left array {} does not fit the data", name, *left.array));
     state.leaving = false;
+    state.exporting = {};
     return state;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace isochron::app {
@@ -20,11 +21,17 @@ class UserMemory {
     std::vector<std::filesystem::path> recent() const;
     void remember(const std::filesystem::path& data);
 
+    /// The array of these data that the user has chosen last; empty if none.
+    std::string array_of(const std::filesystem::path& data) const;
+    void remember_array(const std::filesystem::path& data, const std::string& array);
+
     /// Whether the user has seen the introduction; also true if nothing can be remembered.
     bool introduced() const;
     void set_introduced();
 
   private:
+    std::vector<std::string> lines_of(const char* file) const;
+
     std::optional<std::filesystem::path> folder_;
 };
 

@@ -52,7 +52,7 @@ void expect_no_other_format(const Hdf5File& file) {
 
 std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
                                          const ReadOptions& options) {
-    auto file = std::make_unique<Hdf5File>(path);
+    auto file = std::make_unique<Hdf5File>(path, options.crop.has_value());
     if (!(options.array && options.array->starts_with('/')))
         expect_no_other_format(*file);
     if (is_vtkhdf(*file) && !(options.array && options.array->starts_with('/')))

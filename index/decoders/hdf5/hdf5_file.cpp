@@ -151,7 +151,7 @@ std::string shape_text(const std::vector<std::uint64_t>& dimensions) {
     return dimensions.empty() ? "one value" : fmt::format("{}", fmt::join(dimensions, " x "));
 }
 
-Hdf5File::Hdf5File(const fs::path& path) : name_(path.string()) {
+Hdf5File::Hdf5File(const fs::path& path, bool parts) : name_(path.string()) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // or it prints an error for what is missing
     file_bytes(path);
     register_hdf5_filters();
@@ -160,7 +160,12 @@ Hdf5File::Hdf5File(const fs::path& path) : name_(path.string()) {
         throw Error(fmt::format("{}: HDF4, not HDF5: h4toh5 makes HDF5 of it", name_));
     if (is == 0)
         throw Error(fmt::format("{}: not HDF5: it does not start as HDF5 does", name_));
-    file_ = {H5Fopen(name_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    // The library reads 64 KiB around every row of a part that is shorter than that.
+    constexpr std::size_t kShortRow = 256;
+    if (parts)
+        H5Pset_sieve_buf_size(access.id(), kShortRow);
+    file_ = {H5Fopen(name_.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose};
     expect(static_cast<bool>(file_), "damaged or truncated");
 }
 

@@ -53,8 +53,9 @@ std::string shape_text(const std::vector<std::uint64_t>& dimensions);
 
 class Hdf5File {
   public:
+    /// @param parts a part of a dataset is read: of rows that are not in chunks no more than it needs
     /// @throws Error naming the file: not HDF5, truncated, damaged
-    explicit Hdf5File(const std::filesystem::path& path);
+    explicit Hdf5File(const std::filesystem::path& path, bool parts = false);
 
     const std::string& name() const { return name_; }
     std::int64_t id() const { return file_.id(); }

@@ -8,6 +8,7 @@
 
 #include <vtkExodusIIReader.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -35,7 +36,36 @@ std::optional<std::array<double, 7>> dimensions_in(const std::string& head) {
     return dimensions;
 }
 
+/// The lines of an AMReX plotfile's Header.
+class PlotfileHeader {
+  public:
+    explicit PlotfileHeader(const fs::path& path) : head_(head_of(path, kHead)) {}
+
+    std::string next() { return std::string(trimmed(take_line(head_, at_))); }
+    std::int64_t whole() {
+        std::int64_t number = 0;
+        std::istringstream(next()) >> number;
+        return number;
+    }
+    void skip(std::int64_t lines) {
+        for (std::int64_t i = 0; i < lines && at_ < head_.size(); ++i)
+            take_line(head_, at_);
+    }
+
+  private:
+    static constexpr std::size_t kHead = 1 << 20;
+    std::string head_;
+    std::size_t at_ = 0;
+};
+
 } // namespace
+
+std::int64_t dimensions_of_amrex(const fs::path& path) {
+    PlotfileHeader header(path);
+    header.skip(1);
+    header.skip(header.whole());
+    return header.whole();
+}
 
 std::vector<std::string> unread_of_exodus(vtkExodusIIReader& reader) {
     std::vector<std::string> unread;
@@ -67,40 +97,38 @@ std::vector<std::string> unread_of_cgns(const fs::path& path) {
          {"DimensionalUnits_t", "DataClass_t", "DataConversion_t", "DimensionalExponents_t",
           "ReferenceState_t", "FlowEquationSet_t", "ConvergenceHistory_t", "ZoneBC_t",
           "ZoneGridConnectivity_t", "RigidGridMotion_t", "ArbitraryGridMotion_t",
-          "RotatingCoordinates_t", "Axisymmetry_t", "Gravity_t", "Descriptor_t"})
+          "RotatingCoordinates_t", "Axisymmetry_t", "Gravity_t", "Descriptor_t", "Family_t",
+          "IntegralData_t", "UserDefinedData_t"})
         if (head.find(label) != head.npos)
             unread.emplace_back(label);
     return unread;
 }
 
 std::vector<std::string> unread_of_amrex(const fs::path& path) {
-    constexpr std::size_t kHead = 1 << 20;
-    const std::string head = head_of(path, kHead);
-    std::size_t at = 0;
-    const auto next = [&] { return std::string(trimmed(take_line(head, at))); };
-    const auto skip = [&](std::int64_t lines) {
-        for (std::int64_t i = 0; i < lines && at < head.size(); ++i)
-            take_line(head, at);
-    };
-    const auto whole = [](const std::string& text) {
-        std::int64_t number = 0;
-        std::istringstream(text) >> number;
-        return number;
-    };
-    skip(1);             // version
-    skip(whole(next())); // names of the arrays
-    skip(2);             // dimensions, time
-    const std::int64_t levels = whole(next()) + 1;
-    skip(5 + levels); // corners, ratios, boxes, steps; spacing of each level
+    PlotfileHeader header(path);
+    header.skip(1);              // version
+    header.skip(header.whole()); // names of the arrays
+    header.skip(2);              // dimensions, time
+    const std::int64_t levels = header.whole() + 1;
+    header.skip(4); // corners, ratios, boxes
+    const std::string steps = header.next();
+    header.skip(levels); // spacing of each level
     std::vector<std::string> unread;
-    if (const std::string system = next(); !system.empty() && system != "0")
+    if (steps.find_first_not_of("0 ") != steps.npos)
+        unread.push_back(fmt::format("steps of the levels {}", excerpt(steps)));
+    if (const std::string system = header.next(); !system.empty() && system != "0")
         unread.push_back(fmt::format("coordinate system {} (shown as cartesian)",
                                      system == "1"   ? "cylindrical"
                                      : system == "2" ? "spherical"
                                                      : excerpt(system)));
+    std::vector<std::string> others; // as job_info and folders of particles
     std::error_code ignored;
-    if (fs::exists(path.parent_path() / "job_info", ignored))
-        unread.emplace_back("job_info");
+    for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), ignored))
+        if (const std::string name = entry.path().filename().string();
+            name != "Header" && !name.starts_with("Level_"))
+            others.push_back(excerpt(name));
+    std::sort(others.begin(), others.end());
+    unread.insert(unread.end(), others.begin(), others.end());
     return unread;
 }
 

@@ -1,6 +1,7 @@
 // What meshes of simulations state besides their cells and arrays.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,9 +10,11 @@ class vtkExodusIIReader;
 
 namespace isochron::index {
 
-/// The functions give fields as `note_on_unread` takes them.
+/// The functions with `unread` give fields as `note_on_unread` takes them.
 std::vector<std::string> unread_of_exodus(vtkExodusIIReader& reader);
 std::vector<std::string> unread_of_cgns(const std::filesystem::path& path);
+/// @param path of the plotfile's Header
+std::int64_t dimensions_of_amrex(const std::filesystem::path& path);
 /// @param path of the plotfile's Header
 std::vector<std::string> unread_of_amrex(const std::filesystem::path& path);
 

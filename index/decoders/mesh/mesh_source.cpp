@@ -137,6 +137,9 @@ MeshSource openfoam_source(const fs::path& path) {
 
 MeshSource amrex_source(const fs::path& path) {
     constexpr int kEveryLevel = 64;
+    if (const std::int64_t dimensions = dimensions_of_amrex(path); dimensions != 3)
+        throw Error(
+            fmt::format("{}: a plotfile of {} dimensions, expected 3", path.string(), dimensions));
     const vtkNew<vtkAMReXGridReader> reader;
     reader->SetFileName(path.parent_path().c_str());
     const auto select = [raw = reader.GetPointer()] {

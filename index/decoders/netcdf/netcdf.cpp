@@ -161,7 +161,8 @@ void expect_no_other_format(const NetcdfFile& file) {
 class NetcdfVolume final : public DecodedFile {
   public:
     NetcdfVolume(const fs::path& path, const ReadOptions& options)
-        : file_(path), variable_((expect_no_other_format(file_), choose_variable(file_, options))),
+        : file_(path, options.crop.has_value()),
+          variable_((expect_no_other_format(file_), choose_variable(file_, options))),
           layout_(*layout_of(file_, variable_)), missing_(file_, variable_) {
         const std::string& name = file_.name();
         const StoredArray array{.name = variable_.name,

@@ -64,14 +64,16 @@ std::string text(const NetcdfVariable& variable) {
     return fmt::format("{}({})", variable.name, fmt::join(dimensions, ", "));
 }
 
-NetcdfFile::NetcdfFile(const fs::path& path) : path_(path), name_(path.string()) {
+NetcdfFile::NetcdfFile(const fs::path& path, bool parts) : path_(path), name_(path.string()) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // or HDF5 prints what NetCDF does not find
     if (is_classic_netcdf(path))
         expect_whole_classic_netcdf(path);
     else if (head_of(path, 8) != "\x89HDF\r\n\x1a\n")
         throw Error(
             fmt::format("{}: not NetCDF: it starts neither with CDF nor as HDF5 does", name_));
-    expect(nc_open(name_.c_str(), NC_NOWRITE, &file_), "damaged or truncated");
+    constexpr std::size_t kSmallestBlock = 256; // that the library has for classic files
+    std::size_t block = parts ? kSmallestBlock : NC_SIZEHINT_DEFAULT;
+    expect(nc__open(name_.c_str(), NC_NOWRITE, &block, &file_), "damaged or truncated");
     try {
         add_group(file_, {});
     } catch (...) {

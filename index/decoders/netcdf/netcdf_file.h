@@ -33,8 +33,9 @@ std::string text(const NetcdfVariable& variable);
 
 class NetcdfFile {
   public:
+    /// @param parts a part of a variable is read: of a classic file little more than its rows
     /// @throws Error naming the file: not NetCDF, truncated, damaged
-    explicit NetcdfFile(const std::filesystem::path& path);
+    explicit NetcdfFile(const std::filesystem::path& path, bool parts = false);
     ~NetcdfFile();
     NetcdfFile(const NetcdfFile&) = delete;
     NetcdfFile& operator=(const NetcdfFile&) = delete;

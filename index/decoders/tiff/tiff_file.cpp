@@ -176,12 +176,14 @@ void TiffFile::note_tags() {
             unread.push_back(fmt::format("{} {}", name, position));
     }
     constexpr std::uint32_t kModelPixelScale = 33550, kModelTiepoint = 33922,
-                            kModelTransformation = 34264, kNoData = 42113, kZeissLsm = 34412;
+                            kModelTransformation = 34264, kNoData = 42113, kZeissLsm = 34412,
+                            kImageJMetadata = 50839;
     for (const auto& [tag, name] :
          {std::pair(kModelPixelScale, "ModelPixelScale"),
           std::pair(kModelTiepoint, "ModelTiepoint"),
           std::pair(kModelTransformation, "ModelTransformation"), std::pair(kNoData, "GDAL_NODATA"),
-          std::pair(kZeissLsm, "CZ_LSMINFO (--spacing)")})
+          std::pair(kZeissLsm, "CZ_LSMINFO (--spacing)"),
+          std::pair(kImageJMetadata, "IJMetadata (labels, overlays, properties)")})
         if (TIFFFindField(file_, tag, TIFF_ANY)) {
             // The library keeps tags that it does not know: their count, and where they are.
             std::uint32_t count = 0;

@@ -276,6 +276,9 @@ void take_calibration(const std::map<std::string, std::string>& values, const au
     if (const auto inverted = values.find("inverty");
         inverted != values.end() && inverted->second == "true")
         unread.emplace_back("inverty (y counts downwards)");
+    if (const auto rate = values.find("fps"); rate != values.end())
+        unread.push_back(fmt::format("fps {} (a speed of playback, not the data's time)",
+                                     excerpt(rate->second)));
     if (auto note = note_on_unread(unread))
         stack.notes.push_back(std::move(*note));
 }
@@ -328,7 +331,8 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
             stack.origin[axis] = -pixel * stack.spacing[axis];
     }
     take_calibration(values, number, stack);
-    stack.time_step = number("finterval", 0);
+    if (const double interval = number("finterval", 0); std::isfinite(interval))
+        stack.time_step = interval;
     const auto time_unit = values.find("tunit");
     stack.time_unit =
         time_unit == values.end() || time_unit->second == "sec" ? "s" : time_unit->second;

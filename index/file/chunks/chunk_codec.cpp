@@ -56,6 +56,7 @@ struct ChunkPacker::State {
     };
 
     Codec codec;
+    bool wide_rows;
     std::unique_ptr<ZSTD_CCtx, Free> zstd{ZSTD_createCCtx()};
     ChunkDifferences differences;
     std::vector<std::byte> packed; // kept for its memory
@@ -76,8 +77,9 @@ struct ChunkPacker::State {
     }
 };
 
-ChunkPacker::ChunkPacker(Codec codec) : state_(std::make_unique<State>()) {
+ChunkPacker::ChunkPacker(Codec codec, bool wide_rows) : state_(std::make_unique<State>()) {
     state_->codec = codec;
+    state_->wide_rows = wide_rows;
 }
 ChunkPacker::~ChunkPacker() = default;
 ChunkPacker::ChunkPacker(ChunkPacker&&) noexcept = default;
@@ -97,18 +99,24 @@ void ChunkPacker::pack(ValueType type, const Size& size, std::span<const std::by
         return put(static_cast<unsigned>(Form::constant), values.first(word));
     if (state_->codec != Codec::none) {
         const Form form = state_->codec == Codec::lz4 ? Form::lz4 : Form::zstd;
-        const unsigned axes = state_->differences.find(size, word, values);
+        const bool rows = state_->codec == Codec::fitting && (word == 1 || state_->wide_rows);
+        const Differences found = state_->differences.find(size, word, values, rows);
         const auto bytes = state_->differences.shuffled();
-        if (state_->codec == Codec::fitting && word == 1) {
+        if (rows) {
             state_->packed.clear();
-            pack_rows(bytes, state_->packed);
-            if (state_->packed.size() <= limit_of(values.size()))
-                return put(static_cast<unsigned>(Form::stored) | kRows | kTried[axes - 1],
+            if (word == 1) {
+                pack_rows(bytes, state_->packed);
+            } else if (found.bytes_of_rows <= limit_of(values.size())) {
+                state_->packed.push_back(static_cast<std::byte>(found.shift));
+                pack_word_rows(bytes, word, state_->packed);
+            }
+            if (!state_->packed.empty() && state_->packed.size() <= limit_of(values.size()))
+                return put(static_cast<unsigned>(Form::stored) | kRows | kTried[found.axes - 1],
                            state_->packed);
             return put(static_cast<unsigned>(Form::stored), values);
         }
         const unsigned head =
-            static_cast<unsigned>(form) | kTried[axes - 1] | (word > 1 ? kShuffled : 0);
+            static_cast<unsigned>(form) | kTried[found.axes - 1] | (word > 1 ? kShuffled : 0);
         if (const std::size_t length = state_->press(form, bytes))
             return put(head, std::span(state_->packed).first(length));
     }
@@ -125,7 +133,7 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
     const Form form = static_cast<Form>(head & kFormMask);
     const bool rows = head & kRows;
     if (head & ~kKnownBits || (form <= Form::stored && head & ~kFormMask && !rows) ||
-        (rows && (form != Form::stored || head & kShuffled || word != 1)))
+        (rows && (form != Form::stored || head & kShuffled)))
         return false;
     if (form == Form::constant) {
         if (body.size() != word)
@@ -143,11 +151,17 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
     thread_local std::vector<std::byte> shuffled;
     thread_local const std::unique_ptr<ZSTD_DCtx, FreeUnpacker> zstd(ZSTD_createDCtx());
     std::span<std::byte> plain = out;
-    if (head & kShuffled) {
+    const bool wide_rows = rows && word > 1;
+    if (head & kShuffled || wide_rows) {
         shuffled.resize(out.size());
         plain = shuffled;
     }
-    if (rows) {
+    unsigned shift = 0;
+    if (wide_rows) {
+        if (body.empty() || (shift = std::to_integer<unsigned>(body[0])) >= 8 * word ||
+            !unpack_word_rows(body.subspan(1), word, plain))
+            return false;
+    } else if (rows) {
         if (!unpack_rows(body, plain))
             return false;
     } else if (form == Form::lz4) {
@@ -160,11 +174,15 @@ bool unpack_chunk(ValueType type, const Size& size, std::span<const std::byte> p
                                    body.size()) != plain.size()) {
         return false;
     }
-    if (head & kShuffled)
+    if (wide_rows)
+        unshuffle_folded(plain, word, out.data());
+    else if (head & kShuffled)
         unshuffle(plain, word, out.data());
     from_differences(type, size,
                      {(head & kAlong[0]) != 0, (head & kAlong[1]) != 0, (head & kAlong[2]) != 0},
                      out);
+    if (shift > 0)
+        shift_up(out, word, shift);
     return true;
 }
 

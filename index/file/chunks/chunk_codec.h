@@ -14,8 +14,8 @@
 
 namespace isochron::index {
 
-/// How values are packed. `fitting` packs types of one byte in packed rows and others with
-/// Zstandard. `none` stores values as they are; so does every codec if a chunk would hardly shrink.
+/// How values are packed. `fitting`: in packed rows; of types of several bytes, in files of earlier
+/// versions, with Zstandard. `none` stores values as they are; so does every codec if a chunk would hardly shrink.
 enum class Codec : std::uint8_t { fitting, none, lz4, zstd };
 constexpr std::array<std::string_view, 4> kCodecNames{"fitting", "none", "lz4", "zstd"};
 std::optional<Codec> codec_from_name(std::string_view name);
@@ -25,11 +25,14 @@ std::optional<Codec> codec_from_name(std::string_view name);
 /// A packed chunk begins with a byte. Its low two bits are the form: 0 one value for all, 1 values
 /// as they are, 2 LZ4, 3 Zstandard. Bits 2, 3 and 4: bit patterns are differences along x, y and z
 /// (of unsigned numbers of the type's size, modulo 2^bits). Bit 5: the first bytes of all values
-/// come first, then all second bytes, and so on. Bit 6, with form 1 and types of one byte only: the
-/// differences are in packed rows (packed_rows.h).
+/// come first, then all second bytes, and so on. Bit 6, with form 1 only: the differences are in
+/// packed rows (packed_rows.h). Of types of several bytes a byte comes before these rows: the values
+/// were shifted right by so many bits, all zero, and the differences d are folded: 2 d, or -2 d - 1
+/// where d is negative.
 class ChunkPacker {
   public:
-    explicit ChunkPacker(Codec codec);
+    /// @param wide_rows `fitting` packs types of several bytes in packed rows
+    explicit ChunkPacker(Codec codec, bool wide_rows = true);
     ~ChunkPacker();
     ChunkPacker(ChunkPacker&&) noexcept;
 

@@ -10,6 +10,14 @@
 
 namespace isochron::index {
 
+/// The differences that are likely to take the fewest bits.
+struct Differences {
+    unsigned axes = 0;  ///< they are along: 1 (x), 2 (x, y) or 3 (x, y, z)
+    unsigned shift = 0; ///< the values were shifted right by so many bits, all zero, before
+    /// What their rows of 16 take, without the widths: an estimate.
+    std::size_t bytes_of_rows = 0;
+};
+
 /// Keeps its work space: one for each thread.
 class ChunkDifferences {
   public:
@@ -17,9 +25,10 @@ class ChunkDifferences {
     /// these differences along y, and of the results along z. Finds which of the three results is
     /// likely to take the fewest bits.
     /// @param size values along x, y and z @param word bytes of a value: 1, 2, 4 or 8
-    /// @return the number of axes of the best one: 1 (x), 2 (x, y) or 3 (x, y, z)
-    unsigned find(const std::array<std::uint32_t, 3>& size, std::size_t word,
-                  std::span<const std::byte> values);
+    /// @param rows the differences will be in packed rows. Then values of several bytes are shifted
+    ///   first, and their differences folded: 2 d, or -2 d - 1 where d is negative
+    Differences find(const std::array<std::uint32_t, 3>& size, std::size_t word,
+                     std::span<const std::byte> values, bool rows);
 
     /// The best differences: the first bytes of all, then all second bytes, and so on.
     std::span<const std::byte> shuffled() const { return best_; }

@@ -1,10 +1,12 @@
 // Reads and decodes chunks.
 #include "index/file/chunks/chunk_store.h"
 
+#include "index/file/chunks/spare_memory.h"
 #include "index/file/sections/step_levels.h"
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -14,18 +16,22 @@ constexpr std::uint64_t kTables = 1 << 20;
 /// A step up to this size is decoded as a whole when it is worked on again: a search is faster
 /// then.
 constexpr std::uint64_t kModerateStep = 64 << 20;
-/// Bytes that are announced behind a read in order.
-constexpr std::uint64_t kAnnounced = 2 << 20;
+/// Memory that is kept for blended chunks.
+constexpr std::size_t kSpareBytes = 64 << 20;
 
 } // namespace
 
 ChunkStore::ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array)
     : source_(source), cache_(cache), array_(std::move(array)), grid_(array_.info.grid),
       decoder_(source_, array_, grid_), pool_(std::make_shared<SlotPool>(chunk_bytes())),
+      for_blends_(std::make_unique<BlendMemory>(std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge,
+                                                kSpareBytes)),
       visited_(array_.info.steps()) {
     if (!has_step_levels(array_.info.type))
         of_type_ = std::make_shared<LevelMap>(LevelMap::of_type(array_.info.type));
 }
+
+ChunkStore::~ChunkStore() = default;
 
 std::size_t ChunkStore::bytes_of(const std::array<std::uint32_t, 3>& size) const {
     return array_.has_values ? std::size_t{size[0]} * size[1] * size[2] * size_of(array_.info.type)
@@ -81,17 +87,26 @@ LevelMapPtr ChunkStore::levels(std::uint32_t step) const {
     if (auto known = cache_.find<LevelMap>(at))
         return known;
     const StepEntry& entry = array_.steps[step];
-    const std::uint64_t begin =
-        entry.tables +
-        layer_table_bytes(grid_.chunks_of_layer(), array_.has_since) * grid_.layers();
-    std::vector<std::byte> bytes(entry.bytes - begin);
-    source_.read(entry.offset + begin, bytes);
+    std::vector<std::byte> bytes(entry.bytes - levels_at(entry));
+    source_.read(entry.offset + levels_at(entry), bytes);
+    return keep_levels(step, bytes);
+}
+
+/// Where in a step its levels begin.
+std::uint64_t ChunkStore::levels_at(const StepEntry& entry) const {
+    return entry.tables +
+           layer_table_bytes(grid_.chunks_of_layer(), array_.has_since) * grid_.layers();
+}
+
+/// Of a type that has levels in each step.
+LevelMapPtr ChunkStore::keep_levels(std::uint32_t step, std::span<const std::byte> bytes) const {
     const auto levels = step_levels(array_.info.type, bytes);
     if (!levels)
         decoder_.damaged(step, "the levels of its bricks");
     auto kept = std::make_shared<LevelMap>(*levels);
     // For types of two bytes the map has a table, too.
-    cache_.add(at, kept, bytes.size() + (size_of(array_.info.type) == 2 ? 1 << 16 : 0));
+    cache_.add(key(levels_kept, step), kept,
+               bytes.size() + (size_of(array_.info.type) == 2 ? 1 << 16 : 0));
     return kept;
 }
 
@@ -151,18 +166,20 @@ std::uint64_t ChunkStore::expect(std::uint32_t step, std::uint32_t layer,
     return announce(step, layer, missing(step, layer, places));
 }
 
-/// Whether the kernel, reading ahead of here, may get beyond the step.
+/// Whether the kernel, reading ahead of here, may get beyond the step. It has windows of some MiB,
+/// and begins another one wherever a read meets the mark that the last one left, whoever reads,
+/// unless all of that window has been announced.
 bool ChunkStore::near_end(std::uint32_t step, std::uint64_t end) const {
-    constexpr std::uint64_t kMostAhead = 16 << 20;
+    constexpr std::uint64_t kMostAhead = 24 << 20;
     return end + kMostAhead > array_.steps[step].offset + array_.steps[step].bytes;
 }
 
-void ChunkStore::read_in_order(std::uint32_t step, std::uint64_t offset,
-                               std::span<std::byte> out) const {
+void ChunkStore::read_in_order(std::uint32_t step, std::uint64_t offset, std::span<std::byte> out,
+                               bool& announced) const {
     if (!near_end(step, offset + out.size()))
         return source_.read_in_order(offset, out);
-    const std::uint64_t end = array_.steps[step].offset + array_.steps[step].tables;
-    source_.expect(offset, std::min<std::uint64_t>(kAnnounced, end - std::min(end, offset)));
+    if (!std::exchange(announced, true))
+        source_.expect(offset, array_.steps[step].offset + array_.steps[step].tables - offset);
     source_.read(offset, out);
 }
 

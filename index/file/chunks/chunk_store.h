@@ -40,18 +40,24 @@ inline void stop_if_asked(const std::stop_token& stop) {
         throw Stopped();
 }
 
+struct BlendMemory;
+
 /// Thread-safe. Functions that read the file throw Error if it is damaged or cannot be read.
 class ChunkStore {
   public:
     /// @param source, cache outlive this
     ChunkStore(const ByteSource& source, ByteCache& cache, ChunkArray array);
+    ~ChunkStore();
 
     const SeriesInfo& info() const { return array_.info; }
     const ChunkGrid& grid() const { return grid_; }
     /// Whether the file has the values of its chunks.
     bool carries_values() const { return array_.has_values; }
+    bool has_bricks() const { return array_.has_bricks; }
     const ChunkDecoder& decoder() const { return decoder_; }
     const ByteSource& source() const { return source_; }
+    /// What blends of its steps share.
+    BlendMemory& for_blends() const { return *for_blends_; }
 
     /// The table of a layer; if it is not in the cache, tables of neighboring layers are read too.
     ChunkLayerPtr layer(std::uint32_t step, std::uint32_t layer) const;
@@ -71,9 +77,12 @@ class ChunkStore {
     /// until it has come from the disk.
     std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::uint32_t> places, const std::stop_token& stop) const;
-    /// Reads bytes of a step that are read in order. Near its end the kernel is not left to read
-    /// ahead as it sees fit, as it would read what follows the step, too.
-    void read_in_order(std::uint32_t step, std::uint64_t offset, std::span<std::byte> out) const;
+    /// Reads bytes of a step that are read in order, the kernel reading ahead as it sees fit. Near the
+    /// end of the step it would read what follows the step, too: there all bytes that are left are
+    /// announced instead, once.
+    /// @param announced whether that has been done
+    void read_in_order(std::uint32_t step, std::uint64_t offset, std::span<std::byte> out,
+                       bool& announced) const;
     /// Whether `fetch` of so many chunks of a layer, none of them in the cache, reads the whole
     /// layer: a sixth of the chunks are so spread that, with their neighbors, most are needed.
     bool fetches_all(std::size_t places) const { return 6 * places >= grid_.chunks_of_layer(); }
@@ -104,7 +113,7 @@ class ChunkStore {
     /// Whether work on the whole step is faster than on the needed chunks alone: if the step is
     /// small, or of moderate size and `worked_on` before, and fits into a quarter of the cache.
     bool better_whole(std::uint32_t step) const;
-    /// Whether a step is small enough to be read in one request.
+    /// Whether a step is small enough to be read as a whole, in one request or announced at once.
     bool is_small() const { return array_.info.step_bytes() <= kSmallStep; }
     /// Notes that a step has been worked on.
     void worked_on(std::uint32_t step) const;
@@ -112,9 +121,9 @@ class ChunkStore {
 
   private:
     enum Kind : unsigned { chunk_kept, layer_kept, whole_kept, levels_kept, kinds };
-    /// A step up to this size is always decoded as a whole, which takes less time than choosing
-    /// chunks.
-    static constexpr std::uint64_t kSmallStep = 4 << 20;
+    /// A step up to this size is always read and decoded as a whole, which takes less time than
+    /// choosing chunks: 256 x 128 x 64 of f32, and a vertex more along each axis.
+    static constexpr std::uint64_t kSmallStep = 9 << 20;
 
     ByteCache::Key key(unsigned kind, std::uint32_t step, std::uint32_t layer = 0,
                        std::uint32_t place = 0) const;
@@ -138,6 +147,10 @@ class ChunkStore {
     std::uint64_t table_bytes() const {
         return grid_.chunks_of_layer() * (sizeof(std::uint64_t) + sizeof(std::uint32_t) + 2);
     }
+    std::uint64_t levels_at(const StepEntry& entry) const;
+    LevelMapPtr keep_levels(std::uint32_t step, std::span<const std::byte> bytes) const;
+    bool near_end(std::uint32_t step, std::uint64_t end) const;
+    void expect_all(std::uint32_t step) const;
     std::vector<std::byte> read_at_once(std::uint32_t step) const;
     void decode_from(std::span<const std::byte> all, std::span<const std::byte> before,
                      std::uint32_t step, std::uint32_t layer, std::span<const std::uint32_t> places,
@@ -151,7 +164,6 @@ class ChunkStore {
                                        std::span<const std::uint32_t> places) const;
     std::uint64_t announce(std::uint32_t step, std::uint32_t layer,
                            std::span<const std::uint32_t> missing) const;
-    bool near_end(std::uint32_t step, std::uint64_t end) const;
     std::uint64_t announce_earlier(std::uint32_t step, std::uint32_t layer, const ChunkLayer& table,
                                    std::span<const std::uint32_t> missing) const;
     std::vector<ByteCache::Key> keys(std::uint32_t step, std::uint32_t layer,
@@ -163,6 +175,7 @@ class ChunkStore {
     ChunkDecoder decoder_;
     LevelMapPtr of_type_;            ///< levels of all steps, for an 8-bit type
     std::shared_ptr<SlotPool> pool_; ///< memory of chunks with their values
+    std::unique_ptr<BlendMemory> for_blends_;
     mutable std::mutex visits_mutex_;
     mutable std::vector<bool> visited_; ///< steps that have been worked on
 };

@@ -116,15 +116,25 @@ void sum_along(T* values, const Size& size, const std::array<bool, 3>& axes) {
 }
 
 /// Joins the bytes of values. The compiler turns this into moves of whole vectors.
-template <class T>
+/// @param kFolded the values are folded differences
+template <class T, bool kFolded>
 void join_bytes(const std::byte* bytes, std::size_t count, std::byte* out) {
     auto* const words = reinterpret_cast<T*>(out);
     for (std::size_t i = 0; i < count; ++i) {
         T word = 0;
         for (std::size_t byte = 0; byte < sizeof(T); ++byte)
             word |= static_cast<T>(static_cast<T>(bytes[byte * count + i]) << 8 * byte);
+        if constexpr (kFolded)
+            word = static_cast<T>((word >> 1) ^ static_cast<T>(T{0} - (word & 1)));
         words[i] = word;
     }
+}
+
+template <class T>
+void shift_words(std::byte* values, std::size_t count, unsigned bits) {
+    auto* const words = reinterpret_cast<T*>(values);
+    for (std::size_t i = 0; i < count; ++i)
+        words[i] = static_cast<T>(words[i] << bits);
 }
 
 void sum_values(std::size_t bytes, const Size& size, const std::array<bool, 3>& axes,
@@ -137,12 +147,29 @@ void sum_values(std::size_t bytes, const Size& size, const std::array<bool, 3>& 
     }
 }
 
-void join_values(std::size_t bytes, const std::byte* shuffled, std::size_t count, std::byte* out) {
+template <bool kFolded>
+void join_values_of(std::size_t bytes, const std::byte* shuffled, std::size_t count,
+                    std::byte* out) {
     switch (bytes) {
     case 1: std::copy_n(shuffled, count, out); return;
-    case 2: return join_bytes<std::uint16_t>(shuffled, count, out);
-    case 4: return join_bytes<std::uint32_t>(shuffled, count, out);
-    default: return join_bytes<std::uint64_t>(shuffled, count, out);
+    case 2: return join_bytes<std::uint16_t, kFolded>(shuffled, count, out);
+    case 4: return join_bytes<std::uint32_t, kFolded>(shuffled, count, out);
+    default: return join_bytes<std::uint64_t, kFolded>(shuffled, count, out);
+    }
+}
+
+void join_values(std::size_t bytes, bool folded, const std::byte* shuffled, std::size_t count,
+                 std::byte* out) {
+    return folded ? join_values_of<true>(bytes, shuffled, count, out)
+                  : join_values_of<false>(bytes, shuffled, count, out);
+}
+
+void shift_values(std::size_t bytes, std::byte* values, std::size_t count, unsigned bits) {
+    switch (bytes) {
+    case 1: return shift_words<std::uint8_t>(values, count, bits);
+    case 2: return shift_words<std::uint16_t>(values, count, bits);
+    case 4: return shift_words<std::uint32_t>(values, count, bits);
+    default: return shift_words<std::uint64_t>(values, count, bits);
     }
 }
 
@@ -155,6 +182,7 @@ namespace isochron::index {
 
 HWY_EXPORT(sum_values);
 HWY_EXPORT(join_values);
+HWY_EXPORT(shift_values);
 
 void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size,
                       const std::array<bool, 3>& axes, std::span<std::byte> values) {
@@ -162,7 +190,15 @@ void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size,
 }
 
 void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out) {
-    HWY_DYNAMIC_DISPATCH(join_values)(size, shuffled.data(), shuffled.size() / size, out);
+    HWY_DYNAMIC_DISPATCH(join_values)(size, false, shuffled.data(), shuffled.size() / size, out);
+}
+
+void unshuffle_folded(std::span<const std::byte> shuffled, std::size_t size, std::byte* out) {
+    HWY_DYNAMIC_DISPATCH(join_values)(size, true, shuffled.data(), shuffled.size() / size, out);
+}
+
+void shift_up(std::span<std::byte> values, std::size_t size, unsigned bits) {
+    HWY_DYNAMIC_DISPATCH(shift_values)(size, values.data(), values.size() / size, bits);
 }
 
 } // namespace isochron::index

@@ -82,13 +82,14 @@ RecordChecksum record_checksum(std::span<const std::byte> record) {
     return static_cast<RecordChecksum>(XXH3_64bits(record.data(), record.size()));
 }
 
-LayerPacker::LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned threads)
+LayerPacker::LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned threads,
+                         bool wide_rows)
     : grid_(grid), type_(type), chunks_(grid) {
     const std::size_t chunk = std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge * size_of(type);
     together_ = static_cast<std::uint32_t>(
         std::clamp<std::size_t>(kBytesTogether / chunk, 1, kPlacesOfPiece));
     for (unsigned i = 0; i < threads; ++i)
-        packers_.push_back({ChunkPacker(codec), {}, {}, {}});
+        packers_.push_back({ChunkPacker(codec, wide_rows), {}, {}, {}});
     pieces_.resize((chunks_.chunks_of_layer() + kPlacesOfPiece - 1) / kPlacesOfPiece);
 }
 

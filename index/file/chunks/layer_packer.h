@@ -31,7 +31,9 @@ struct ChunkHistory {
 /// be known to find the chunks of the next step that stay.
 class LayerPacker {
   public:
-    LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned threads);
+    /// @param wide_rows see ChunkPacker
+    LayerPacker(const Grid& grid, ValueType type, Codec codec, unsigned threads,
+                bool wide_rows = true);
 
     /// Receives the bytes in order.
     using Append = std::function<void(std::span<const std::byte>)>;

@@ -1,4 +1,4 @@
-// Packs small numbers of one byte: each row of 16 takes as many bits as its largest number needs.
+// Packs small numbers: each row of 16 takes as many bits as its largest number needs.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,23 @@ namespace isochron::index {
 // the lower half of a byte; if the number of rows is odd, the last half is zero. Then come the bit
 // planes of each row, the lowest bit first: 2 bytes each, bit i from the i-th number.
 
+// Numbers of several bytes are unsigned. First comes the number of bits of each row, a byte each.
+// Then, row after row, those lower bytes of the numbers that take all their bits: 16 bytes each, the
+// lowest first; then the bit planes of the byte above them, as above.
+
 /// Appends the packed numbers.
 void pack_rows(std::span<const std::byte> numbers, std::vector<std::byte>& out);
 
 /// The inverse. @param out as long as the numbers
 /// @return false if the bytes are not the packed form of that many numbers
 bool unpack_rows(std::span<const std::byte> packed, std::span<std::byte> out);
+
+/// The same for unsigned numbers of `word` bytes, at most 8.
+/// @param numbers the lowest bytes of all, then all second bytes, and so on
+void pack_word_rows(std::span<const std::byte> numbers, std::size_t word,
+                    std::vector<std::byte>& out);
+/// The inverse, as `unpack_rows`.
+bool unpack_word_rows(std::span<const std::byte> packed, std::size_t word,
+                      std::span<std::byte> out);
 
 } // namespace isochron::index

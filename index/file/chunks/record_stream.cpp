@@ -40,6 +40,7 @@ std::uint32_t RecordStream::pieces_of(const ChunkLayer& table) {
 void RecordStream::run(const std::stop_token& quit, std::uint32_t step, std::uint32_t first,
                        std::uint32_t end) {
     std::exception_ptr failure;
+    bool announced = false;
     try {
         RecordPiece piece;
         for (std::uint32_t layer = first; layer < end; ++layer) {
@@ -53,7 +54,7 @@ void RecordStream::run(const std::stop_token& quit, std::uint32_t step, std::uin
                 const std::size_t bytes = table->offsets[piece.end] - table->offsets[place];
                 piece.bytes.resize(std::max(piece.bytes.size(), bytes));
                 store_.read_in_order(step, table->offsets[place],
-                                     std::span(piece.bytes).first(bytes));
+                                     std::span(piece.bytes).first(bytes), announced);
                 if (!put(piece, quit))
                     return;
             }

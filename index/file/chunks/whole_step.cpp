@@ -13,6 +13,9 @@
 namespace isochron::index {
 namespace {
 
+/// Starting threads takes longer than decoding a step up to this size.
+constexpr std::size_t kByOneThread = 2 << 20;
+
 struct WholeStep {
     LargeMemory values; ///< their padding is zero
     std::vector<std::uint8_t> bricks;
@@ -53,7 +56,7 @@ void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint
     }
 }
 
-/// Reads all of a small step in one request, and keeps its tables.
+/// Reads all of a small step in one request, and keeps its tables and the levels of its bricks.
 std::vector<std::byte> ChunkStore::read_at_once(std::uint32_t step) const {
     const StepEntry& entry = array_.steps[step];
     std::vector<std::byte> bytes(entry.bytes);
@@ -68,7 +71,16 @@ std::vector<std::byte> ChunkStore::read_at_once(std::uint32_t step) const {
                             std::span(bytes).subspan(entry.tables + layer * size, size)),
              table_bytes()});
     cache_.add_all(std::move(tables));
+    if (array_.has_bricks && !of_type_)
+        keep_levels(step, std::span(bytes).subspan(levels_at(entry)));
     return bytes;
+}
+
+/// Announces all of a step: its tables, which are needed first, and its chunks.
+void ChunkStore::expect_all(std::uint32_t step) const {
+    const StepEntry& entry = array_.steps[step];
+    source_.expect(entry.offset + entry.tables, entry.bytes - entry.tables);
+    source_.expect(entry.offset, entry.tables);
 }
 
 /// @param all bytes of the step; empty: those that are needed are read
@@ -156,12 +168,12 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         if (const ByteCache::Key at = key(whole_kept, step - 1);
             step > 0 && array_.has_values && cache_.held({{at}})[0])
             before = cache_.find<WholeStep>(at);
-        // Starting threads takes longer than reading a small step.
-        const bool small = stride <= kSmallStep;
         std::optional<ReadAhead> ahead;
         std::vector<std::byte> at_once;
-        if (small)
+        if (is_small() && stride <= kByOneThread)
             at_once = read_at_once(step);
+        else if (is_small())
+            expect_all(step);
         else
             ahead.emplace(grid_.layers(), [&](std::uint32_t layer) {
                 stop_if_asked(stop);
@@ -180,7 +192,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
                                     .subspan(layer * layer_bytes);
             decode_from(at_once, planes_before, step, layer, places, planes, all->bricks, stop);
         };
-        parallel_for(grid_.layers(), small ? 1 : thread_count(0), take, {});
+        parallel_for(grid_.layers(), stride <= kByOneThread ? 1 : thread_count(0), take, {});
         cache_.add(key(whole_kept, step), all, stride + all->bricks.size());
         held = all;
     }

@@ -43,7 +43,7 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
                                 header.byte_order, expected.byte_order));
     if (header.version >= kVersionWithoutSince && header.version <= kFileVersion)
         return;
-    const std::string what = fmt::format("{}: file version {}, this program reads versions {} and "
+    const std::string what = fmt::format("{}: file version {}, this program reads versions {} to "
                                          "{}",
                                          name, header.version, kVersionWithoutSince, kFileVersion);
     if (header.version + 1 == kVersionWithoutSince)

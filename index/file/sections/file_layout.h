@@ -1,6 +1,6 @@
 // Header and section table of the .isochron file: the offsets and checksums of all its parts.
 //
-// Version 4, little-endian, offsets from the start of the file. The file begins with two slots for
+// Version 5, little-endian, offsets from the start of the file. The file begins with two slots for
 // a header, of 4096 bytes each: FileHeader, then zeros. The header that counts is the intact one
 // with the higher sequence number; a new index has only the first. The parts begin at 8192:
 // - for each array and step: the step's chunks, their tables and the levels of their bricks
@@ -37,7 +37,10 @@ constexpr std::uint64_t kHeaderBytes = 4096;
 constexpr std::uint64_t kHeaderSlots = 2;
 constexpr std::uint64_t kDataBegin = kHeaderSlots * kHeaderBytes;
 constexpr std::uint64_t kPartAlignment = 64;
-constexpr std::uint32_t kFileVersion = 4;
+constexpr std::uint32_t kFileVersion = 5;
+/// Up to this version `fitting` packs values of several bytes with Zstandard (chunk_codec.h). What is
+/// appended to such a file has its version.
+constexpr std::uint32_t kVersionWithoutWideRows = 4;
 /// The oldest version that is read: its tables of chunks do not say since when chunks have stayed
 /// (chunk_table.h). What is appended to such a file has its version.
 constexpr std::uint32_t kVersionWithoutSince = 3;

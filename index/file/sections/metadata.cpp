@@ -205,6 +205,8 @@ std::string to_json(const Metadata& metadata) {
         j["referral"] = json_of(*metadata.referral);
     if (metadata.color)
         j["color"] = json_of(*metadata.color);
+    if (metadata.blends)
+        j["between"] = json_of(*metadata.blends);
     if (!metadata.further.empty())
         j["arrays"] = json_of(metadata.further);
     // Texts from files may have any bytes; JSON may not.
@@ -246,6 +248,8 @@ Metadata metadata_from_json(std::string_view text) try {
         metadata.referral = referral_of(j.at("referral"));
     if (j.contains("color"))
         metadata.color = color_of(j.at("color"));
+    if (j.contains("between"))
+        metadata.blends = blends_of(j.at("between"));
     if (j.contains("arrays"))
         metadata.further = further_of(j.at("arrays"));
     return metadata;

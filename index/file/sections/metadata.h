@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/file/chunks/chunk_codec.h"
+#include "index/file/sections/blend_quality.h"
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/index_contents.h"
 #include "index/file/sections/series_content.h"
@@ -45,6 +46,8 @@ struct Metadata {
     /// How the files were read, as far as the user said; without array and component. Indexes of
     /// older programs have none.
     std::optional<ReadOptions> reading = {};
+    /// What blends between steps are worth; none where that was not measured.
+    std::optional<BlendQuality> blends = {};
     /// The arrays of the index besides this one; only the first array lists them.
     std::vector<ArrayPlace> further = {};
 };

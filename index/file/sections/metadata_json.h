@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/error.h"
+#include "index/file/sections/blend_quality.h"
 #include "index/file/sections/index_contents.h"
 
 #include <fmt/format.h>
@@ -107,6 +108,9 @@ Referral referral_of(const json& j);
 
 json json_of(const ColorArray& color);
 ColorArray color_of(const json& j);
+
+json json_of(const BlendQuality& blends);
+BlendQuality blends_of(const json& j);
 
 /// Where the further arrays have their sections: key `arrays`.
 json json_of(const std::vector<ArrayPlace>& further);

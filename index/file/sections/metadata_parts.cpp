@@ -141,6 +141,28 @@ ColorArray color_of(const json& j) {
     return color;
 }
 
+json json_of(const BlendQuality& blends) {
+    json j{{"every_second", blends.every_second},
+           {"cells", blends.cells},
+           {"lone_second", blends.lone_second},
+           {"lone", blends.lone}};
+    put_optional(j, "every_fourth", blends.every_fourth);
+    return j;
+}
+
+BlendQuality blends_of(const json& j) {
+    BlendQuality blends;
+    j.at("every_second").get_to(blends.every_second);
+    get_optional(j, "every_fourth", blends.every_fourth);
+    for (const double voxels : {blends.every_second, blends.every_fourth.value_or(0)})
+        if (!(voxels >= 0 && voxels <= BlendQuality::kFarthest))
+            throw Error(fmt::format("blends that are off by {} voxels", voxels));
+    blends.cells = whole<std::uint64_t>(j.at("cells"));
+    blends.lone_second = whole<std::uint64_t>(j.at("lone_second"));
+    blends.lone = whole<std::uint64_t>(j.at("lone"));
+    return blends;
+}
+
 namespace {
 
 /// 16 hexadecimal digits.

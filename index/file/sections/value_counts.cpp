@@ -1,6 +1,8 @@
 // Counts values in bins that can be merged.
 #include "index/file/sections/value_counts.h"
 
+#include "index/file/sections/value_bins.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -127,6 +129,14 @@ void ValueCounts::add(ValueType type, Scaling scaling, std::span<const std::byte
                     numbers[i];
             }
             return;
+        }
+        if constexpr (sizeof(T) <= 4) {
+            // Scaling is monotone: where it keeps both extremes finite, it keeps all values finite.
+            const StoredExtremes found = stored_extremes(type, stored);
+            if (!values.empty() && found.all_finite && counts(found.low) && counts(found.high)) {
+                reach(type, found.low, found.high);
+                return count_in_bins(type, stored, std::ldexp(1.0, -exponent), first, bins);
+            }
         }
         double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
         for (const T value : values) {

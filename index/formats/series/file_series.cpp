@@ -3,9 +3,11 @@
 
 #include "index/error.h"
 #include "index/formats/converted_file.h"
+#include "index/formats/series/dated_name.h"
 #include "index/formats/series/numbered_name.h"
 #include "index/formats/series/same_volume.h"
 #include "index/formats/series/step_order.h"
+#include "index/formats/series/telling_head.h"
 #include "index/formats/stored_file.h"
 #include "index/system/input_file.h"
 #include "index/utf8.h"
@@ -63,10 +65,15 @@ auto named(const std::filesystem::path& file, Work&& work) {
 
 class FileSeries final : public VolumeSeries {
   public:
-    FileSeries(std::vector<SeriesFile> files, ReadOptions options)
+    FileSeries(std::vector<SeriesFile> files, ReadOptions options, const Progress& progress)
         : files_(std::move(files)), options_(std::move(options)) {
-        for (std::size_t i = 0; i < files_.size(); ++i)
+        constexpr std::size_t kMany = 1000;
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            if (progress && files_.size() >= kMany && i % 64 == 0)
+                progress("opening files",
+                         static_cast<double>(i) / static_cast<double>(files_.size()));
             named(files_[i].path, [&] { add(i); });
+        }
         note_missing_numbers();
         if (!options_.time_step)
             order_by_time();
@@ -142,16 +149,24 @@ class FileSeries final : public VolumeSeries {
 
     void add(std::size_t index) {
         Found found{.paths = {files_[index].path}, .states = {state_of(files_[index].path)}};
+        const auto head = files_.size() > 1 ? head_of_file(files_[index].path, found.states[0].size)
+                                            : std::nullopt;
+        const bool told = index > 0 && head && head == head_;
+        if (index == 0)
+            head_ = head;
         // Only the last file stays open: a long series has more files than there are descriptors.
-        open_file(index);
-        found.steps = open_->steps();
-        for (std::filesystem::path& path : open_->beside()) {
-            found.states.push_back(state_of(path));
-            found.paths.push_back(std::move(path));
-        }
+        if (!told)
+            open_file(index);
+        found.steps = told ? found_.front().steps : open_->steps();
+        const std::size_t steps = found.steps;
+        if (!told)
+            for (std::filesystem::path& path : open_->beside()) {
+                found.states.push_back(state_of(path));
+                found.paths.push_back(std::move(path));
+            }
         found_.push_back(std::move(found));
-        expect_few_steps(places_.size() + open_->steps(), name(index));
-        const SeriesInfo& info = open_->info();
+        expect_few_steps(places_.size() + steps, name(index));
+        const SeriesInfo& info = told ? first_ : open_->info(); // a head that tells has no times
         if (index == 0) {
             choose_as_in(info);
             info_ = info;
@@ -168,9 +183,9 @@ class FileSeries final : public VolumeSeries {
         info_.sources.push_back(files_[index].path.filename().string());
         std::vector<double> times = info.times;
         if (files_[index].time) {
-            if (open_->steps() != 1)
-                throw Error(fmt::format("{}: {} steps, expected 1 for time {}", name(index),
-                                        open_->steps(), *files_[index].time));
+            if (steps != 1)
+                throw Error(fmt::format("{}: {} steps, expected 1 for time {}", name(index), steps,
+                                        *files_[index].time));
             times = {*files_[index].time};
         } else if (!times.empty() && !options_.time_step && !info.time_unit.empty() &&
                    !first_.time_unit.empty()) {
@@ -187,7 +202,7 @@ class FileSeries final : public VolumeSeries {
             throw Error(fmt::format("{}: gives {} time, {} gives {}; --time-step sets them all",
                                     name(index), times.empty() ? "no" : "a", name(0),
                                     times.empty() ? "one" : "none"));
-        for (std::size_t step = 0; step < open_->steps(); ++step) {
+        for (std::size_t step = 0; step < steps; ++step) {
             const double time = times.empty() ? static_cast<double>(places_.size()) : times[step];
             info_.times.push_back(time);
             places_.push_back({index, step, time});
@@ -218,7 +233,8 @@ class FileSeries final : public VolumeSeries {
         std::vector<std::filesystem::path> paths;
         for (const SeriesFile& file : files_)
             paths.push_back(file.path);
-        if (const auto note = note_on_missing(paths))
+        auto note = note_on_dates(paths);
+        if (note || (note = note_on_missing(paths)))
             info_.notes.push_back(*note);
     }
 
@@ -352,8 +368,9 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo info_;
     SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
-    std::vector<StepPlace> places_; ///< of every step
-    std::vector<Found> found_;      ///< of every file
+    std::vector<StepPlace> places_;     ///< of every step
+    std::vector<Found> found_;          ///< of every file
+    std::optional<std::uint64_t> head_; ///< of the first file, see `telling_head`
     std::unique_ptr<VolumeFile> open_;
     std::size_t open_index_ = 0;
 };
@@ -369,8 +386,9 @@ std::uint64_t number_of(std::span<const FileState> states) {
 
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options,
-                                               const std::vector<std::string>& notes) {
-    auto series = std::make_unique<FileSeries>(std::move(files), options);
+                                               const std::vector<std::string>& notes,
+                                               const Progress& progress) {
+    auto series = std::make_unique<FileSeries>(std::move(files), options, progress);
     for (const std::string& note : notes)
         series->add_note(note);
     return series;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "index/formats/volume_file.h"
+#include "index/progress.h"
 #include "index/system/input_file.h"
 
 #include <cstdint>
@@ -21,13 +22,15 @@ struct SeriesFile {
 /// The number by which an index knows the files of a step: it changes when one is written to.
 std::uint64_t number_of(std::span<const FileState> states);
 
-/// Opens every file once and checks that all agree with the first in vertices, spacing, origin,
+/// Opens every file once, unless its head says what the head of the first one says, and checks that all agree with the first in vertices, spacing, origin,
 /// direction, array, type and scaling. Times come from `files`, or else from the files' contents,
 /// in the unit of the first, or else are step numbers; `options` override them.
 /// @param notes on how the files were found
+/// @param progress of many files
 /// @throws Error naming both files when two disagree, or when times do not increase
 std::unique_ptr<VolumeSeries> open_file_series(std::vector<SeriesFile> files,
                                                const ReadOptions& options,
-                                               const std::vector<std::string>& notes = {});
+                                               const std::vector<std::string>& notes = {},
+                                               const Progress& progress = {});
 
 } // namespace isochron::index

@@ -5,8 +5,9 @@
 layout(binding = 0) uniform sampler2D left_eye;
 layout(binding = 1) uniform sampler2D right_eye;
 uniform int mode; // one of the names that Multiplex::shader_prelude defines
-uniform ivec2 left_from_window, right_from_window; // offset from a window's pixel to the eye's
-uniform int window_height;                         // pixels
+uniform ivec2 left_from_window, right_from_window; // offset from a window's pixel (times `way`) to the eye's
+uniform int way;           // 1, or -1: the eyes' pictures are turned by 180 degrees
+uniform int window_height; // pixels
 out vec4 color;
 
 // E. Dubois, "Conversion of a stereo pair to anaglyph with the least-squares projection method",
@@ -22,8 +23,8 @@ const mat3 dubois_right = mat3(
 
 void main() {
     ivec2 window_pixel = ivec2(gl_FragCoord.xy);
-    vec3 left = texelFetch(left_eye, window_pixel + left_from_window, 0).rgb;
-    vec3 right = texelFetch(right_eye, window_pixel + right_from_window, 0).rgb;
+    vec3 left = texelFetch(left_eye, way * window_pixel + left_from_window, 0).rgb;
+    vec3 right = texelFetch(right_eye, way * window_pixel + right_from_window, 0).rgb;
     int row = window_height - 1 - window_pixel.y, column = window_pixel.x;
     vec3 both;
     switch (mode) {

@@ -78,8 +78,9 @@ TEST(ClusterMessages, WhatIsSaidIsUnderstoodExactly) {
                              i % 7 == 1,
                              i % 6 == 1,
                              static_cast<std::size_t>(i % 4),
-                             i % 4 == 0 ? std::nullopt : std::optional(render::Footprint::mesh),
-                             static_cast<std::size_t>(i % 3)};
+                             i % 4 == 0,
+                             static_cast<std::size_t>(i % 3),
+                             i % 5 == 2};
         EXPECT_EQ(decode_plan(view(encoded(plan))), plan);
     }
     EXPECT_EQ(decode_order(view(encoded_end())), std::nullopt);

@@ -107,6 +107,13 @@ def rectilinear(name, x):
                  f"{array(range(4))}</Coordinates></Piece></RectilinearGrid></VTKFile>")
 
 
+def zarr_group(name, **arrays):
+    """Of version 2, which zarr 3 writes where it is asked to."""
+    group = zarr.open_group(name, mode="w", **(dict(zarr_format=2) if int(zarr.__version__.split(".")[0]) >= 3 else {}))
+    for array, held in arrays.items():
+        group.create_dataset(array, shape=held.shape, data=held, dtype=held.dtype)
+
+
 def tetrahedra(name, size):
     """One of size 1, one of another size."""
     at = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1] + [v * size + 2 for v in (0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)]
@@ -117,8 +124,7 @@ def tetrahedra(name, size):
 
 # ---- arrays and components
 two = {"u": values, "w": values + 1}
-zarr.open_group("two.zarr", "w").create_dataset("u", data=values)
-zarr.open_group("two.zarr", "a").create_dataset("w", data=values)
+zarr_group("two.zarr", u=values, w=values)
 for name, first in [(hdf5("two.h5", two), "/u"), (netcdf("two.nc", names="u w"), "u"), ("two.zarr", "u")]:
     status, out, err = run("build", name, "-o", "two.isochron", "--quiet")
     if "several arrays, choose one with --array: " not in err and "choose one" not in err:
@@ -133,7 +139,7 @@ four = hdf5("four.h5", {"v": np.zeros((3, 4, 5, 6), "f4")})
 for advice, gives in [("--extra-axis-is-time", "3, "), ("--component 0", "v.0")]:
     follow(four, "its first axis may be time (--extra-axis-is-time) or an axis components (--component 0, 1, ... or magnitude)",
            (advice,), gives=gives)
-zarr.open_group("four.zarr", "w").create_dataset("v", data=np.zeros((3, 4, 5, 6), "f4"))
+zarr_group("four.zarr", v=np.zeros((3, 4, 5, 6), "f4"))
 for advice, gives in (("--extra-axis-is-time", "6 x 5 x 4"), ("--component 0", "5 x 4 x 3")):
     follow("four.zarr", "its first axis may be time (--extra-axis-is-time), its last one components (--component 0, 1, ... or "
            "magnitude)", (advice,), gives=gives, build=True)
@@ -252,6 +258,11 @@ if "expected three axes, time, and components with --component" not in err or \
     wrong.append(f"five.h5: {out}{err}")
 followed.append("expected three axes, time, and components with --component")
 
+nrrd("list.nrrd", np.ones((5, 4, 5, 6), "f4"), "kinds: space space space list\n")
+for advice, gives in [("--component 0", ".0"), ("--component magnitude", "magnitude"), ("--extra-axis-is-time", "steps         5")]:
+    follow("list.nrrd", "has 5 components, choose one with --component 0 to 4 or --component magnitude; --extra-axis-is-time reads "
+           "them as steps", (advice,), gives=gives, build=True)
+
 # ---- times
 vti("time_1.vti", 0)
 vti("time_2.vti")
@@ -268,6 +279,49 @@ write("again.pvd", '<VTKFile type="Collection"><Collection>' + "".join(
     f'<DataSet timestep="{t}" file="time_{n}.vti"/>' for t, n in ((0, 1), (1, 1), (1, 2))) + "</Collection></VTKFile>")
 follow("again.pvd", "(--keep-first: the first)", ("--keep-first",), gives="2, times", gone=True)
 
+for day in ("2020-01-02", "2020-01-10", "2019-12-31"):
+    nrrd(f"day_{day}.nrrd", values)
+follow("'day_*.nrrd'", "the files' names have dates; --times-from-names takes them as times", ("--times-from-names",),
+       gives="times 2019-12-31 to 2020-01-10", gone=True)
+given = ["day_2019-12-31.nrrd", "day_2020-01-02.nrrd", "--times-from-names", "--time-unit"]
+status, out, err = run("info", *given, "s")
+unit = re.search(r"`(hours since [-0-9]+)`", err)
+if not unit or "times 2019-12-31 to 2020-01-02" not in run("info", *given, unit[1])[1]:
+    wrong.append(f"{given}: {out}{err}{run('info', *given, unit[1] if unit else '')}")
+followed.append("expected a unit with a date for the dates of")
+for folder, name in (("left", "a_1"), ("right", "b_1")):
+    nrrd(f"{folder}/{name}.nrrd", values)
+given = ["left/a_1.nrrd", "right/b_1.nrrd"]
+status, out, err = run("info", *given, "--times-from-names")
+if "without --times-from-names their names order them" not in err or run("info", *given)[0]:
+    wrong.append(f"{given}: {out}{err}")
+followed.append("without --times-from-names")
+
+# ---- values of other formats, behind their headers
+np.save("big.npy", values.astype(">f4"))
+np.save("little.npy", values.astype("<u2"))
+cards = ["SIMPLE  =                    T", "BITPIX  =                  -32", "NAXIS   =                    3",
+         "NAXIS1  =                    6", "NAXIS2  =                    5", "NAXIS3  =                    4", "END"]
+data = values.astype(">f4").tobytes()
+write("sky.fits", "".join(card.ljust(80) for card in cards).ljust(2880).encode() + data + bytes(-len(data) % 2880))
+head = bytearray(1024)
+head[:16] = np.array([6, 5, 4, 2], "<i4").tobytes()
+head[28:52] = np.array([6, 5, 4], "<i4").tobytes() + np.array([12, 10, 4], "<f4").tobytes()
+head[64:76] = np.array([1, 2, 3], "<i4").tobytes()
+head[208:216] = b"MAP " + b"DD\0\0"
+write("cell.mrc", bytes(head) + values.tobytes())
+for name, gives in [("big.npy", "values        0 to 199"), ("little.npy", "type          u16"), ("sky.fits", "6 x 5 x 4"),
+                    ("cell.mrc", "2 x 2 x 1 angstrom")]:
+    status, out, err = run("info", name)
+    found = re.search(r"whose values (--.*) reads", err)
+    if not found:
+        wrong.append(f"{name}: {out}{err}")
+        continue
+    status, out, err = run("info", name, *shlex.split(found[1]))
+    if status or gives not in out:
+        wrong.append(f"{name} {found[1]}: {out}{err}, expected {gives!r}")
+followed += [" --big-endian", "--header-bytes {}", "--length-unit angstrom", "--steps 0:0"]
+
 # ---- several files, other names, other folders
 write("list.pvd", '<VTKFile type="Collection"><Collection><DataSet timestep="0" file="time_1.vti"/></Collection></VTKFile>')
 status, out, err = run("info", "list.pvd", "time_2.vti")
@@ -280,6 +334,7 @@ advice = re.search(r"`isochron (build FILES -o INDEX --append)`", err)
 if not advice or run(*shlex.split(advice[1].replace("FILES", "gap_1.nrrd gap_2.nrrd").replace("INDEX", "gap.isochron")))[0] or \
         '"steps": 2' not in run("info", "gap.isochron", "--json")[1].replace('"steps":2', '"steps": 2'):
     wrong.append(f"gap.isochron: {out}{err}")
+followed.append("FILES -o INDEX --append` adds files to it")
 with h5py.File("seven.mat", "w", userblock_size=512) as file:
     file["v"] = values
 with open("seven.mat", "r+b") as file:
@@ -299,10 +354,8 @@ NO_ADVICE = [
     "--help", "--version", "expected magnitude", "--component {} of {}", "DX {:g}", "another fence",
     "name it .cgns",  # needs a whole CGNS file: with_foreign.py has its line
     "(--origin)", "CZ_LSMINFO", "originator",  # names of options behind what a file states
-    "times-from-names cannot", "spaces the steps evenly", "without --times-from-names",
-    "--array {}; the groups", "--component 0 to", "--component magnitude", "--extra-axis-is-time reads them as steps",
-    "-expected", "given with", "--steps {}:{}:{}", "--steps 0:0", " --big-endian", "--header-bytes {}", "--length-unit angstrom", "--append` adds",
-    "h4toh5"]
+    "times-from-names cannot", "spaces the steps evenly",
+    "--array {}; the groups", "-expected", "given with", "--steps {}:{}:{}", "h4toh5"]
 texts = []
 for name in glob.glob(sources + "/index/formats/**/*.cpp", recursive=True) + glob.glob(sources + "/index/decoders/**/*.cpp",
                                                                                        recursive=True):

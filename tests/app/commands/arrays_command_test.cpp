@@ -181,7 +181,7 @@ TEST_F(ArraysCommand, OptionsOfOneArrayAreRefusedForSeveral) {
         return isochron(build(more));
     };
     expect_failure(with({"--component", "0"}), 2, "with several arrays add it to a name");
-    expect_failure(with({"--value-unit", "K"}), 2, "expected for one array only");
+    expect_failure(with({"--value-unit", "K"}), 2, "expected with one array only");
     expect_failure(with({"--all-arrays"}), 2, "expected one of them");
     expect_failure(isochron(build({"--array", "rho", "--array", "rho"})), 1,
                    "array rho is given twice");

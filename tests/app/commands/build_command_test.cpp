@@ -279,8 +279,9 @@ TEST_F(CommandLine, AnInterruptedBuildEndsWithStatus130AndLeavesTheOldIndexAlone
         folder.write(fmt::format("noise{}.raw", t), noise);
     }
     const auto before = folder.names();
-    const std::vector<std::string> build{"build", "noise*.raw", "--dims", "100", "100",
-                                         "100",   "--type",     "u8",     "-o",  "a.isochron"};
+    const std::vector<std::string> build{"build", "noise*.raw", "--dims",  "100",
+                                         "100",   "100",        "--type",  "u8",
+                                         "-o",    "a.isochron", "--tiers", "bricks,cells"};
     for (const char* phase : {"reading", "indexing"}) {
         const ChildResult result =
             isochron(build, {.interrupt_after = phase}); // as soon as it is printed

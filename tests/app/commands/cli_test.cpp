@@ -140,9 +140,9 @@ TEST_F(CommandLine, WhereNoFileCanBeTheErrorSaysThatTheFolderTakesNone) {
 
 TEST_F(CommandLine, WhatIsNoRecordingIsToldAsSuch) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
-    const std::string message = "a.isochron: not a recording, which `isochron explore --record`";
-    expect_failure(isochron({"replay", "a.isochron"}), 1, message);
-    expect_failure(isochron({"movie", "a.isochron", "-o", "a.mp4"}), 1, message);
+    const std::string message = ": not a recording, which `isochron explore --record`";
+    expect_failure(isochron({"replay", "a.isochron"}), 1, "a.isochron" + message);
+    expect_failure(isochron({"movie", "t0.raw", "-o", "a.mp4"}), 1, "t0.raw" + message);
 }
 
 TEST_F(CommandLine, TimesAreTextWithoutTheDigitsOfRounding) {
@@ -180,7 +180,7 @@ TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
     fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--ids", "a.isochron"},
           "a.isochron: is an input");
     fails({"query", "a.isochron", "--isovalue", "0", "--step", "0", "--method", "tree"},
-          "a.isochron: has no tree to search in");
+          "a.isochron: has no search structure tree; isochron info lists those it has");
     fails({"explore", "t0.raw", "--no-panel"},
           "t0.raw: raw values need --dims NX NY NZ and --type");
     fails(build_of("t[01].raw", {"--append"}), "must begin with the 5 steps that it holds");

@@ -9,8 +9,11 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <spawn.h>
@@ -58,16 +61,26 @@ class ExploreTest : public testing::Test {
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    /// Starts the explorer, waits for its window and puts the mouse into it.
+    /// Starts the explorer, waits until its session goes on in its window, and puts the mouse into it.
     std::unique_ptr<Program> explore(std::vector<std::string> more) {
         std::vector<std::string> arguments{"explore", file("sphere.isochron"), "--size", "640",
                                            "480"};
         arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto before = remembered();
         auto program = std::make_unique<Program>(std::move(arguments));
         screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron"});
+        // Before there is a session, Escape and the end of the window give it up.
+        test_support::eventually([&] { return remembered() != before || !program->runs(); });
         screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
                          "%1", "200", "200"});
         return program;
+    }
+
+    /// When the data of the newest session were put among those that were open lately.
+    std::optional<std::filesystem::file_time_type> remembered() const {
+        std::error_code error;
+        const auto at = std::filesystem::last_write_time(state_.path() / "isochron/recent", error);
+        return error ? std::nullopt : std::optional(at);
     }
 
     /// Escape asks, Enter says yes; each has a frame of its own, however slow.

@@ -139,12 +139,12 @@ TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {
     std::filesystem::copy_file(file("sphere.isochron"), file("other.isochron"));
     UserMemory(state_.path() / "isochron").remember(file("other.isochron"));
     const auto program = explore({});
-    // The second line: the first are the data that are open. Clicked once, as the data that come
-    // change places with them.
-    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "126",
+    // The second line: the first are the data that are open. Clicked twice, and no more, as the data
+    // that come change places with them.
+    screen_.xdotool({"search", "--name", "Isochron", "mousemove", "--window", "%1", "320", "169",
                      "key", "ctrl+o"});
     await_frame(); // the list is there
-    screen_.xdotool({"click", "1"});
+    screen_.xdotool({"click", "--repeat", "2", "--delay", "40", "1"});
     wait_for_window("Isochron: .*/other.isochron");
     program->signal(SIGTERM);
     EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
@@ -158,7 +158,7 @@ TEST_F(ExploreWindow, WithoutDataItLetsTheUserChooseSome) {
     // The first of those that were open lately; until it is there, nothing is clicked.
     EXPECT_TRUE(is_shown_after("sphere.isochron", [&] {
         screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "mousemove", "--window",
-                         "%1", "320", "104", "click", "1"});
+                         "%1", "320", "150", "click", "--repeat", "2", "--delay", "40", "1"});
     }));
     program.signal(SIGTERM);
     EXPECT_EQ(program.exit_status(), 128 + SIGTERM);

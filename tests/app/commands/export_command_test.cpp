@@ -103,6 +103,175 @@ TEST_F(ExportCommand, TheBytesAreTheSameOnOneProcessor) {
     }
 }
 
+TEST_F(ExportCommand, ACroppedSurfaceIsThatOfCroppedData) {
+    build();
+    expect_done({"build", "t*.raw", "--dims", "14", "11", "9", "--type", "f32", "--crop",
+                 "1:9,0:7,2:7", "-o", "part.isochron"});
+    const std::vector<std::string> how{"--isovalue", "0.1",       "--steps",     "0",
+                                       "-o",         "whole.obj", "--no-normals"};
+    std::vector<std::string> whole{"export", "a.isochron", "--crop", "1:9,0:7,2:7"};
+    std::vector<std::string> part{"export", "part.isochron"};
+    whole.insert(whole.end(), how.begin(), how.end());
+    part.insert(part.end(), how.begin(), how.end());
+    *std::ranges::find(part, "whole.obj") = "part.obj";
+    expect_done(whole);
+    expect_done(part);
+    const auto triangles = [&](const std::string& name) {
+        std::istringstream file(folder.read(name));
+        std::vector<std::string> places, found;
+        for (std::string line; std::getline(file, line);) {
+            if (line.starts_with("v "))
+                places.push_back(line);
+            if (!line.starts_with("f "))
+                continue;
+            std::array<unsigned, 3> at{};
+            EXPECT_EQ(std::sscanf(line.c_str(), "f %u %u %u", &at[0], &at[1], &at[2]), 3) << line;
+            found.push_back(places[at[0] - 1] + places[at[1] - 1] + places[at[2] - 1]);
+        }
+        std::ranges::sort(found);
+        return found;
+    };
+    EXPECT_GT(triangles("part.obj").size(), 10u);
+    EXPECT_EQ(triangles("whole.obj"), triangles("part.obj"));
+}
+
+TEST_F(ExportCommand, EveryGlbKeepsTheRulesOfItsFormat) {
+    build();
+    const std::vector<std::vector<std::string>> ways{
+        {},
+        {"--steps", "0:1", "--format", "glb-animation"},
+        {"--steps", "0:3", "--format", "glb-animation", "--compress"},
+        {"--steps", "0", "--quantize"},
+        {"--steps", "0", "--compress"},
+        {"--steps", "0", "--compress", "--quantize"},
+        {"--steps", "0", "--no-normals", "--compress"},
+        {"--steps", "0", "--crop", "0:1,0:1,0:1"}};
+    std::string files;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        const std::string name = fmt::format("way{}.glb", i);
+        std::vector<std::string> all{"export",     "a.isochron", "--isovalue", "0.1",
+                                     "--isovalue", "-0.3",       "-o",         name};
+        all.insert(all.end(), ways[i].begin(), ways[i].end());
+        expect_done(all);
+    }
+    const auto check = [&](const std::string& names) {
+        return std::system(fmt::format("cd {} && /usr/bin/python3 "
+                                       "{}/tests/app/commands/gltf_check.py {} > checked 2>&1",
+                                       folder.path().string(), test_support::source_root(), names)
+                               .c_str());
+    };
+    EXPECT_EQ(check("*.glb"), 0) << folder.read("checked");
+    // What is packed is what is not.
+    const auto triangles = [&](const std::string& name) {
+        EXPECT_EQ(check(name), 0);
+        return folder.read("checked").substr(name.size());
+    };
+    EXPECT_EQ(triangles("way3.glb"), triangles("way5.glb"));
+    EXPECT_EQ(triangles("way4.glb"), triangles("way6.glb"));
+    EXPECT_LT(fs::file_size(folder.path() / "way5.glb"),
+              fs::file_size(folder.path() / "way3.glb") / 2);
+    // The check sees a changed number.
+    std::string damaged = folder.read("way3.glb");
+    damaged[damaged.size() - 9] = '\x7f';
+    folder.write("damaged.glb", damaged);
+    EXPECT_NE(check("damaged.glb"), 0);
+}
+
+TEST_F(ExportCommand, AClippedSurfaceLiesOnOneSideOfItsPlane) {
+    build();
+    const auto places = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"export",  "a.isochron", "--isovalue", "0.1",
+                                     "--steps", "0",          "-o",         name};
+        all.insert(all.end(), more.begin(), more.end());
+        expect_done(all);
+        std::istringstream file(folder.read(name));
+        std::vector<std::array<double, 3>> found;
+        for (std::string line; std::getline(file, line);) {
+            std::array<double, 3> at{};
+            if (std::sscanf(line.c_str(), "v %lf %lf %lf", &at[0], &at[1], &at[2]) == 3)
+                found.push_back(at);
+        }
+        return found;
+    };
+    const auto whole = places("whole.obj", {});
+    const auto side = places("side.obj", {"--clip", "6.3", "5", "4", "2", "0", "2"});
+    const auto other = places("other.obj", {"--clip", "6.3", "5", "4", "-2", "0", "-2"});
+    const auto share = [&](const auto& part) { return part.size() * 100 / whole.size(); };
+    EXPECT_GT(share(side), 10u);
+    EXPECT_GT(share(other), 10u);
+    EXPECT_LT(side.size() + other.size(), whole.size() + 1) << "none is on both sides";
+    EXPECT_GT(share(side) + share(other), 50u) << "what crosses the plane alone is missing";
+    for (const auto& at : side)
+        EXPECT_LE(at[0] + at[2], 10.3 + 1e-5);
+    for (const auto& at : other)
+        EXPECT_GE(at[0] + at[2], 10.3 - 1e-5);
+    expect_refused({"--isovalue", "0.1", "-o", "c.obj", "--clip", "0", "0", "0", "0", "0", "0"}, 2,
+                   "--clip 0 0 0 0 0 0: expected a point on the plane and its normal");
+}
+
+TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
+    expect_done({"generate", "sphere", "--steps", "1", "-o", "s"});
+    expect_done({"build", "s", "-o", "s.isochron"});
+    const auto exported = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"export", "s.isochron", "--isovalue", "100",
+                                     "-o",     name,         "--json"};
+        all.insert(all.end(), more.begin(), more.end());
+        return nlohmann::json::parse(expect_done(all).out);
+    };
+    const auto whole = exported("whole.ply", {});
+    const auto fewer = exported("fewer.ply", {"--simplify", "0.1"});
+    EXPECT_LT(fewer.at("triangles"), 0.4 * whole.at("triangles").get<double>());
+    EXPECT_GT(fewer.at("triangles"), 100);
+    EXPECT_LE(fewer.at("error"), 0.1);
+    EXPECT_GT(fewer.at("error"), 0);
+    // A closed surface stays closed: Euler's number of a sphere, V - F / 2 = 2.
+    EXPECT_EQ(fewer.at("vertices").get<int>() - fewer.at("triangles").get<int>() / 2, 2);
+    exported("again.ply", {"--simplify", "0.1"});
+    EXPECT_EQ(folder.read("again.ply"), folder.read("fewer.ply")) << "the same bytes again";
+}
+
+TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
+    build();
+    const auto document = [&](const std::string& name, std::string& binary) {
+        const std::string bytes = folder.read(name);
+        std::uint32_t size = 0;
+        std::memcpy(&size, bytes.data() + 12, sizeof size);
+        binary = bytes.substr(20 + size + 8);
+        return nlohmann::json::parse(bytes.substr(20, size));
+    };
+    for (const bool quantized : {false, true}) {
+        std::vector<std::string> all{"export",  "a.isochron", "--isovalue", "0.1",
+                                     "--steps", "0",          "-o",         "plain.glb"};
+        if (quantized) {
+            all.back() = "small.glb";
+            all.emplace_back("--quantize");
+        }
+        expect_done(all);
+    }
+    std::string plain_bytes, small_bytes;
+    const auto plain = document("plain.glb", plain_bytes),
+               small = document("small.glb", small_bytes);
+    EXPECT_EQ(small.at("extensionsRequired"), nlohmann::json({"KHR_mesh_quantization"}));
+    EXPECT_FALSE(plain.contains("extensionsRequired"));
+    const auto& node = small.at("nodes")[1];
+    const double scale = node.at("scale")[0];
+    const std::size_t count = small.at("accessors")[0].at("count");
+    EXPECT_EQ(plain.at("accessors")[0].at("count"), count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            float there = 0;
+            std::uint16_t number = 0;
+            std::memcpy(&there, plain_bytes.data() + 12 * i + 4 * axis, sizeof there);
+            std::memcpy(&number, small_bytes.data() + 8 * i + 2 * axis, sizeof number);
+            const double here = node.at("translation")[axis].get<double>() + scale * number / 65535;
+            ASSERT_NEAR(here, there, 0.51 * scale / 65535 + 1e-6) << i;
+        }
+    EXPECT_LT(small_bytes.size(), 0.75 * static_cast<double>(plain_bytes.size()));
+    expect_refused({"--isovalue", "0", "-o", "q.ply", "--quantize"}, 2, "is for glb");
+    expect_refused({"--isovalue", "0", "-o", "q.csv", "--crop", "0:1,0:1,0:1"}, 2, "holds cells");
+    expect_refused({"--isovalue", "0", "-o", "q.ply", "--crop", "0:1,0:1"}, 2, "X0:X1,Y0:Y1,Z0:Z1");
+}
+
 TEST_F(ExportCommand, FarFromTheOriginPlacesKeepTheirShape) {
     expect_done(build_of("t*.raw", {"--origin", "500000", "4000000", "0", "--length-unit", "m"}));
     const auto first_x = [&](const std::string& file, bool wide) {
@@ -144,8 +313,9 @@ TEST_F(ExportCommand, WhereNoCellHasTheIsovalueFilesAreEmptyAndThatIsSaid) {
             expect_done({"export", "a.isochron", "--isovalue", "5", "--steps", "0:1", "--format",
                          format, "-o", format + "/"});
         EXPECT_THAT(result.err, HasSubstr("isovalue 5 lies beyond the data"));
-        EXPECT_THAT(result.err,
-                    HasSubstr("no cell has the isovalue in 2 of 2 steps, the first is 0"));
+        EXPECT_THAT(
+            result.err,
+            HasSubstr("2 of 2 steps have no surface at this isovalue, the first is step 0"));
         EXPECT_THAT(result.out, HasSubstr("0 cells, 0 vertices, 0 triangles"));
     }
     const auto json =

@@ -31,6 +31,7 @@ class HelpExamples : public testing::Test {
                                   "UpperRight=\"4 6 -3\"/>\n</pvx>\n");
         write_recording("run42.isochron");
         environment_ = {"HOME=" + folder_.path().string(),
+                        "XDG_RUNTIME_DIR=" + folder_.path().string(),
                         "PATH=" + folder_.path().string() + "/bin:" + test_support::binary_root() +
                             ":" + std::getenv("PATH")};
     }
@@ -124,6 +125,11 @@ TEST_F(HelpExamples, OfEveryCommandWorkAsTheyAreWritten) {
             if (example.starts_with("isochron explore run42"))
                 example += " & xdotool search --sync --onlyvisible --name Isochron; "
                            "kill -TERM $!; wait $!; [ $? = 143 ]";
+            // A session listens, and ends afterwards.
+            if (example.starts_with("isochron tell"))
+                example = "isochron explore run42.isochron --control & until [ -S "
+                          "$XDG_RUNTIME_DIR/isochron/control.sock ]; do sleep 0.1; done; " +
+                          example + " && isochron tell quit && wait $!";
             const ChildResult result = shell(example);
             EXPECT_EQ(result.status, 0) << example << '\n' << result.err;
         }
@@ -146,6 +152,21 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
             found.push_back(line);
     }
     return found;
+}
+
+TEST_F(HelpExamples, OfThePageAboutSteeringWorkInASession) {
+    test_support::VirtualDisplay screen;
+    environment_.push_back(std::string("DISPLAY=") + std::getenv("DISPLAY"));
+    ASSERT_EQ(shell("isochron generate sphere --steps 9 -o run42").status, 0);
+    ASSERT_EQ(shell("isochron build run42 -o run42.isochron").status, 0);
+    std::string all = "isochron explore run42.isochron --control & until [ -S "
+                      "$XDG_RUNTIME_DIR/isochron/control.sock ]; do sleep 0.1; done; set -e\n";
+    const auto commands = commands_in(test_support::source_root() + "/docs/guide/steering.md");
+    EXPECT_EQ(commands.size(), 4u);
+    for (const std::string& command : commands)
+        all += command + "\n";
+    const ChildResult result = shell(all + "isochron tell quit\nwait $!");
+    EXPECT_EQ(result.status, 0) << result.err;
 }
 
 class GuideCommands : public HelpExamples, public testing::WithParamInterface<std::string> {};

@@ -5,9 +5,12 @@
 #include "app/output/picture_note.h"
 #include "app/session/replay.h"
 #include "index/error.h"
+#include "index/indexing/index_build.h"
 #include "interaction/recording/recording.h"
 #include "tests/support/child_process.h"
+#include "tests/support/memory_series.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -173,6 +176,97 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     const ChildResult again = program({"reproduce", movie});
     EXPECT_EQ(again.status, 1);
     EXPECT_THAT(again.err, testing::HasSubstr("isochron movie RECORDING --rate 20"));
+}
+
+TEST_F(MovieTest, OfAnIndexHasEveryStepOnceAsTheExplorerShowsItFirst) {
+    build_sphere(folder_.path());
+    const auto movie = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"movie", "sphere.isochron", "--size", "64",
+                                     "48",    "--rate",          "0.5"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_child(test_support::binary_root() + "/isochron", all, folder_.path());
+    };
+    const auto frames_in = [&](const char* name) {
+        std::vector<PictureNote> notes;
+        for (std::filesystem::path file;
+             file = folder_.path() / name / fmt::format("frame_{:05}.png", notes.size()),
+             std::filesystem::exists(file);)
+            notes.push_back(note_from(note_text_in(file)));
+        return notes;
+    };
+    // At a frame each two seconds the steps outlast the ten seconds of a whole series.
+    EXPECT_EQ(movie({"-o", "all/", "--isovalue", "12.5"}).status, 0);
+    const std::vector<PictureNote> all = frames_in("all");
+    ASSERT_GE(all.size(), 6u);
+    std::set<std::uint32_t> steps;
+    for (const PictureNote& note : all) {
+        steps.insert(note.state.step.value_or(999));
+        EXPECT_EQ(note.state.isosurfaces->front().isovalue, 12.5);
+        EXPECT_EQ(note.footprint, "surface");
+    }
+    EXPECT_EQ(steps.size(), 6u);
+    EXPECT_EQ(*steps.rbegin(), 6u - 1);
+    // Some steps, in their order.
+    EXPECT_EQ(movie({"-o", "some/", "--steps", "1:3:2"}).status, 0);
+    steps.clear();
+    for (const PictureNote& note : frames_in("some"))
+        steps.insert(note.state.step.value_or(999));
+    EXPECT_EQ(steps, (std::set<std::uint32_t>{1, 3}));
+    for (const auto& [wrong, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--steps", "0:999"}, "--steps 0:999: "},
+             {{"--data", "a.isochron"}, "--data goes with"}}) {
+        std::vector<std::string> words_of = wrong;
+        words_of.insert(words_of.end(), {"-o", "no/"});
+        const ChildResult refused = movie(words_of);
+        EXPECT_NE(refused.status, 0);
+        EXPECT_THAT(refused.err, testing::HasSubstr(words));
+        EXPECT_FALSE(std::filesystem::exists(folder_.path() / "no"));
+    }
+}
+
+/// A blob that moves so slowly that blends stand for what lies between its steps, or so fast that
+/// they do not: the advice is kept in the index as it is built.
+TEST_F(MovieTest, OfAnIndexBlendsStepsOrHoldsThemAsTheIndexAdvises) {
+    const auto program = [&](const std::vector<std::string>& arguments) {
+        const ChildResult result =
+            run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
+        EXPECT_EQ(result.status, 0) << result.err;
+    };
+    const auto moments_in = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> all{
+            "movie", name + ".isochron", "-o",  name + "/",   "--size", "32", "24", "--rate",
+            "3",     "--steps",          "0:4", "--isovalue", "8"};
+        all.insert(all.end(), more.begin(), more.end());
+        program(all);
+        std::vector<index::Instant> moments;
+        for (std::filesystem::path file;
+             file = folder_.path() / name / fmt::format("frame_{:05}.png", moments.size()),
+             std::filesystem::exists(file);) {
+            const PictureNote note = note_from(note_text_in(file));
+            moments.emplace_back(*note.state.step, note.state.fraction.value_or(0));
+        }
+        std::filesystem::remove_all(folder_.path() / name);
+        return moments;
+    };
+    const auto between = [](const std::vector<index::Instant>& moments) {
+        return std::ranges::count_if(moments, &index::Instant::between);
+    };
+    for (const auto& [name, by] : {std::pair("slow", 0.3), std::pair("fast", 10.0)}) {
+        const index::TestField field(
+            {96, 32, 32}, 7, index::ValueType::f32,
+            [by = by](double x, double y, double z, double t) {
+                return 16 *
+                       std::exp(-std::pow(std::hypot(x - 16 - by * t, y - 16, z - 16), 2) / 32);
+            });
+        index::MemorySeries series(field.view());
+        index::build_index(series, folder_.path() / fmt::format("{}.isochron", name), {});
+    }
+    EXPECT_GT(between(moments_in("slow", {})), 10);
+    EXPECT_EQ(between(moments_in("slow", {"--between", "hold"})), 0);
+    EXPECT_EQ(between(moments_in("fast", {})), 0);
+    EXPECT_GT(between(moments_in("fast", {"--between", "blend"})), 10);
+    folder_.write("hold.toml", "[time]\nbetween = \"hold\"\n[[windows]]\nsize = [32, 24]\n");
+    EXPECT_EQ(between(moments_in("slow", {"--config", "hold.toml"})), 0) << "as configured";
 }
 
 } // namespace

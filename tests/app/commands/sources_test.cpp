@@ -64,7 +64,7 @@ TEST_F(SourceInfo, SaysWhereASpacingIsAMean) {
     const ChildResult text = info({"r.vtk"});
     ASSERT_EQ(text.status, 0) << text.err;
     EXPECT_THAT(text.out, HasSubstr("spacing       3 x 2 x 5\n              along x the mean of 1 "
-                                    "to 6\nsize "));
+                                    "to 6\nlength unit   none\nsize "));
     const auto said = nlohmann::json::parse(info({"r.vtk", "--json"}).out);
     EXPECT_EQ(said.at("uneven"), nlohmann::json::parse(R"({"x": [1.0, 6.0]})"));
 }

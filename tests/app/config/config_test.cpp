@@ -134,6 +134,12 @@ TEST(ColorMapFiles, OfAConfigurationLieBesideIt) {
 TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
     EXPECT_THAT(error_of("[look]\nbackground = \"pink\"\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[look]\nocclusion = 2\n"), HasSubstr("lab.toml:2"));
+    EXPECT_EQ(parse_config("[time]\nbetween = \"blend\"\n", "lab.toml").between,
+              interaction::BetweenSteps::blend);
+    EXPECT_EQ(parse_config("[time]\nbetween = \"hold\"\n", "lab.toml").between,
+              interaction::BetweenSteps::hold);
+    EXPECT_FALSE(parse_config("[time]\nbetween = \"auto\"\n", "lab.toml").between);
+    EXPECT_THAT(error_of("[time]\nbetween = \"often\"\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[coloring]\nmap = \"rainbow\"\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[coloring]\nrange = [2, 1]\n"), HasSubstr("ascending"));
     EXPECT_THAT(error_of("[coloring]\npercentiles = [98, 2]\n"), HasSubstr("ascending"));

@@ -1,4 +1,5 @@
 // Viewers, windows, viewports and screens in TOML: read, refused with their place, and written.
+#include "app/config/check_config.h"
 #include "app/config/config.h"
 #include "app/config/display_config_text.h"
 #include "app/config/shipped_configs.h"
@@ -106,8 +107,16 @@ stereo::Installation any_installation(std::mt19937& random) {
     stereo::Installation lab;
     lab.viewers.clear();
     for (int i = whole(1, 3); i > 0; --i)
-        lab.viewers.push_back({"viewer \"" + std::to_string(i) + "\"\t\\",
-                               "head" + std::to_string(i), point(), number(0, 0.1f)});
+        lab.viewers.push_back({.name = "viewer \"" + std::to_string(i) + "\"\t\\",
+                               .head = "head" + std::to_string(i),
+                               .position = point(),
+                               .eye_separation = number(0, 0.1f)});
+    for (stereo::Viewer& viewer : lab.viewers)
+        if (whole(0, 1) == 1) {
+            viewer.left_eye = {number(-0.04f, 0), number(-0.01f, 0.01f), number(-0.1f, 0.1f)};
+            viewer.right_eye = *viewer.left_eye + glm::vec3(number(0, 0.05f), number(0, 0.01f), 0);
+            viewer.eye_separation = glm::length(*viewer.right_eye - *viewer.left_eye);
+        }
     lab.windows.clear();
     for (int i = whole(1, 4); i > 0; --i) {
         stereo::Window window;
@@ -125,6 +134,7 @@ stereo::Installation any_installation(std::mt19937& random) {
             viewport.name = v == 1 ? "" : "part " + std::to_string(v);
             viewport.position = {number(0, 0.5f), number(0, 0.5f)};
             viewport.size = {number(0.01f, 0.5f), number(0.01f, 0.5f)};
+            viewport.upside_down = whole(0, 1) == 1;
             viewport.viewer = whole(0, static_cast<int>(lab.viewers.size()) - 1);
             viewport.screen = {point(),          point(),         point(),
                                whole(0, 1) == 1, number(0, 0.5f), whole(0, 1) == 1};
@@ -135,6 +145,40 @@ stereo::Installation any_installation(std::mt19937& random) {
     lab.near_plane = number(0.01f, 1);
     lab.far_plane = number(2, 100);
     return lab;
+}
+
+std::string error_of_viewer(const std::string& keys) {
+    try {
+        parse_config("[viewer]\n" + keys, "lab.toml");
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(DisplayConfig, EyesThatLieUnlikeOnBothSidesAreBothGivenOrNone) {
+    const Config config = parse_config(
+        "[viewer]\nleft_eye = [-0.033, 0, -0.02]\nright_eye = [0.03, 0, -0.02]\n", "lab.toml");
+    const stereo::Viewer& viewer = config.installation.viewers.front();
+    EXPECT_FLOAT_EQ(viewer.eye_separation, 0.063f);
+    const stereo::Eyes eyes = stereo::eyes_of_viewer(viewer, viewer.eye_separation);
+    EXPECT_NEAR(eyes.middle.x, -0.0015f, 1e-7f);
+    EXPECT_FLOAT_EQ(eyes.middle.z, -0.02f);
+    EXPECT_THAT(describe(config), HasSubstr("eyes 63.0 mm apart around -1.5 0.0 -20.0 mm"));
+    EXPECT_THAT(error_of_viewer("left_eye = [-0.033, 0, 0]\n"),
+                HasSubstr("viewer.right_eye: missing, both eyes are given or none"));
+    EXPECT_THAT(error_of_viewer("right_eye = [0.033, 0, 0]\n"),
+                HasSubstr("viewer.left_eye: missing"));
+    const std::string right = "right_eye = [0.03, 0, 0]\n";
+    EXPECT_THAT(error_of_viewer("eye_separation = 0.06\nleft_eye = [-0.03, 0, 0]\n" + right),
+                HasSubstr("lab.toml:2: viewer.eye_separation: left_eye and right_eye say"));
+    EXPECT_THAT(error_of_viewer("left_eye = [-33, 0, 0]\n" + right),
+                HasSubstr("viewer.left_eye: the eye is 33 m from the head, expected at most 0.5"));
+    EXPECT_THAT(error_of_viewer("left_eye = [-0.09, 0, 0]\n" + right),
+                HasSubstr("viewer.right_eye: the eyes are 0.12 m apart, expected at most 0.1"));
+    EXPECT_THAT(error_of_viewer("left_eye = [0.05, 0, 0]\n" + right),
+                HasSubstr("viewer.left_eye: the left eye is right of the right one"));
+    EXPECT_THAT(error_of_viewer("left_eye = [nan, 0, 0]\n" + right), HasSubstr("lab.toml:2"));
 }
 
 TEST(DisplayConfig, WhatIsWrittenReadsAsTheSameInstallation) {

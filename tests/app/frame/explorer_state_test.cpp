@@ -119,6 +119,16 @@ TEST(ExplorerState, TakesAnOldStartStateWithOneIsovalueOnly) {
     EXPECT_EQ(state.isovalue(), 15.5);
 }
 
+TEST(ExplorerState, ColorsByFirstCrossingsOfBlendsJustWhereStepsAreBlended) {
+    ExplorerState state;
+    state.coloring.by = interaction::ColorBy::first_crossing;
+    EXPECT_EQ(state.surfaces().coloring, index::CellColoring::first_crossing);
+    state.between = interaction::BetweenSteps::blend;
+    EXPECT_EQ(state.surfaces().coloring, index::CellColoring::first_blended_crossing);
+    state.quality = interaction::QualityMode::paper; // which holds
+    EXPECT_EQ(state.surfaces().coloring, index::CellColoring::first_crossing);
+}
+
 TEST(ExplorerState, OfBrokenJsonIsAnErrorThatNamesTheField) {
     const auto error = [](const char* text) -> std::string {
         try {

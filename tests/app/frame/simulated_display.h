@@ -27,9 +27,9 @@ class SimulatedDisplay {
     Cost cost;
     int latency = 0;   ///< frames until a measurement is there
     bool still = true; ///< nothing moves: only what changes is drawn
-    /// Footprints that are worth it are drawn unseen, in the time that frames leave.
-    bool measures_unseen = false;
-    int measured_unseen = 0; ///< how often
+    /// A surface whose time is only guessed is drawn in the time that frames leave.
+    bool draws_ahead = false;
+    int drawn_ahead = 0; ///< how often
     QualityInput input = settled_input();
     QualityController controller;
     std::vector<Frame> frames;
@@ -63,8 +63,8 @@ class SimulatedDisplay {
             now.cost = cost(picture.footprint, input.load);
             under_way_.push_back({number_ + latency + 1, picture.footprint, input.load, now.cost});
         }
-        if (measures_unseen)
-            draw_unseen(now.cost);
+        if (draws_ahead)
+            draw_ahead(now.cost);
         ++number_;
         frames.push_back(now);
         return frames.back();
@@ -102,23 +102,22 @@ class SimulatedDisplay {
         DrawLoad load;
         double cost;
     };
-    void draw_unseen(double taken) {
-        const auto footprint = controller.worth_measuring(input);
-        if (footprint != unseen_)
-            unseen_spent_ = 0;
-        unseen_ = footprint;
-        unseen_spent_ += std::max(0.8 * budget() - taken, 0.0);
-        const double whole = footprint ? cost(*footprint, input.load) : 0;
-        if (!footprint || unseen_spent_ < whole)
+    void draw_ahead(double taken) {
+        if (!controller.surface_is_guessed(input)) {
+            ahead_ = 0;
             return;
-        controller.measured_in_parts(*footprint, input.load, Milliseconds(whole));
-        ++measured_unseen;
-        unseen_.reset();
+        }
+        ahead_ += std::max(0.8 * budget() - taken, 0.0);
+        const double whole = cost(render::Footprint::surface, input.load);
+        if (ahead_ < whole)
+            return;
+        controller.measured_in_parts(render::Footprint::surface, input.load, Milliseconds(whole));
+        ++drawn_ahead;
+        ahead_ = 0;
     }
 
     int number_ = 0;
-    std::optional<render::Footprint> unseen_;
-    double unseen_spent_ = 0; ///< ms
+    double ahead_ = 0; ///< [ms] spent on the surface that is drawn now
     std::optional<Picture> shown_;
     std::deque<Sample> under_way_;
 };

@@ -103,6 +103,39 @@ TEST_P(KeptPicturesTest, HaveSmoothOutlinesAndLeaveTheDisplayAsItIs) {
     EXPECT_LT(along_outline(picture, shown, truth), 0.45 * rough) << "rough: " << rough;
 }
 
+TEST_P(KeptPicturesTest, HaveThePartsAndTheSizeThatTheUserHasChosen) {
+    const auto small = context();
+    Config config = config_with(1, 1);
+    config.rendering.bounding_box = true;
+    Session session(config, file_, *small);
+    settle(session);
+    const Image whole = session.outputs().display().read_window();
+    const TestFolder folder;
+    session.outputs().set_screenshots(folder.path());
+    Commands commands;
+    commands.pictures =
+        interaction::WrittenPictures{.legend = false, .box = false, .width = 320, .height = 240};
+    commands.screenshot = true;
+    for (int frame = 0; frame < 10; ++frame, commands = {})
+        session.frame(head_at_rest(1 + frame / 60.0), commands, Waiting::for_cells);
+    session.outputs().pictures().finish();
+    EXPECT_EQ(session.outputs().display().read_window().rgba, whole.rgba) << "the window stays";
+    const Image written = stereo::read_image(folder.path() / "isochron_0001.png");
+    EXPECT_EQ(glm::ivec2(written.width, written.height), glm::ivec2(320, 240));
+    const auto differ = [](const Image& picture) { // from the background, in the uppermost rows
+        int pixels = 0;
+        for (int y = picture.height * 5 / 6; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x)
+                pixels += std::abs(picture.at(x, y)[0] - picture.at(0, 0)[0]) > 12 ? 1 : 0;
+        return pixels;
+    };
+    Image bare;
+    session.outputs()
+        .kept_pictures(session.note())
+        .each([&](std::size_t, const stereo::Display& display) { bare = display.read_window(); });
+    EXPECT_LT(differ(bare), differ(whole)) << "without legend and box";
+}
+
 TEST_P(KeptPicturesTest, OfOneSampleAreWhatTheDisplayShows) {
     const auto small = context();
     Session session(config_with(1, 1), file_, *small);

@@ -1,11 +1,14 @@
 // What is done most often takes one click on the panel, and no search for it.
+#include "tests/app/panel/drawn_text.h"
 #include "tests/app/panel/layer_fixture.h"
 
 #include "app/panel/parts/key_search.h"
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
+#include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -18,6 +21,8 @@ namespace {
 using interaction::Commands;
 using interaction::Key;
 using interaction::KeyEvent;
+using interaction::MouseButton;
+using interaction::MouseButtonEvent;
 
 class Clicks : public LayerTest {
   protected:
@@ -75,6 +80,109 @@ TEST_F(Clicks, ALineOfTheHistogramIsTakenWhereTheHandIsAndPicksItsSurface) {
     EXPECT_NEAR(click(place_of(50)).isovalue.value_or(0), 50, 0.5) << "the picked one comes there";
 }
 
+TEST_F(Clicks, TheEndsOfTheRangeAreDraggedAboveTheTrack) {
+    frame();
+    const PanelPlaces places = layer_.places();
+    const float lane = places.time.low.y + 8;
+    point({1266, lane});
+    frame({MouseButtonEvent{MouseButton::left, true}});
+    point({1000, lane});
+    Commands commands = frame();
+    ASSERT_TRUE(commands.play_range);
+    EXPECT_FALSE(commands.play_range->first);
+    ASSERT_TRUE(commands.play_range->last);
+    EXPECT_GT(*commands.play_range->last, 500u);
+    EXPECT_LT(*commands.play_range->last, 1990u);
+    EXPECT_FALSE(commands.step) << "the step stays";
+    asked_.play_range = *commands.play_range;
+    point({1275, lane});
+    commands = frame();
+    EXPECT_EQ(commands.play_range, interaction::StepRange{}) << "its end is that of the series";
+    frame({MouseButtonEvent{MouseButton::left, false}});
+}
+
+TEST_F(Clicks, AFlagLeadsToItsBookmark) {
+    asked_.bookmarks = {{"early", 3}, {"late", 1999}};
+    asked_.playback.playing = true;
+    frame();
+    const Commands commands = click({1267, layer_.places().time.low.y + 8});
+    EXPECT_EQ(commands.step, 1999u);
+    ASSERT_TRUE(commands.playback);
+    EXPECT_FALSE(commands.playback->playing);
+    EXPECT_FALSE(commands.play_range) << "although the range ends there";
+}
+
+TEST_F(Clicks, AFlagBetweenTwoStepsLeadsBetweenThem) {
+    asked_.between = interaction::BetweenSteps::blend;
+    asked_.bookmarks = {{"between", 1998, interaction::kFractions / 2}};
+    frame();
+    const Commands commands = click({1267, layer_.places().time.low.y + 8});
+    EXPECT_EQ(commands.step, 1998u);
+    EXPECT_EQ(commands.fraction, interaction::kFractions / 2);
+}
+
+TEST_F(Clicks, SurfacesAreExportedInAFormatThatIsChosen) {
+    asked_.play_range = {3, 9};
+    frame();
+    const auto click_word = [&](const std::string& word) {
+        for (int i = 0; i < 3; ++i) // a popup takes some to know its size
+            frame();
+        const auto at =
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+        EXPECT_TRUE(at) << word;
+        return at ? click({at->x, at->y}) : Commands();
+    };
+    const auto open = [&] {
+        for (float x = 0; x < 500; x += 9) {
+            click({x, 18});
+            for (int i = 0; i < 2; ++i)
+                frame();
+            const bool shown =
+                place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(),
+                              asked_.exporting.goes_on ? "Cancel" : "Export")
+                    .has_value();
+            if (shown)
+                return true;
+            press(Key::escape);
+        }
+        return false;
+    };
+    ASSERT_TRUE(open());
+    click_word("ply");
+    Commands commands = click_word("vtp");
+    ASSERT_TRUE(commands.pictures);
+    EXPECT_EQ(commands.pictures->surfaces.format, "vtp");
+    asked_.pictures = *commands.pictures;
+    click_word("this time");
+    commands = click_word("steps 4 to 10");
+    ASSERT_TRUE(commands.pictures);
+    EXPECT_EQ(commands.pictures->surfaces.steps, interaction::ExportedSteps::range);
+    EXPECT_EQ(commands.pictures->surfaces.format, "vtp");
+    asked_.pictures = *commands.pictures;
+    EXPECT_EQ(click_word("Export").exporting, (interaction::ExportWork{true, 0}));
+    asked_.exporting = {true, 40};
+    ASSERT_TRUE(open());
+    EXPECT_EQ(click_word("Cancel").exporting, interaction::ExportWork{});
+}
+
+TEST_F(Clicks, APlaceThatIsTypedMovesTheClipPlaneAlongItsNormal) {
+    asked_.clip = {true, {0.5, 0.5, 0.5}, {-1, 0, 0}};
+    frame();
+    for (int i = 0; i < 3; ++i) // the strip takes some to know its size
+        frame();
+    const auto field =
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), "0.5");
+    ASSERT_TRUE(field);
+    click({field->x, field->y});
+    type("0.25");
+    Commands commands;
+    merge(commands, frame({KeyEvent{Key::enter, true}, KeyEvent{Key::enter, false}}));
+    merge(commands, frame());
+    ASSERT_TRUE(commands.clip);
+    EXPECT_NEAR(commands.clip->point.x, 0.25, 1e-6);
+    EXPECT_EQ(commands.clip->normal, asked_.clip.normal);
+}
+
 TEST_F(Clicks, TheCubeTurnsTheDataToTheFaceThatIsClicked) {
     asked_.room_from_physical.translation = {0, 0, -3};
     info_.grid.vertices = {2, 2, 2};
@@ -84,6 +192,33 @@ TEST_F(Clicks, TheCubeTurnsTheDataToTheFaceThatIsClicked) {
     ASSERT_TRUE(commands.room_from_physical);
     const glm::dvec3 up = commands.room_from_physical->rotation * glm::dvec3(0, 0, 1);
     EXPECT_NEAR(up.z, 1, 1e-6) << "+z looks at the viewer";
+}
+
+TEST_F(Clicks, APressThatComesWithAJumpIntoThePictureBelongsToThePicture) {
+    const auto press_after_jump = [&](glm::vec2 from, glm::vec2 to) {
+        for (int i = 0; i < 4; ++i)
+            point(from);
+        frame({interaction::MouseMoveEvent{to.x / float(kSize.x), to.y / float(kSize.y), kSize.x,
+                                           kSize.y},
+               MouseButtonEvent{MouseButton::left, true}});
+        const bool left = std::ranges::any_of(left_, [](const interaction::WindowEvent& event) {
+            const auto* button = std::get_if<MouseButtonEvent>(&event);
+            return button && button->down;
+        });
+        frame({MouseButtonEvent{MouseButton::left, false}});
+        return left;
+    };
+    layer_.pages().introduce();
+    for (int i = 0; i < 4; ++i)
+        frame();
+    const auto hint =
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), "No, thanks");
+    ASSERT_TRUE(hint);
+    const glm::vec2 picture{700, 380}, column{150, 300}, on_hint{hint->x - 60, hint->y};
+    EXPECT_TRUE(press_after_jump(on_hint, picture));
+    EXPECT_TRUE(press_after_jump(column, picture));
+    EXPECT_FALSE(press_after_jump(picture, column));
+    EXPECT_FALSE(press_after_jump(picture, on_hint));
 }
 
 TEST_F(Clicks, ACommandIsFoundByItsWordsAndRunByItsKey) {

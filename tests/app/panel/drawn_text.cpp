@@ -238,4 +238,14 @@ ReadText read_text(const ImDrawData& data, const ImFont& font, double least) {
     return read;
 }
 
+std::optional<ImVec2> place_of_text(const ImDrawData& data, const ImFont& font, std::string text) {
+    std::erase(text, ' '); // no glyph is drawn for it
+    std::optional<ImVec2> place;
+    const Painter painter(data, font, 0);
+    for (const Run& run : painter.runs())
+        if (run.text == text)
+            place = run.box.GetCenter();
+    return place;
+}
+
 } // namespace isochron::app

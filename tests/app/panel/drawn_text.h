@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,9 @@ struct ReadText {
 /// text that lies directly on it is a fault, too.
 /// @param least contrast, as WCAG 2.1 defines it
 ReadText read_text(const ImDrawData& data, const ImFont& font, double least = 4.5);
+
+/// The middle of a text that was drawn, in panel pixels; of several, the one that was drawn last.
+/// @param text with or without its spaces
+std::optional<ImVec2> place_of_text(const ImDrawData& data, const ImFont& font, std::string text);
 
 } // namespace isochron::app

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <functional>
 #include <map>
@@ -187,8 +188,11 @@ TEST_P(LegiblePanel, WithMessagesAndStatistics) {
 }
 
 TEST_P(LegiblePanel, WithItsPages) {
-    if (GetParam().place == PanelPlace::in_room)
-        return;
+    if (GetParam().place == PanelPlace::in_room) {
+        frame();
+        layer_.pages().open_search();
+        return expect_legible("with the search", true);
+    }
     constexpr auto kControl = static_cast<std::uint8_t>(interaction::Modifier::control);
     frame({KeyEvent{Key{'K'}, true, kControl}, KeyEvent{Key{'K'}, false, kControl}});
     expect_legible("with the search", true);
@@ -198,6 +202,42 @@ TEST_P(LegiblePanel, WithItsPages) {
     frame({KeyEvent{Key::f1, true}, KeyEvent{Key::f1, false}});
     layer_.pages().introduce();
     expect_legible("with the introduction");
+}
+
+/// Whatever button opens a menu, in the bars above and below.
+TEST_P(LegiblePanel, WithTheMenusOfItsBars) {
+    asked_.bookmarks = {{"first maximum", 3}, {"later", 40}};
+    asked_.pictures.width = 1920;
+    asked_.pictures.height = 1080;
+    asked_.play_range = {3, 50};
+    frame();
+    const PanelPlaces places = layer_.places();
+    int menus = 0;
+    const auto press_along = [&](float y) {
+        for (float x = 20; x < places.time.high.x - 10; x += 14) {
+            click({x, y});
+            if (ImGui::GetCurrentContext()->OpenPopupStack.Size > 0) {
+                ++menus;
+                expect_legible(fmt::format("with the menu at {}, {}", x, y), true);
+            }
+            frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
+            frame();
+            frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
+            frame();
+        }
+    };
+    press_along((places.top.low.y + places.top.high.y) / 2);
+    press_along(places.two_rows ? places.time.low.y + 17
+                                : (places.time.low.y + places.time.high.y) / 2);
+    EXPECT_GE(menus, 3);
+}
+
+TEST_P(LegiblePanel, WithTheTourAndTheOfferOfTheSessionBefore) {
+    if (!over())
+        return;
+    layer_.pages().offer_earlier({});
+    layer_.pages().introduce();
+    expect_legible("with the offers");
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, LegiblePanel,

@@ -62,10 +62,10 @@ class NumberEntryTest : public testing::Test {
         ImGuiIO& io = ImGui::GetIO();
         io.MousePos = at;
         frame();
-        io.KeyCtrl = true;
-        io.MouseDown[0] = true;
+        bool& control = io.KeysDown[static_cast<int>(Key::left_control)];
+        control = io.KeyCtrl = io.MouseDown[0] = true;
         frame();
-        io.KeyCtrl = io.MouseDown[0] = false;
+        control = io.KeyCtrl = io.MouseDown[0] = false;
         frame();
     }
     void press(Key key) {

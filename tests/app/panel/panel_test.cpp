@@ -4,6 +4,7 @@
 #include "app/panel/panel_statistics.h"
 #include "app/panel/parts/surfaces_section.h"
 #include "app/panel/parts/theme.h"
+#include "app/panel/parts/written_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -141,21 +142,23 @@ class MovieButtons : public PanelTest {
         ImGui::GetIO().MouseDown[0] = down;
         ImGui::NewFrame();
         ImGui::SetNextWindowPos({0, 0});
-        ImGui::SetNextWindowSize({380, 100});
+        ImGui::SetNextWindowSize({380, 240});
         ImGui::Begin("panel");
-        const auto wish = movie_section({.info = info_,
-                                         .stats = stats_,
-                                         .asked = asked_,
-                                         .frame = frame_,
-                                         .movies = movies_,
-                                         .controls = controls_});
+        interaction::Commands commands;
+        const auto wish = movie_rows({.info = info_,
+                                      .stats = stats_,
+                                      .asked = asked_,
+                                      .frame = frame_,
+                                      .movies = movies_,
+                                      .controls = controls_},
+                                     commands);
         ImGui::End();
         ImGui::Render();
         return wish;
     }
     std::set<MovieWish> wishes() {
         std::set<MovieWish> all;
-        for (int y = 25; y < 100; y += 6)
+        for (int y = 25; y < 240; y += 6)
             for (int x = 10; x < 380; x += 20)
                 for (const bool down : {false, false, true, false})
                     if (const auto wish = frame(float(x), float(y), down))

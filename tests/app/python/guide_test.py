@@ -4,6 +4,7 @@ import contextlib
 import io
 import os
 import re
+import shutil
 import sys
 import tempfile
 import types
@@ -38,36 +39,62 @@ def pyvista_of_vtk():
     return module
 
 
+def blocks_of(page):
+    with open(page) as text:
+        return re.findall(r"^```python\n(.*?)^```$", text.read(), re.MULTILINE | re.DOTALL)
+
+
+@contextlib.contextmanager
+def within_a_run(arrays, **options):
+    """A folder with run42 of nine steps and its index. arrays: of a step."""
+    before = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            os.mkdir("run42")
+            for step in range(9):
+                write_vti(f"run42/t{step}.vti", step, arrays(step))
+            isochron.build("run42/*.vti", "run42.isochron", **options).close()
+            yield
+        finally:
+            os.chdir(before)
+
+
 class Guide(unittest.TestCase):
     def test_examples_work_as_they_stand(self):
-        with open(GUIDE) as page:
-            examples = re.findall(r"^```python\n(.*?)^```$", page.read(), re.MULTILINE | re.DOTALL)
+        examples = blocks_of(GUIDE)
         self.assertGreaterEqual(len(examples), 5)
         sys.modules.setdefault("pyvista", pyvista_of_vtk())
-        before = os.getcwd()
-        with tempfile.TemporaryDirectory() as folder:
-            os.chdir(folder)
-            try:
-                os.mkdir("run42")
-                for step in range(9):
-                    arrays = arrays_of(step)
-                    write_vti(f"run42/t{step}.vti", step, {"rho": arrays["depth"], "T": arrays["rho"]})
-                isochron.build("run42/*.vti", "run42.isochron", array=["rho", "T"]).close()
-                for example in examples:
-                    names = {}
-                    printed = io.StringIO()
-                    with self.subTest(example=example), contextlib.redirect_stdout(printed):
-                        exec(compile(example, GUIDE, "exec"), names)
-                    self.assertNotIn("expected", printed.getvalue())  # no error was caught and printed
-                    if "cells" in names:
-                        self.assertGreater(names["cells"].size, 0)
-                        self.assertEqual(names["part"].shape[0], 10)
-                    if "pixels" in names:
-                        self.assertEqual(names["pixels"].shape, (360, 640, 3))
-                    if "surface" in names:
-                        self.assertEqual(names["surface"].GetNumberOfPolys(), len(names["faces"]))
-            finally:
-                os.chdir(before)
+        with within_a_run(lambda step: {"rho": arrays_of(step)["depth"], "T": arrays_of(step)["rho"]}, array=["rho", "T"]):
+            shutil.copy("run42.isochron", "run43.isochron")
+            for example in examples:
+                names = {}
+                printed = io.StringIO()
+                with self.subTest(example=example), contextlib.redirect_stdout(printed):
+                    exec(compile(example, GUIDE, "exec"), names)
+                self.assertNotIn("expected", printed.getvalue())  # no error was caught and printed
+                if "cells" in names:
+                    self.assertGreater(names["cells"].size, 0)
+                    self.assertEqual(names["part"].shape[0], 10)
+                if "pixels" in names:
+                    self.assertEqual(names["pixels"].shape, (360, 640, 3))
+                if "surface" in names:
+                    self.assertEqual(names["surface"].GetNumberOfPolys(), len(names["faces"]))
+
+    def test_the_notebook_works_from_its_first_block_to_its_last(self):
+        page = os.path.join(os.path.dirname(GUIDE), "notebook.md")
+        blocks = blocks_of(page)
+        self.assertEqual(len(blocks), 7)
+        with within_a_run(lambda step: {"rho": arrays_of(step)["depth"]}, array="rho"):
+            names = {}
+            with contextlib.redirect_stdout(io.StringIO()):
+                for block in blocks:
+                    exec(compile(block, page, "exec"), names)
+            self.assertEqual(names["added"].size - names["removed"].size, names["count"][1] - names["count"][0])
+            self.assertEqual(names["cells"].size, names["count"].max())
+            self.assertGreater(names["area"], 0)
+            self.assertEqual(names["line"].shape, names["run"].shape[3:])
+            self.assertEqual(names["pixels"].shape, (360, 640, 3))
 
 
 if __name__ == "__main__":

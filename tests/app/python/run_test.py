@@ -5,6 +5,7 @@ import json
 import os
 import pickle
 import unittest
+from fractions import Fraction
 
 import numpy as np
 
@@ -37,6 +38,71 @@ class Description(SeriesTest):
     def test_times_cannot_be_changed(self):
         with self.assertRaises(ValueError):
             self.run_.times[0] = 7
+
+
+
+class Instants(SeriesTest):
+    """What lies between two steps, against exact fractions."""
+
+    def blends(self, array, step, fraction):
+        """N times the blended values, exactly; None where one of the two is not finite."""
+        both = zip(self.data[step][array].ravel(), self.data[step + 1][array].ravel())
+        return [
+            (65536 - fraction) * Fraction(float(a)) + fraction * Fraction(float(b))
+            if np.isfinite(a) and np.isfinite(b) else None
+            for a, b in both
+        ]
+
+    def test_cells_are_those_of_exact_fractions(self):
+        shape = self.data[0]["depth"].shape
+        corners = [tuple(slice(d, n - 1 + d) for d, n in zip((i, j, k), shape))
+                   for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+        for array, step, fraction in [("rho", 0, 1), ("rho", 2, 32768), ("depth", 1, 22222), ("depth", 2, 65535)]:
+            blends = self.blends(array, step, fraction)
+            there = next(blend for blend in blends[1234:] if blend is not None)
+            for isovalue in [0.5, float(there / 65536), np.nextafter(float(there / 65536), 9)]:
+                with self.subTest(array=array, step=step, fraction=fraction, isovalue=isovalue):
+                    limit = 65536 * Fraction(float(isovalue))
+                    above = np.array([b is not None and b >= limit for b in blends]).reshape(shape)
+                    missing = np.array([b is None for b in blends]).reshape(shape)
+                    some = np.logical_or.reduce([above[c] for c in corners])
+                    every = np.logical_and.reduce([above[c] for c in corners])
+                    bad = np.logical_or.reduce([missing[c] for c in corners])
+                    expected = np.flatnonzero(some & ~every & ~bad)
+                    found = self.run_.cells(isovalue, step, fraction=fraction, array=array)
+                    np.testing.assert_array_equal(found, expected)
+                    program("query", "run.isochron", "--isovalue", repr(float(isovalue)), "--step", step, "--fraction",
+                            fraction, "--array", array, "--ids", "cells.bin", "--force")
+                    np.testing.assert_array_equal(np.fromfile("cells.bin", "<u4"), expected)
+
+    def test_values_are_those_of_exact_fractions_rounded_down(self):
+        for array, step, fraction in [("rho", 0, 1), ("rho", 2, 32768), ("depth", 1, 22222), ("depth", 2, 65535)]:
+            with self.subTest(array=array, step=step, fraction=fraction):
+                found = self.run_.values(step, fraction=fraction, array=array)
+                self.assertEqual(found.dtype, np.float64)
+                self.assertEqual(found.shape, self.data[step][array].shape)
+                for value, blend in zip(found.ravel().tolist(), self.blends(array, step, fraction)):
+                    if blend is None:
+                        self.assertTrue(np.isnan(value))
+                        continue
+                    self.assertLessEqual(65536 * Fraction(value), blend)
+                    self.assertGreater(65536 * Fraction(float(np.nextafter(value, np.inf))), blend)
+                part = self.run_.values(step, slice(1, 5), -1, slice(None, None, -2), fraction=fraction, array=array)
+                np.testing.assert_array_equal(part, found[1:5, -1, ::-2])
+        with self.assertRaisesRegex(isochron.Error, "fraction 65536, expected 0 to 65535"):
+            self.run_.values(0, fraction=65536)
+
+    def test_changes_are_differences_of_sets(self):
+        added, removed = self.run_.change(0.5, 1, fraction=100, to_fraction=60000)
+        before, after = self.run_.cells(0.5, 1, fraction=100), self.run_.cells(0.5, 1, fraction=60000)
+        np.testing.assert_array_equal(added, np.setdiff1d(after, before))
+        np.testing.assert_array_equal(removed, np.setdiff1d(before, after))
+
+    def test_the_last_step_has_none_after_it(self):
+        with self.assertRaisesRegex(isochron.Error, f"fraction 1 after step {STEPS - 1}, which is the last one"):
+            self.run_.cells(0.5, STEPS - 1, fraction=1)
+        with self.assertRaisesRegex(isochron.Error, "fraction 65536, expected 0 to 65535"):
+            self.run_.cells(0.5, 0, fraction=65536)
 
 
 class Cells(SeriesTest):

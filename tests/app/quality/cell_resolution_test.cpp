@@ -67,5 +67,16 @@ TEST(CellResolution, IsNotTakenWhereItSavesNothing) {
     EXPECT_EQ(resolution.choose(Milliseconds(100), kOfFrame, Seconds(0)), 0u);
 }
 
+TEST(CellResolution, DoesNotBelieveThatFewerPixelsSaveOrCostWhatTheyCannot) {
+    CellResolution resolution;
+    const double before = resolution.share(2);
+    EXPECT_EQ(resolution.learn(2, 0.05), before)
+        << "all pixels cannot have taken twenty times as long";
+    EXPECT_EQ(resolution.learn(2, 5), before);
+    EXPECT_EQ(resolution.share(2), before);
+    EXPECT_EQ(resolution.learn(2, 0.5), 0.5);
+    EXPECT_EQ(resolution.share(2), 0.5);
+}
+
 } // namespace
 } // namespace isochron::app

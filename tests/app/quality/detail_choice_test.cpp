@@ -101,6 +101,18 @@ TEST(DetailChoice, NearRegionsAreFinerAndUnseenOnesCoarser) {
               wished[regions.number({8, 8, 15})] + 2 * kParts);
 }
 
+TEST(DetailChoice, CellsLookSmallWhereTheyTakeAFewPixels) {
+    const index::Grid grid = cube(129);
+    DetailChoice choice(grid, 1'000'000);
+    EXPECT_FALSE(choice.cells_look_small()) << "nobody has looked yet";
+    const float one_pixel = 1.0f / std::tan(0.5f) * 500 / 128; // [m] from the nearest cells
+    for (const float pixels : {1.0f, 5.0f, 7.0f, 20.0f}) {
+        const render::View view = view_from(0.5f + one_pixel / pixels, 1000);
+        choice.look(std::span(&view, 1), a_meter_wide(grid));
+        EXPECT_EQ(choice.cells_look_small(), pixels < DetailChoice::kSmallCell) << pixels;
+    }
+}
+
 TEST(DetailChoice, OnStretchedAxesAVoxelIsAsLargeAsItIsSeen) {
     index::Grid grid = cube(513);
     std::vector<double> at{0.0};
@@ -178,6 +190,52 @@ TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
     little.limit(50'000);
     EXPECT_FALSE(little.small()) << "it does not fit as it is";
     EXPECT_EQ(little.most(), 50'000u);
+}
+
+TEST(DetailChoice, WhatFitsIsUsedByTheSecondSet) {
+    DetailChoice choice(cube(513), 3'000'000);
+    std::uint64_t drawn = choice.for_motion({}, 0).most_cells;
+    EXPECT_EQ(drawn, DetailChoice::kAtFirst);
+    for (int set = 0; set < 2; ++set)
+        drawn = choice.for_motion(1e6, drawn).most_cells;
+    EXPECT_GE(1.5 * 1.4 * double(drawn), 1e6);
+    EXPECT_LE(double(drawn), 1e6);
+}
+
+TEST(DetailChoice, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
+    const index::Grid grid = cube(513);
+    const index::DetailRegions regions(grid);
+    const auto turned = [&](float degrees) {
+        render::View view = view_from(0.6f, 1000); // half of it is seen 29 degrees to each side
+        view.eye_from_room =
+            glm::rotate(glm::mat4(1.0f), glm::radians(degrees), glm::vec3(0, 1, 0)) *
+            view.eye_from_room;
+        return view;
+    };
+    const auto wished_of = [&](std::span<const render::View> views, std::uint64_t least,
+                               std::size_t region) {
+        DetailChoice choice(grid, 1'000'000);
+        choice.look(views, a_meter_wide(grid));
+        return choice.for_motion(100'000, 0, least).wished[region];
+    };
+    constexpr std::uint64_t kScarce = 100'000;
+    const std::size_t left = regions.number({0, 8, 8});
+    const std::array away{turned(60)}, back{turned(-60)};
+    const int nothing = 8 * kParts;
+    const auto at_left = wished_of(away, kScarce, left), other = wished_of(back, kScarce, left);
+    EXPECT_TRUE((at_left == nothing) != (other == nothing)) << "one of the two looks to the left";
+    const std::array both{away[0], back[0]};
+    EXPECT_LT(wished_of(both, kScarce, left), nothing) << "somebody sees it";
+    // Just beside the view, where a head may turn within a moment, nothing is given up.
+    const std::array ahead{turned(0)};
+    DetailChoice choice(grid, 1'000'000);
+    choice.look(ahead, a_meter_wide(grid));
+    const auto wished = choice.for_motion(100'000, 0, kScarce).wished;
+    ASSERT_EQ(wished.size(), regions.size());
+    EXPECT_LT(std::ranges::count(wished, nothing), static_cast<int>(regions.size()) / 2);
+    // Where all cells fit, none are given up.
+    for (const std::array<render::View, 1>& view : {away, back})
+        EXPECT_LT(wished_of(view, 10'000, left), nothing);
 }
 
 TEST(DetailChoice, CellsThatNobodySeesMakeNoRoomForMore) {

@@ -54,6 +54,22 @@ TEST(MeshLevelChoice, GivesWayToQuadsOfSoManyCellsThatTheyAreMoreLikeTheSurface)
     EXPECT_EQ(beside(0.1, 100), 3u);
 }
 
+TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuadsOfSomeCells) {
+    const auto beside = [](double quads, double all_ms) {
+        MeshesAtHand meshes = taking(all_ms);
+        meshes.translucent = true;
+        meshes.quads = quads;
+        meshes.longest = Milliseconds(100);
+        return MeshLevelChoice().choose(meshes);
+    };
+    EXPECT_EQ(beside(0.25, 15), 1u);
+    EXPECT_EQ(beside(0.9, 40), 2u);
+    EXPECT_EQ(beside(0.25, 100), 3u);
+    EXPECT_EQ(beside(0.25, 1000), 3u) << "slower than wanted, but no scraps";
+    EXPECT_EQ(beside(0.25, 2100), std::nullopt) << "longer than any picture may take";
+    EXPECT_EQ(beside(1, 100), std::nullopt) << "quads of all cells";
+}
+
 TEST(MeshLevelChoice, StaysWhereTimesScatterAboutALimitAndFollowsThemTwiceASecondAtMost) {
     MeshLevelChoice choice;
     interaction::Seconds now{0};

@@ -152,38 +152,38 @@ TEST_F(QualityInMotion, BesidePartsNothingIsTriedThatTakesLong) {
     EXPECT_EQ(cheap.over_budget(), 0);
 }
 
-TEST_F(QualityInMotion, WhatIsGuessedTooDearIsMeasuredUnseenAndDrawnOnceItIsKnownToFit) {
+TEST_F(QualityInMotion, WhatIsGuessedTooDearIsDrawnInPartsAndThenAtOnceAsItIsKnownToFit) {
     for (const Pace pace : {Pace::settled, Pace::moving}) {
         SimulatedDisplay display(kBudget, constant({3, 30, 5})); // guesses: 24 and 36
-        display.measures_unseen = true;
+        display.draws_ahead = true;
         display.still = false;
         display.input.pace = pace;
         display.input.in_parts = Footprint::surface;
         EXPECT_EQ(display.run(40).choice.footprint, Footprint::surface);
         EXPECT_EQ(display.over_budget(), 0);
-        EXPECT_EQ(display.measured_unseen, 1);
+        EXPECT_EQ(display.drawn_ahead, 1);
         display.run(5000);
         EXPECT_GE(display.at(Footprint::surface), 5000);
         EXPECT_EQ(display.over_budget(), 0);
     }
 }
 
-TEST_F(QualityInMotion, WhatDoesNotFitIsMeasuredUnseenOnceInLongAndNeverDrawn) {
+TEST_F(QualityInMotion, WhatDoesNotFitIsDrawnInPartsOnceInLongAndNeverAtOnce) {
     double surface = 60;
     SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad& load) {
         return load.cells / 1e4 * (footprint == Footprint::quad ? 3 : surface);
     });
-    display.measures_unseen = true;
+    display.draws_ahead = true;
     display.still = false;
     display.input.in_parts = Footprint::surface;
     display.run(QualityController::kLongestWait);
     EXPECT_EQ(display.at(Footprint::quad), static_cast<int>(QualityController::kLongestWait));
-    EXPECT_EQ(display.measured_unseen, 1);
+    EXPECT_EQ(display.drawn_ahead, 1);
     for (int i = 0; i < 1000; ++i) {
         display.input.load.cells = uniform(0.9e4, 1.1e4); // no reason for another one
         display.frame();
     }
-    EXPECT_LE(display.measured_unseen, 2);
+    EXPECT_LE(display.drawn_ahead, 2);
     EXPECT_EQ(display.over_budget(), 0);
     EXPECT_EQ(display.at(Footprint::surface), 0);
     surface = 5; // as if other programs had ended
@@ -193,9 +193,9 @@ TEST_F(QualityInMotion, WhatDoesNotFitIsMeasuredUnseenOnceInLongAndNeverDrawn) {
     EXPECT_EQ(display.over_budget(), 0);
 }
 
-TEST_F(QualityInMotion, TheBestThatFitsIsFoundUnseenWhicheverIsTheCheaper) {
+TEST_F(QualityInMotion, TheSurfaceIsFoundWhereverItFitsWhicheverIsTheCheaper) {
     for (const auto& [mesh, surface, wanted] :
-         {std::tuple{4.0, 20.0, Footprint::mesh}, std::tuple{20.0, 4.0, Footprint::surface},
+         {std::tuple{4.0, 20.0, Footprint::quad}, std::tuple{20.0, 4.0, Footprint::surface},
           std::tuple{6.0, 5.0, Footprint::surface}, std::tuple{20.0, 30.0, Footprint::quad}}) {
         SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
             return footprint == Footprint::quad      ? 3.0
@@ -205,11 +205,11 @@ TEST_F(QualityInMotion, TheBestThatFitsIsFoundUnseenWhicheverIsTheCheaper) {
         });
         display.input.available.add(Footprint::mesh);
         display.input.in_parts = Footprint::surface;
-        display.measures_unseen = true;
+        display.draws_ahead = true;
         display.still = false;
         EXPECT_EQ(display.run(400).choice.footprint, wanted);
         EXPECT_EQ(display.over_budget(), 0);
-        EXPECT_LE(display.measured_unseen, 2);
+        EXPECT_LE(display.drawn_ahead, 2);
     }
 }
 

@@ -3,12 +3,16 @@
 
 #include "app/scene/font.h"
 #include "app/scene/legend.h"
+#include "app/scene/mark.h"
+#include "stereo/context/gl_context.h"
 #include "tests/support/test_seed.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 
 namespace isochron::app {
@@ -47,6 +51,20 @@ Callout length_at(const glm::vec3& at) {
 }
 Callout pointed_at(const glm::vec3& at) {
     return {at, {"9.446 1/s", "3.42, 4.41, 5.60 m"}, {}, CalloutSign::dot};
+}
+
+TEST(Callouts, OfAPlaceBetweenStepsSayBetweenWhich) {
+    index::SeriesInfo info;
+    info.times = {0, 2, 4};
+    info.time_unit = "s";
+    const interaction::MarkedPoint at_step{{1, 2, 3}, 1, 9.25}, between{{1, 2, 3}, 1, 9.25, 32768},
+        last{{1, 2, 3}, 2, 9.25, 32768};
+    EXPECT_EQ(mark_lines(at_step, info).back(), "at 2 s");
+    EXPECT_EQ(mark_lines(between, info).back(), "at 3 s, between steps 2 and 3");
+    EXPECT_EQ(mark_text(between, info), "1, 2, 3: 9.25 at 3 s, between steps 2 and 3");
+    EXPECT_EQ(mark_lines(last, info).back(), "at 4 s") << "the last step holds";
+    EXPECT_EQ(pointed_lines({at_step, 0}, 1, info).back(), "1, 2, 3");
+    EXPECT_EQ(pointed_lines({between, 0}, 1, info).back(), "between steps 2 and 3");
 }
 
 TEST(Callouts, NeverCoverEachOtherInEitherEye) {
@@ -94,6 +112,64 @@ TEST(Callouts, AloneStandAtTheRightAboveTheirPlaceAndInsideThePicture) {
     const auto length = std::vector{length_at({0, 0, -2})};
     const CalloutPaper over = papers_of(length, atlas, views).front();
     EXPECT_NEAR(over.low.x, -over.high.x, 1e-5) << "a length stands on its line";
+}
+
+/// As WCAG 2.1 defines it.
+double contrast(const glm::dvec3& a, const glm::dvec3& b) {
+    const auto luminance = [](const glm::dvec3& color) {
+        glm::dvec3 linear;
+        for (int i = 0; i < 3; ++i)
+            linear[i] =
+                color[i] <= 0.04045 ? color[i] / 12.92 : std::pow((color[i] + 0.055) / 1.055, 2.4);
+        return 0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z;
+    };
+    const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
+    return (light + 0.05) / (dark + 0.05);
+}
+
+TEST(Callouts, CanBeReadOnEveryBackgroundWhateverColorTheirSurfaceHas) {
+    const auto context = stereo::make_context(stereo::ContextKind::egl, {.size = {16, 16}});
+    const render::Gl gl(context->loader());
+    const render::TextPass text(gl, room_font(16));
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<float> share(0.0f, 1.0f);
+    for (int round = 0; round < 200; ++round) {
+        Picture picture;
+        picture.mark.point = interaction::MarkedPoint{};
+        picture.tools.labels.push_back({.at = {0, 0, -2}, .text = "1.25 m"});
+        picture.isosurfaces = {{8, {share(random), share(random), share(random)}, 1.0f}};
+        for (const auto background :
+             {interaction::Background::dark, interaction::Background::gray,
+              interaction::Background::gradient, interaction::Background::light}) {
+            picture.look.background = background;
+            const bool light = background == interaction::Background::light;
+            index::SeriesInfo info;
+            info.times = {0};
+            for (const Callout& callout : callouts_of(picture, interaction::Pointed{}, info)) {
+                const CalloutPaper paper{{0, 0}, {9, 4}};
+                const auto quads = callout_quads(callout, paper, text, kSize, ink_on(background));
+                const auto sheet = std::ranges::find_if(quads, [](const auto& quad) {
+                    return quad.high.x - quad.low.x > 200; // nine heights of the text
+                });
+                ASSERT_NE(sheet, quads.end());
+                EXPECT_EQ(sheet->color.x > 0.5f, light) << "as light as what is around the data";
+                for (auto quad = sheet + 1; quad != quads.end(); ++quad)
+                    for (const double behind : {0.0, 1.0}) {
+                        const double cover = sheet->color.w;
+                        const glm::dvec3 seen =
+                            cover * glm::dvec3(sheet->color) + (1 - cover) * behind;
+                        ASSERT_GE(contrast(quad->color, seen), 4.49)
+                            << interaction::name_of(background) << ", round " << round;
+                    }
+            }
+        }
+    }
+}
+
+TEST(Callouts, AreAsHighAsTheWordsOfThePanel) {
+    EXPECT_FLOAT_EQ(text_height({2560, 1440}, 15.0f / 1440), 15);
+    EXPECT_FLOAT_EQ(text_height({2560, 1440}, 30.0f / 1440), 30) << "at twice the dots an inch";
+    EXPECT_FLOAT_EQ(text_height({1280, 720}, 15.0f / 1440), 11) << "small pictures can be read";
 }
 
 } // namespace

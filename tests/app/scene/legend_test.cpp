@@ -53,7 +53,7 @@ TEST_P(LegendTest, ShowsTheMapFromLowToHigh) {
     EXPECT_EQ(low->low.x, high->low.x);
 }
 
-TEST_P(LegendTest, HasNoBoxOnALightBackground) {
+TEST_P(LegendTest, HasNoBoxOnALightOrAGrayBackground) {
     Legend legend = of_temperature();
     legend.ink = ink_on(interaction::Background::light);
     const auto quads = legend_quads(legend, text_, {1000, 1000});
@@ -61,6 +61,8 @@ TEST_P(LegendTest, HasNoBoxOnALightBackground) {
     EXPECT_EQ(glm::vec3(quads.front().color), kPaperWhite) << "as the background";
     EXPECT_TRUE(std::ranges::any_of(
         quads, [](const ScreenQuad& quad) { return glm::vec3(quad.color) == kDarkInk; }));
+    legend.ink = ink_on(interaction::Background::gray);
+    EXPECT_EQ(glm::vec3(legend_quads(legend, text_, {1000, 1000}).front().color), kLifted);
 }
 
 TEST_P(LegendTest, IsNotNeededForOneSurfaceAndListsSeveral) {

@@ -70,14 +70,28 @@ class DataChoiceTest : public testing::Test {
                           },
                       .window = {.ended = [&] { return --frames < 0; }, .frame_rate_limit = 1e6}});
     }
-    /// Clicks on one line of the window after another, from below.
-    PlayedWindow::Frame clicks() {
-        return [at = 470.0f, part = 0](std::vector<WindowEvent>& events, auto&) mutable {
-            events.emplace_back(MouseMoveEvent{0.3f, at / kPlayed.y, kPlayed.x, kPlayed.y});
-            if (part > 1)
-                events.emplace_back(MouseButtonEvent{MouseButton::left, part == 2});
-            if (part = (part + 1) % 4; part == 0)
-                at = at > 60 ? at - 9 : 470.0f;
+    /// Double clicks on one line of the window after another, from below; all four changes of the
+    /// button come in one frame, as from a fast hand.
+    PlayedWindow::Frame double_clicks() {
+        return [at = 430.0f, part = 0](std::vector<WindowEvent>& events, auto&) mutable {
+            events.emplace_back(MouseMoveEvent{0.4f, at / kPlayed.y, kPlayed.x, kPlayed.y});
+            if (part == 2)
+                for (const bool down : {true, false, true, false})
+                    events.emplace_back(MouseButtonEvent{MouseButton::left, down});
+            if (part = (part + 1) % 8; part == 0)
+                at = at > 60 ? at - 9 : 430.0f;
+        };
+    }
+    /// Types keys one frame after the other, once the window is there.
+    static PlayedWindow::Frame types(std::vector<WindowEvent> typed) {
+        return [typed = std::move(typed), frames = std::size_t{0}](std::vector<WindowEvent>& events,
+                                                                   auto&) mutable {
+            const std::size_t at = frames++ / 3;
+            if (frames % 3 == 0 && at > 1 && at - 2 < typed.size()) {
+                events.push_back(typed[at - 2]);
+                if (const auto* key = std::get_if<KeyEvent>(&typed[at - 2]))
+                    events.emplace_back(KeyEvent{key->key, false});
+            }
         };
     }
 
@@ -86,10 +100,39 @@ class DataChoiceTest : public testing::Test {
     std::set<std::string> asked_; ///< whether it could be opened
 };
 
-TEST_F(DataChoiceTest, GoesThroughTheFoldersAndTakesWhatCanBeOpened) {
-    const auto chosen = choose(clicks(), 4000, "no index");
-    ASSERT_TRUE(chosen);
-    EXPECT_EQ(*chosen, good_);
+TEST_F(DataChoiceTest, TakesOfTheRecentDataWhatIsClickedTwice) {
+    good_ = folder_.path() / "lately.isochron";
+    EXPECT_EQ(choose(double_clicks(), 4000, "no index"), good_);
+    EXPECT_THAT(asked_, testing::ElementsAre("lately.isochron"));
+}
+
+TEST_F(DataChoiceTest, AKeyboardAloneGoesThroughTheFolders) {
+    // The recent data are listed first: Backspace leads to their folder, a second one around it.
+    std::vector<WindowEvent> typed(2, KeyEvent{Key::backspace, true});
+    const auto type = [&](const std::string& words) {
+        for (const char character : words)
+            typed.emplace_back(interaction::TextEvent{static_cast<char32_t>(character)});
+        typed.emplace_back(KeyEvent{Key::enter, true});
+    };
+    type(folder_.path().filename().string());
+    type("deep");
+    type("SPHERE");
+    EXPECT_EQ(choose(types(typed), 4000, "no index"), good_);
+    EXPECT_THAT(asked_, testing::ElementsAre("sphere.isochron"));
+}
+
+TEST_F(DataChoiceTest, DoubleClicksGoThroughTheFoldersAndTakeWhatCanBeOpened) {
+    const auto clicks = double_clicks();
+    const auto back = types({KeyEvent{Key::backspace, true}}); // to the folder of the recent data
+    const auto chosen = choose(
+        [&, frames = 0](std::vector<WindowEvent>& events, auto& dropped) mutable {
+            if (frames++ < 20)
+                back(events, dropped);
+            else
+                clicks(events, dropped);
+        },
+        4000, "no index");
+    EXPECT_EQ(chosen, good_);
     EXPECT_TRUE(asked_.contains("lately.isochron")) << "which is none, and was said to be none";
 }
 
@@ -134,6 +177,44 @@ TEST_F(DataChoiceTest, FilesThatAreDroppedTogetherAreTakenAsASeries) {
     EXPECT_EQ(dropped, folder_.path() / "runs/t[0-9]*.vti") << "two of three have no one name";
 }
 
+TEST_F(DataChoiceTest, AnArrayOfSeveralShapesIsChosenByKeysAndByADoubleClick) {
+    const std::vector<ListedArray> arrays{{"rho", "64 x 64 x 64, 3 steps", "kg", "0 to 2", ""},
+                                          {"worse", "", "", "", "complex values"},
+                                          {"speed", "32 x 32 x 32, 3 steps", "m/s", "", ""}};
+    const auto choose_by = [&](std::size_t first, const PlayedWindow::Frame& frame) {
+        PlayedWindow window(frame);
+        const stereo::Windows windows(window);
+        std::optional<std::size_t> chosen;
+        int asked = 0;
+        const Waited end = wait_for_data(
+            windows, "run.h5",
+            [&] {
+                return DataProgress{
+                    .ready = chosen.has_value() || ++asked > 400, .line = "", .arrays = arrays};
+            },
+            {.frame_rate_limit = 1e6},
+            {.first = [&] { return first; }, .choose = [&](std::size_t one) { chosen = one; }});
+        EXPECT_EQ(end, Waited::ready);
+        return chosen;
+    };
+    const KeyEvent enter{Key::enter, true}, down{Key::down, true}, up{Key::up, true};
+    EXPECT_EQ(choose_by(0, types({enter})), 0u);
+    EXPECT_EQ(choose_by(2, types({enter})), 2u) << "the one that was chosen last";
+    EXPECT_EQ(choose_by(0, types({down, enter, down, enter})), 2u) << "one cannot be shown";
+    EXPECT_EQ(choose_by(2, types({up, up, enter})), 0u);
+    EXPECT_TRUE(choose_by(0, double_clicks()));
+    PlayedWindow window([n = 0](std::vector<WindowEvent>& events, auto&) mutable {
+        if (++n == 5)
+            events.emplace_back(KeyEvent{Key::escape, true});
+    });
+    const stereo::Windows windows(window);
+    EXPECT_EQ(
+        wait_for_data(windows, "run.h5",
+                      [&] { return DataProgress{.ready = false, .line = "", .arrays = arrays}; },
+                      {.frame_rate_limit = 1e6}),
+        Waited::canceled);
+}
+
 TEST_F(DataChoiceTest, WaitsForDataThatAreBeingIndexedUntilTheyCanBeShown) {
     int asked = 0;
     const auto wait = [&](int ready, const PlayedWindow::Frame& frame) {
@@ -147,12 +228,14 @@ TEST_F(DataChoiceTest, WaitsForDataThatAreBeingIndexedUntilTheyCanBeShown) {
             },
             {.frame_rate_limit = 1e6});
     };
-    EXPECT_TRUE(wait(5, [](auto&, auto&) {}));
+    EXPECT_EQ(wait(5, [](auto&, auto&) {}), Waited::ready);
     EXPECT_EQ(asked, 5);
-    EXPECT_FALSE(wait(1000, [&](std::vector<WindowEvent>& events, auto&) {
-        if (asked == 7)
-            events.emplace_back(KeyEvent{Key::escape, true});
-    }));
+    EXPECT_EQ(wait(1000,
+                   [&](std::vector<WindowEvent>& events, auto&) {
+                       if (asked == 7)
+                           events.emplace_back(KeyEvent{Key::escape, true});
+                   }),
+              Waited::canceled);
     EXPECT_LT(asked, 20);
 }
 

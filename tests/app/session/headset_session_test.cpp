@@ -3,6 +3,8 @@
 #include "tests/support/eventually.h"
 #include "tests/support/played_fixture.h"
 
+#include <algorithm>
+
 namespace isochron::app {
 namespace {
 
@@ -172,6 +174,83 @@ TEST_F(HeadsetSession, ThatIsPutDownEndsAtTheExactPictureInPartsThatInputGivesUp
         const auto& each = headset().frames[i].views[0].picture.rgba;
         EXPECT_TRUE(each == fast || each == exact) << "nothing in between is shown";
     }
+}
+
+TEST_F(HeadsetSession, ShowsAMomentBetweenStepsToBothEyesAsAStepWithItsValues) {
+    const index::Instant at(2, 30'000);
+    StepsAndABlend series(at);
+    build_index(series, folder_.path() / "blend.isochron", {});
+    Commands commands = showing(kPlacement);
+    commands.bounding_box = false;
+    commands.between = interaction::BetweenSteps::blend;
+    commands.isovalue = 8.0;
+    std::array<std::array<std::vector<std::uint8_t>, 2>, 2> seen; // by session and eye
+    for (const bool as_step : {true, false}) {
+        if (session_) {
+            session_->outputs().headset()->leave();
+            session_.reset();
+        }
+        if (as_step)
+            file_ = index::IndexFile::open(folder_.path() / "blend.isochron");
+        else
+            file_ = index::IndexFile::open(folder_.path() / "sphere.isochron");
+        commands.step = as_step ? 6 : at.step;
+        commands.fraction = as_step ? 0 : at.fraction;
+        start();
+        settle(commands);
+        EXPECT_EQ(session_->log().frames().back().shown->step, as_step ? index::Instant(6) : at);
+        for (const std::size_t eye : {0, 1})
+            seen[as_step][eye] = headset().frames.back().views.at(eye).picture.rgba;
+    }
+    EXPECT_TRUE(seen[0][0] == seen[1][0]);
+    EXPECT_TRUE(seen[0][1] == seen[1][1]);
+    EXPECT_TRUE(seen[0][0] != seen[0][1]);
+    // Every frame of time that plays has its moment, and both eyes show it.
+    Commands play;
+    play.playback = interaction::PlaybackState{.playing = true};
+    std::vector<index::Instant> shown;
+    const std::size_t first = headset().frames.size();
+    frame(play);
+    for (int i = 0; i < 20; ++i) {
+        now_ += interaction::Seconds(0.0111);
+        stereo::Headset& client = *session_->outputs().headset();
+        client.update(now_);
+        client.begin_frame(now_);
+        const interaction::InputState input = client.poll(now_);
+        session_->frame(input, session_->commands_from(input), Waiting::for_cells);
+        shown.push_back(session_->log().frames().back().shown->step);
+    }
+    EXPECT_GT(std::ranges::count_if(shown, &index::Instant::between), 15);
+    EXPECT_TRUE(std::ranges::adjacent_find(shown) == shown.end());
+    for (std::size_t i = first; i < headset().frames.size(); ++i)
+        EXPECT_EQ(headset().frames[i].views.size(), 2u);
+}
+
+TEST_F(HeadsetSession, IsGivenItsExactLayerAgainForAMomentFromWhereItWasDrawn) {
+    config_.quality.frame_budget_ms = config_.quality.still_budget_ms =
+        1e-6; // no frame can hold it
+    start();
+    settle(showing(kPlacement));
+    const auto live = [&] { return frame({}, Waiting::never); };
+    ASSERT_TRUE(test_support::eventually([&] {
+        const FrameReport report = live();
+        return report.final && report.footprint == Footprint::surface;
+    }));
+    const played::SubmittedView exact = headset().frames.back().views.at(0);
+    const auto shown = [&]() -> const played::SubmittedView& {
+        return headset().frames.back().views.at(0);
+    };
+    headset().head.position.x += 0.01f;
+    EXPECT_TRUE(live().moved);
+    EXPECT_TRUE(shown().picture.rgba == exact.picture.rgba);
+    EXPECT_EQ(shown().pose, exact.pose) << "the runtime moves it from there";
+    for (int i = 0; i < 40; ++i) { // 0.44 s
+        headset().head.position.x += 1e-4f;
+        live();
+    }
+    EXPECT_FALSE(session_->log().frames().back().moved);
+    EXPECT_NE(shown().pose, exact.pose);
+    EXPECT_TRUE(shown().picture.rgba != exact.picture.rgba);
 }
 
 TEST_F(HeadsetSession, AStillPictureIsThereAgainAfterTheSessionWasLost) {

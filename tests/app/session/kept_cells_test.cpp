@@ -13,18 +13,6 @@ using render::Footprint;
 
 class KeptCellsTest : public SessionQuality {
   protected:
-    /// No frame holds the surface, so that it comes in parts.
-    Config config_in_parts() const {
-        Config config = config_with(kNothing);
-        config.quality.still_budget_ms = 500;
-        return config;
-    }
-    static bool is_exact(const FrameReport& frame) {
-        return frame.final && frame.footprint == Footprint::surface;
-    }
-    static std::vector<std::uint8_t> shown(const Session& session) {
-        return session.outputs().display().read_window().rgba;
-    }
     /// Commands that change what lies over the cells, or nothing that is seen.
     static std::vector<std::pair<std::string, Commands>> over_cells() {
         std::vector<std::pair<std::string, Commands>> all;

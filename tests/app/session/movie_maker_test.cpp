@@ -79,9 +79,13 @@ TEST_F(MovieMakerTest, TheProgramGetsTheRecordingAndItsWordsAreProgressAndOutcom
     EXPECT_THAT(folder_.read("shots/words"),
                 StartsWith("movie " +
                            (folder_.path() / "shots/isochron_movie_0001.jsonl").string() + " -o " +
-                           movie + " --background --shape plane"));
+                           movie + " --background --rate 30 --shape plane"));
     movies.make(write, writing_); // the next has a name of its own
     EXPECT_THAT(outcome(movies), HasSubstr("isochron_movie_0002.mp4"));
+    movies.make(write, writing_,
+                {.folder = folder_.path() / "far/away", .rate = 12, .width = 640, .height = 360});
+    EXPECT_THAT(outcome(movies), HasSubstr("far/away/isochron_movie_0001.mp4"));
+    EXPECT_THAT(folder_.read("shots/words"), HasSubstr(" --rate 12 --size 640 360 "));
     fs::current_path(before);
 }
 
@@ -182,6 +186,27 @@ TEST(SeriesSeen, EveryStepHasItsFrameHoweverFastTheSeriesPlays) {
                 EXPECT_GE((series.frames[i].input.time - series.frames[i - 1].input.time).count(),
                           1.0 / 25);
         }
+    }
+}
+
+TEST(SeriesSeen, FramesOfBlendedStepsAreMoments) {
+    PictureNote view;
+    view.state.between = interaction::BetweenSteps::blend;
+    const std::vector<double> times{0, 1, 2, 3};
+    for (const bool reverse : {false, true}) {
+        view.state.playback = interaction::PlaybackState{.reverse = reverse, .speed = 0.1};
+        const auto series = series_seen({}, view, times, 25);
+        const double seconds = 10.0 / 4 * 3 / 0.1; // to the last step, which is shown then
+        ASSERT_EQ(series.frames.size(), static_cast<std::size_t>(seconds * 25) + 2);
+        double before = reverse ? 3 : 0;
+        for (std::size_t i = 1; i + 1 < series.frames.size(); ++i) {
+            const interaction::Commands& commands = series.frames[i].commands;
+            const double now =
+                *commands.step + *commands.fraction / double(interaction::kFractions);
+            EXPECT_NEAR((now - before) * (reverse ? -1 : 1), 3 / (seconds * 25), 1e-4);
+            before = now;
+        }
+        EXPECT_EQ(before, reverse ? 0 : 3);
     }
 }
 

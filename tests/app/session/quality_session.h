@@ -4,8 +4,10 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace isochron::app {
 
@@ -20,6 +22,18 @@ class SessionQuality : public SessionTest {
         config.quality.frame_budget_ms = budget_ms;
         config.quality.still_budget_ms = 0;
         return config;
+    }
+    /// No frame holds the surface, so that it comes in parts.
+    Config config_in_parts() const {
+        Config config = config_with(kNothing);
+        config.quality.still_budget_ms = 500;
+        return config;
+    }
+    static bool is_exact(const FrameReport& frame) {
+        return frame.final && frame.footprint == render::Footprint::surface;
+    }
+    static std::vector<std::uint8_t> shown(const Session& session) {
+        return session.outputs().display().read_window().rgba;
     }
     interaction::Seconds now() const { return interaction::Seconds(frame_ / kRate); }
 

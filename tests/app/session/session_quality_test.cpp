@@ -29,7 +29,7 @@ bool is_best(const FrameReport& frame) {
 }
 
 std::ptrdiff_t frames_with(const Session& session, Footprint footprint) {
-    return std::ranges::count(session.log().frames(), footprint, &FrameReport::footprint);
+    return static_cast<std::ptrdiff_t>(session.log().frames_with(footprint));
 }
 
 TEST_P(SessionQuality, WithinTheBudgetASettledPictureEndsAtTheBestAndIsThenLeftAlone) {
@@ -131,7 +131,7 @@ TEST_P(SessionQuality, AHeadThatSwaysEndsAtTheExactSurfaceThoughItIsGuessedTooDe
     EXPECT_EQ(frames_with(session, Footprint::gaussian), 0) << "which may take too long";
     sways();
     EXPECT_EQ(report.footprint, Footprint::surface);
-    // What is drawn unseen leaves nothing in what is shown.
+    // What is drawn ahead leaves nothing in what is shown.
     Session whole(config, file_, *context_);
     for (int i = 0; i < 60; ++i) {
         interaction::InputState input = head_at_rest(i / kRate);
@@ -199,10 +199,11 @@ TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
         rest_until(session, [](const FrameReport& frame) {
             return frame.footprint == Footprint::surface && frame.final;
         });
-        EXPECT_EQ(mesh_bytes(session) > 0,
-                  std::ranges::any_of(session.log().frames(), [](const FrameReport& frame) {
-                      return frame.footprint == Footprint::mesh;
-                  }));
+        const bool drawn =
+            std::ranges::any_of(session.log().frames(), [](const FrameReport& frame) {
+                return frame.footprint == Footprint::mesh;
+            });
+        EXPECT_TRUE(mesh_bytes(session) > 0 || !drawn) << "they may also come at rest";
         Commands fast;
         fast.quality = interaction::QualityMode::fast;
         fast.step = 2;

@@ -221,21 +221,27 @@ TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheS
     Config config = config_with(1e-6);
     config.quality.still_budget_ms = 2;
     const index::Extract real = extract();
-    std::atomic<bool> all_found = false;
-    Session session(config, large_, *context_,
-                    [&](const index::SurfacesQuery& query, std::stop_token stop) {
-                        index::ExtractionPtr set = real(query, stop);
-                        if (set && query.detail.at_rest && !set->coarse())
-                            all_found = true;
-                        return set;
-                    });
+    std::atomic<bool> all_asked = false, all_found = false;
+    Session session(
+        config, large_, *context_, [&](const index::SurfacesQuery& query, std::stop_token stop) {
+            constexpr std::uint64_t kMany = 1'000'000; // more than there are
+            all_asked = all_asked || (query.detail.at_rest && query.detail.most_cells >= kMany);
+            index::ExtractionPtr set = real(query, stop);
+            if (set && query.detail.at_rest && !set->coarse())
+                all_found = true;
+            return set;
+        });
     session.share_frames(std::make_unique<KnownTimes>());
     FrameReport report = first_frame(session, false);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
         return report.in_parts && report.cells > 15'000 && report.coarsest > 0;
     })) << "the first set at rest, of 18,524 cells";
-    report = frame(session, false);
+    ASSERT_TRUE(test_support::eventually([&] { // which waits for what is on its way
+        if (!all_asked)
+            report = frame(session, false);
+        return all_asked.load();
+    }));
     ASSERT_NE(report.footprint, report.in_parts) << "a piece in each frame";
     ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
     int coarse = 0; // pictures in parts

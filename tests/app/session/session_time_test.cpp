@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -123,6 +125,112 @@ TEST_P(SessionTime, ASavedSessionKeepsThem) {
     const auto path = folder_.path() / "kept.isochron-session";
     save_session(path, {"isochron test", "sphere", "00", session.state().as_commands(), {}});
     EXPECT_EQ(state_of(read_session(path), {}, "00", 6, "kept"), session.state());
+}
+
+/// Sum of the differences of all colors.
+std::uint64_t change_between(const render::Image& a, const render::Image& b) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        sum += static_cast<std::uint64_t>(std::abs(int{a.rgba[i]} - int{b.rgba[i]}));
+    return sum;
+}
+
+TEST_P(SessionTime, NothingJumpsAtAStepAndAMomentThatIsAStepIsItsPicture) {
+    Config config = small_config();
+    config.quality.settled = render::Footprint::surface;
+    Session session(config, file_, *context_);
+    double now = 0;
+    const auto picture = [&](interaction::BetweenSteps between, index::Instant at) {
+        Commands commands;
+        commands.between = between;
+        commands.bounding_box = false;
+        commands.isovalue = 8.0;
+        commands.step = at.step;
+        commands.fraction = at.fraction;
+        for (int i = 0; i < 40; ++i) {
+            session.frame(head_at_rest(now += 0.1), commands, Waiting::for_cells);
+            commands = {};
+            if (session.log().frames().back().final)
+                break;
+        }
+        EXPECT_EQ(session.log().frames().back().shown->step, at);
+        return session.outputs().display().read_eye(stereo::Eye::left);
+    };
+    constexpr std::uint32_t kEach = index::Instant::kFractions / 16; // at a tenth of the speed
+    std::vector<std::uint64_t> changes;
+    std::uint64_t into = 0, out_of = 0;
+    render::Image before = picture(interaction::BetweenSteps::blend, {1, 8 * kEach});
+    for (std::uint32_t i = 9; i <= 24; ++i) {
+        const index::Instant at(1 + i / 16, i % 16 * kEach);
+        const render::Image after = picture(interaction::BetweenSteps::blend, at);
+        changes.push_back(change_between(before, after));
+        if (i == 16)
+            into = changes.back();
+        if (i == 17)
+            out_of = changes.back();
+        if (!at.between())
+            EXPECT_EQ(picture(interaction::BetweenSteps::hold, at).rgba, after.rgba);
+        before = after;
+    }
+    std::ranges::nth_element(changes, changes.begin() + changes.size() / 2);
+    const auto median = static_cast<double>(changes[changes.size() / 2]);
+    EXPECT_GT(median, 0);
+    EXPECT_LE(static_cast<double>(std::max(into, out_of)), 1.5 * median);
+    // The last moment before a step shows what the step shows.
+    const auto last =
+        picture(interaction::BetweenSteps::blend, {1, index::Instant::kFractions - 1});
+    const auto step = picture(interaction::BetweenSteps::blend, {2});
+    EXPECT_LE(static_cast<double>(change_between(last, step)), 0.1 * median);
+}
+
+TEST_P(SessionTime, MomentsBetweenStepsAreShownRecordedReplayedAndUndone) {
+    Session session(small_config(), file_, *context_);
+    Player player(session);
+    player.tap(static_cast<Key>('T')); // blends
+    player.tap(Key::space, false);
+    std::vector<index::Instant> shown;
+    for (int i = 0; i < 40; ++i) {
+        player.frame();
+        shown.push_back(session.log().frames().back().shown->step);
+    }
+    EXPECT_GT(std::ranges::count_if(shown, &index::Instant::between), 20);
+    for (std::size_t i = 1; i < shown.size(); ++i)
+        EXPECT_NE(shown[i], shown[i - 1]); // every frame has its moment
+
+    Session again(small_config(), file_, *context_);
+    again.set_state(start_of(player.recording().header, again.state(), 6, {}));
+    std::vector<index::Instant> replayed;
+    const auto different = replay_fixed_step(
+        again, player.recording(), {.from_devices = true, .stereo = {}, .quality = {}},
+        [&](std::size_t, const interaction::RecordedFrame&) {
+            replayed.push_back(again.log().frames().back().shown->step);
+        });
+    EXPECT_THAT(different, testing::IsEmpty());
+    EXPECT_TRUE(std::equal(shown.begin(), shown.end(),
+                           replayed.end() - static_cast<std::ptrdiff_t>(shown.size())));
+    EXPECT_EQ(again.state(), session.state());
+
+    player.tap(Key::space, false); // stops
+    Commands there;
+    there.step = 4;
+    there.fraction = 555;
+    Commands next;
+    next.step = 2;
+    session.frame(head_at_rest(100), there, Waiting::for_cells);
+    session.frame(head_at_rest(101), next, Waiting::for_cells);
+    EXPECT_EQ(session.state().instant(), index::Instant(2));
+    const ExplorerState now = session.state();
+    ExplorerState before = now;
+    before.step = 4;
+    before.fraction = 555;
+    ExplorerState undone = now;
+    undone.apply(now.commands_to(before), 6);
+    EXPECT_EQ(undone.instant(), index::Instant(4, 555));
+    undone.quality = interaction::QualityMode::paper;
+    EXPECT_EQ(undone.instant(), index::Instant(4));
+    undone.quality = interaction::QualityMode::automatic;
+    undone.steps = 5; // the last one that the session knows holds
+    EXPECT_EQ(undone.instant(), index::Instant(4));
 }
 
 } // namespace

@@ -20,6 +20,7 @@ class ChangingSeries final : public index::VolumeSeries {
     /// @param stay for each step but the first: the share of the chunks with cells that stay
     ChangingSeries(std::uint32_t size, double cells, std::vector<double> stay, Changing changing);
 
+    void call(const char* array) { info_.array = array; }
     const index::SeriesInfo& info() const override { return info_; }
     void read(std::size_t step, std::span<std::byte> out) override;
 

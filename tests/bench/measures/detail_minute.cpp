@@ -107,6 +107,8 @@ Minute measure_minute(const std::shared_ptr<const index::IndexFile>& file,
     app::Session session(config, file, *context);
     const Script script{options.low, options.high,
                         static_cast<std::uint32_t>(file->info().steps())};
+    if (!options.report.empty())
+        session.log().report_to(options.report);
     session.warm_up();
     session.frame(input_at(0, 0, 0), script.commands(0, 0), app::Waiting::never);
     const auto started = Clock::now();
@@ -137,7 +139,7 @@ Minute measure_minute(const std::shared_ptr<const index::IndexFile>& file,
             started + std::chrono::duration_cast<Clock::duration>(Seconds(time + 1 / kRate)));
     }
     if (!options.report.empty())
-        session.log().write(options.report, session.drawing(), session.reading());
+        session.log().finish_report(session.drawing(), session.reading());
     return {scripted.summary(), control.summary(), std::move(late)};
 }
 

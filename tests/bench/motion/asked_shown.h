@@ -32,6 +32,12 @@ class AskedShown {
             break;
         }
     }
+    /// Of a motion that asks for no other cells: what the eyes see follows the input of the same
+    /// frame.
+    void add_moved(const app::FrameReport& frame, double done) {
+        if (frame.redrawn)
+            milliseconds_.push_back(1e3 * (done - frame.time.count()));
+    }
     const std::vector<double>& milliseconds() const { return milliseconds_; }
     std::size_t unanswered() const { return asked_.size() - answered_; }
     /// Empty if nothing was asked for and shown.

@@ -151,6 +151,8 @@ std::vector<MotionCase> cases_of(const CaseOptions& options) {
                  .budgets = {kBudgetOfWindow},
                  .motions = data.name == "192"
                                 ? std::vector{Motion::sway, Motion::orbit, Motion::scrub}
+                            : data.name == "demo" // what a hand does, from input to picture
+                                ? std::vector{Motion::orbit, Motion::scrub, Motion::jump_on}
                                 : std::vector{Motion::orbit},
                  .window = true});
         if (data.name == "192")

@@ -171,7 +171,10 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
         const bool keeps = next < moments.size() && at >= moments[next];
         const double moment = keeps ? moments[next] : std::min(at, options_.seconds);
         const FrameReport& report = frame(script, moment, script.commands(moment));
-        asked.add(report, now());
+        if (asks_for_cells(motion))
+            asked.add(report, now());
+        else
+            asked.add_moved(report, now());
         counted.add(report);
         if (keeps) {
             const double reads = now();
@@ -188,7 +191,8 @@ Played Player::play(Motion motion, const app::ExplorerState& start) {
     double settled = moved;
     while (!exact && now() < moved + options_.longest_rest) {
         const FrameReport& report = frame(script, options_.seconds, {});
-        asked.add(report, now());
+        if (asks_for_cells(motion))
+            asked.add(report, now());
         if (report.pace == interaction::Pace::moving)
             settled = report.time.count();
         if (report.pace != interaction::Pace::moving && is_final())

@@ -25,6 +25,10 @@ inline constexpr std::array<std::string_view, 5> kMotionNames{"sway", "walk-in",
 inline std::string_view name_of(Motion motion) {
     return kMotionNames[static_cast<std::size_t>(motion)];
 }
+/// Whether it asks for other cells; else the same ones are seen from elsewhere.
+inline bool asks_for_cells(Motion motion) {
+    return motion == Motion::scrub || motion == Motion::jump_on;
+}
 /// @param name one of kMotionNames
 Motion motion_from_name(std::string_view name);
 

@@ -74,12 +74,12 @@ std::string loads(const std::vector<MotionRow>& rows) {
     return fmt::format("{:.1f} to {:.1f}", low.load, high.load);
 }
 
-/// The data of which there is a row of pictures on the sheet.
-std::string on_sheet(const std::vector<MotionRow>& rows) {
+/// The data of which there is a row of pictures on the sheet, or the motions that are its columns.
+std::string on_sheet(const std::vector<MotionRow>& rows, std::string MotionRow::*name) {
     std::vector<std::string> names;
     for (const MotionRow& row : rows)
-        if (is_on_sheet(row) && std::ranges::find(names, row.data) == names.end())
-            names.push_back(row.data);
+        if (is_on_sheet(row) && std::ranges::find(names, row.*name) == names.end())
+            names.push_back(row.*name);
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -99,11 +99,12 @@ std::string motion_section(const MotionResults& results, const std::string& sour
     text += motion_goals_table(results.rows) + "\n";
     if (!sheet.empty())
         text += fmt::format("## Moving above settled\n\nOf each motion the picture that is least "
-                            "like its settled one, at 33 ms: from left to right sway, walk-in, "
-                            "orbit, scrub and jump-on; from above {}.\n\n"
+                            "like its settled one, at 33 ms: from left to right {}; from above "
+                            "{}.\n\n"
                             "![Moving pictures above the settled pictures of the same "
                             "views]({})\n\n",
-                            on_sheet(results.rows), sheet);
+                            on_sheet(results.rows, &MotionRow::motion),
+                            on_sheet(results.rows, &MotionRow::data), sheet);
     text += "## Every motion\n\n"
             "| data | picture | ms | motion | recognizable | lit | IoU | lum | blocks | pixels | "
             "pictures/s | frame ms | > 2x | > 3x | asked to shown ms | exact ms | busy | cells "

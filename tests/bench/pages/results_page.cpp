@@ -5,6 +5,7 @@
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/pages/agreement_rows.h"
 #include "tests/bench/pages/artifact_page.h"
+#include "tests/bench/pages/change_page.h"
 #include "tests/bench/pages/first_page.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/motion_page.h"
@@ -180,7 +181,9 @@ std::string results_page(const Results& results, const ResultPaths& paths) {
     const std::initializer_list<std::pair<const char*, const std::string&>> options{
         {" --render ", paths.render},       {" --artifacts ", paths.artifacts},
         {" --scale ", paths.scale},         {" --gpu ", paths.gpu},
-        {" --agreement ", paths.agreement}, {" --motion ", paths.motion}};
+        {" --agreement ", paths.agreement}, {" --motion ", paths.motion},
+        {" --building ", paths.building},   {" --change ", paths.change},
+        {" --between ", paths.between},     {" --public ", paths.public_files}};
     for (const auto& [option, path] : options)
         if (!path.empty())
             command += option + path;
@@ -256,6 +259,22 @@ std::string gpu_section(const std::string& lines, const std::string& path) {
         path, lines);
 }
 
+/// The section with what the comparison of public files printed, unchanged.
+std::string public_section(const std::string& lines, const std::string& path) {
+    return fmt::format(
+        "\n# Public files, read\n\n"
+        "What `tests/index/conformance/public.py check` printed, kept in `{}`: the files that "
+        "`tests/index/conformance/PUBLIC.tsv` names, at its commits. *Read right*: vertices, "
+        "spacing, times and the numbers of active cells of three isovalues are those of an "
+        "independent decode (nibabel, pydicom, netCDF4, tifffile, h5py, VTK, numpy), *refused*: "
+        "the "
+        "file is no volume, and the one line that says so names the cause that is written down. "
+        "The words of refusals were taken from the program; files of VTK are decoded by VTK; no "
+        "Zarr, XDMF, BOV, CGNS, OpenFOAM or OME-TIFF is among them.\n\n"
+        "```\n{}```\n",
+        path, lines);
+}
+
 } // namespace
 
 ResultsPage whole_page(const ResultPaths& paths,
@@ -287,6 +306,14 @@ ResultsPage whole_page(const ResultPaths& paths,
     if (!paths.motion.empty())
         tables += motion_section(motion_from_json(read(paths.motion), paths.motion), paths.motion,
                                  "pictures/motion.jpg");
+    if (!paths.building.empty())
+        tables += building_section(read(paths.building), paths.building);
+    if (!paths.change.empty())
+        tables += change_section(read(paths.change), paths.change);
+    if (!paths.between.empty())
+        tables += between_section(read(paths.between), paths.between);
+    if (!paths.public_files.empty())
+        tables += public_section(read(paths.public_files), paths.public_files);
     const std::vector<PageFigure> figures = figures_of(input);
     ResultsPage page{first_page(figures, kCharts) + tables, {}};
     for (const PageFigure& figure : figures)

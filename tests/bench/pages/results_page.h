@@ -11,7 +11,9 @@ namespace isochron::bench {
 
 /// Files of results, by their names on the page; empty: that part is left out.
 struct ResultPaths {
-    std::string index, render, artifacts, scale = {}, gpu = {}, agreement = {}, motion = {};
+    std::string index, render, artifacts, scale = {}, gpu = {}, agreement = {}, motion = {},
+                                          building = {}, change = {}, between = {},
+                                          public_files = {};
 };
 
 /// The page in Markdown, and the charts that it shows by their paths from the folder of the page.

@@ -89,7 +89,10 @@ TEST_F(BenchCommand, MeasuresAGivenIndex) {
 TEST_F(BenchCommand, SaysWhatIsWrong) {
     for (const auto& [arguments, status, what] :
          std::vector<std::tuple<std::vector<std::string>, int, std::string>>{
-             {{}, 2, "expected index, render, artifacts, change, detail, motion, results, scale"},
+             {{},
+              2,
+              "expected index, render, artifacts, between, building, change, detail, motion, "
+              "results, scale"},
              {{"index", "no.isochron"}, 1, "no.isochron"},
              {{"index", "--data", "cube"}, 2, "cube"},
              {{"index", "--lattice", "0"}, 2, "lattice"},

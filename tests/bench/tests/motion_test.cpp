@@ -164,6 +164,18 @@ TEST(AskedShown, MeasuresUntilAQueryOrANewerOneIsShown) {
     EXPECT_EQ(asked.unanswered(), 0u);
 }
 
+TEST(AskedShown, OfAMotionThatAsksForNothingTheFrameIsTheAnswer) {
+    AskedShown asked;
+    app::FrameReport frame;
+    for (const double at : {1.0, 2.0, 3.0}) {
+        frame.time = interaction::Seconds(at);
+        frame.redrawn = at != 2.0;
+        asked.add_moved(frame, at + 0.025);
+    }
+    EXPECT_EQ(asked.milliseconds().size(), 2u);
+    EXPECT_NEAR(*asked.percentile(95), 25, 1e-6);
+}
+
 TEST(AskedShown, ALevelOfDetailIsAnAnswer) {
     AskedShown asked;
     asked.add(report(0.0, 1, 1), 0.01);

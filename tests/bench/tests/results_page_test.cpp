@@ -1,6 +1,8 @@
 // The page of results is the one that the committed figures give, and says what they say.
+#include "index/error.h"
 #include "tests/bench/measures/artifacts.h"
 #include "tests/bench/pages/bar_chart.h"
+#include "tests/bench/pages/change_page.h"
 #include "tests/bench/pages/first_page.h"
 #include "tests/bench/pages/goals.h"
 #include "tests/bench/pages/render_goals.h"
@@ -28,6 +30,11 @@ std::string read(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// The name of a file of results; empty where it is not there.
+std::string if_committed(const std::string& path) {
+    return std::filesystem::exists(test_support::source_root() + "/" + path) ? path : "";
+}
+
 const ResultPaths& committed_results() {
     static const ResultPaths paths{.index = "docs/results/index.json",
                                    .render = "docs/results/render.json",
@@ -35,7 +42,11 @@ const ResultPaths& committed_results() {
                                    .scale = "docs/results/scale.txt",
                                    .gpu = "docs/results/gpu.txt",
                                    .agreement = "docs/results/agreement.json",
-                                   .motion = "docs/results/motion.json"};
+                                   .motion = "docs/results/motion.json",
+                                   .building = if_committed("docs/results/building.json"),
+                                   .change = if_committed("docs/results/change.json"),
+                                   .between = if_committed("docs/results/between.json"),
+                                   .public_files = "docs/results/public.txt"};
     return paths;
 }
 
@@ -45,7 +56,11 @@ TEST(ResultsPage, IsTheOneOfTheCommittedFigures) {
     const std::string how = "make it again: ./run bench results " + paths.index + " --render " +
                             paths.render + " --artifacts " + paths.artifacts + " --scale " +
                             paths.scale + " --gpu " + paths.gpu + " --agreement " +
-                            paths.agreement + " --motion " + paths.motion + " -o docs/RESULTS.md";
+                            paths.agreement + " --motion " + paths.motion +
+                            (paths.building.empty() ? "" : " --building " + paths.building) +
+                            (paths.change.empty() ? "" : " --change " + paths.change) +
+                            (paths.between.empty() ? "" : " --between " + paths.between) +
+                            " --public " + paths.public_files + " -o docs/RESULTS.md";
     EXPECT_EQ(page.text, read("docs/RESULTS.md")) << how;
     for (const auto& [name, chart] : page.charts)
         EXPECT_EQ(chart, read("docs/" + name)) << how;
@@ -223,6 +238,20 @@ TEST(RenderGoals, SpeakOfTwoCoresAndOnePicture) {
     EXPECT_THAT(table(), HasSubstr("of all, sphere | 20 % | 40 % | 10.8 % | goal reached |"));
     row.threads = 1;
     EXPECT_THAT(table(), HasSubstr("fast quads, sphere, 512^2 | 600 fps | 250 fps | - |"));
+}
+
+TEST(ChangePage, HasARowForEachTypeAndEachChange) {
+    const std::string building = R"({"commit": "c", "processor": "p", "size": 64, "rows": [{
+        "what": "f32, smooth", "index_over_data": 0.75, "zstd_over_data": 0.875,
+        "build_seconds": 0.05, "zstd_seconds": 0.025, "over_zstd": 2.0}]})";
+    EXPECT_THAT(building_section(building, "b.json"),
+                HasSubstr("| f32, smooth | 0.750 | 0.875 | 50.0 | 25.0 | 2.00 |"));
+    const std::string change = R"({"commit": "c", "processor": "p", "load": "1.0", "rows": [{
+        "what": "90 % stay", "use": "with planes", "again": true, "cells": 90, "kept_ms": 1.5,
+        "anew_ms": 3, "alone_ms": 6, "over_anew": 0.5, "over_alone": 0.25, "floor": 0.35}]})";
+    EXPECT_THAT(change_section(change, "c.json"),
+                HasSubstr("| 90 % stay | with planes | again | 90 | 1.50 | 0.50 | 0.25 | 0.35 |"));
+    EXPECT_THROW(change_section(building, "b.json"), index::Error);
 }
 
 TEST(RenderGoals, CompareASurfaceWithSplatsOfTheSamePicture) {

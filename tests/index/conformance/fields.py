@@ -185,9 +185,12 @@ for field, text in [("unit", "unit=mm\n"), ("yunit", "unit=um\nyunit=nm\n"), ("z
                     ("spacing", "unit=um\nspacing=3\n"), ("xorigin", "unit=um\nxorigin=10\n"),
                     ("yorigin", "unit=um\nyorigin=10\n"), ("zorigin", "unit=um\nzorigin=2\n"),
                     ("cf, c0 and c1", "unit=um\ncf=0\nc0=-32768.0\nc1=2.0\n"), ("cf (curves)", "unit=um\ncf=4\nc0=1\nc1=2\n"),
-                    ("vunit", "unit=um\ncf=0\nc0=0\nc1=1\nvunit=HU\n"), ("inverty", "unit=um\ninverty=true\n")]:
+                    ("vunit", "unit=um\ncf=0\nc0=0\nc1=1\nvunit=HU\n"), ("inverty", "unit=um\ninverty=true\n"),
+                    ("fps", "unit=um\nfps=4.0\n")]:
     add("ImageJ", field, plain, imagej(text))
 add("ImageJ", "XResolution", plain, imagej("unit=um\n", resolution=(8, 2)))
+add("ImageJ", "IJMetadata", tiff(description="ImageJ=1.53t\nimages=4\nslices=4\n"), tiff(description="ImageJ=1.53t\nimages=4\nslices=4\n", extratags=[
+    (50838, "I", 2, (12, 8), True), (50839, "B", 20, b"IJIJlabl\0\0\0\1" + b"\0a\0b\0c\0d", True)]))
 hyper = "ImageJ=1.53t\nimages=4\nunit=um\n"
 stack = tiff(description=hyper)
 add("ImageJ", "slices, frames and channels", stack, tiff(description=hyper + "slices=2\nframes=2\n"))
@@ -225,11 +228,14 @@ add("OME-TIFF", "Plane PositionX", plain, ome(inside='<Plane TheC="0" TheT="0" T
 add("OME-TIFF", "StageLabel", plain, ome(image='<StageLabel Name="s" X="3"/>'))
 
 
-# ---- OME-Zarr 0.4
+# ---- OME-Zarr 0.4, of version 2 of Zarr, which zarr 3 writes where it is asked to
+VERSION_2 = dict(zarr_format=2) if int(zarr.__version__.split(".")[0]) >= 3 else {}
+
+
 def ngff(units=("micrometer",) * 3, scale=(1, 1, 1), translation=None, image=None, axes="zyx"):
     name = path(".zarr")
-    group = zarr.open_group(full(name), "w")
-    group.create_dataset("0", data=values.astype("f4"), chunks=(2, 5, 6))
+    group = zarr.open_group(full(name), mode="w", **VERSION_2)
+    group.create_dataset("0", shape=values.shape, data=values.astype("f4"), chunks=(2, 5, 6), dtype="f4")
     transforms = [{"type": "scale", "scale": list(scale)}]
     if translation:
         transforms.append({"type": "translation", "translation": list(translation)})

@@ -7,6 +7,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk
 
+from cgns_files import node, words, write_zone
 from field_files import add, done, full, path, values
 
 mesh = dict(resample=[4, 4, 4])
@@ -286,5 +287,71 @@ add(kind, "coordx", plain, exodus(lambda data: data["coordx"].__setitem__(slice(
 add(kind, "time_whole", plain, exodus(lambda data: data["time_whole"].__setitem__(0, 3.)), **mesh)
 add(kind, "side sets", plain, exodus(side_set), **mesh)
 add(kind, "node sets", plain, exodus(node_set), **mesh)
+
+
+# ---- CGNS
+def cgns(scale=1, data=1, where="Vertex", rind=0, **more):
+    def density(x, y, z):
+        at_vertices = np.pad(data * (x + y + z), rind, constant_values=-99)
+        return at_vertices if where == "Vertex" else at_vertices[:2, :3, :4]
+
+    name = path(".cgns")
+    write_zone(full(name), scale, density, where, **more)
+    return name
+
+
+def iterative(base):
+    times = node(base, "Times", "BaseIterativeData_t", "I4", np.array([1], "i4"))
+    node(times, "TimeValues", "DataArray_t", "R8", np.array([2.5]))
+
+
+kind, plain = "CGNS", cgns()
+add(kind, "GridCoordinates_t", plain, cgns(scale=2), **mesh)
+add(kind, "DataArray_t", plain, cgns(data=2), **mesh)
+add(kind, "GridLocation_t", plain, cgns(where="CellCenter"), **mesh)
+add(kind, "BaseIterativeData_t", plain, cgns(of_base=iterative), **mesh)
+for label in ["DimensionalUnits_t", "DataClass_t", "ReferenceState_t", "FlowEquationSet_t", "ConvergenceHistory_t",
+              "Axisymmetry_t", "Gravity_t", "Descriptor_t", "Family_t", "IntegralData_t", "UserDefinedData_t"]:
+    add(kind, label, plain, cgns(of_base=lambda base: node(base, "More", label, "C1", words("unusual"))), **mesh)
+for label in ["ZoneBC_t", "ZoneGridConnectivity_t", "RigidGridMotion_t", "ArbitraryGridMotion_t", "RotatingCoordinates_t"]:
+    add(kind, label, plain, cgns(of_zone=lambda zone: node(zone, "More", label, "MT")), **mesh)
+for label in ["DataConversion_t", "DimensionalExponents_t"]:
+    add(kind, label, plain, cgns(of_zone=lambda zone: node(zone["Solution"]["Density"], "More", label, "R8", np.ones(2))), **mesh)
+add(kind, "Rind_t", plain,
+    cgns(rind=1, of_zone=lambda zone: node(zone["Solution"], "Rind", "Rind_t", "I4", np.ones(6, "i4"))), same=True, **mesh)
+
+
+# ---- AMReX: a level of 4 x 4 x 4 cells
+def amrex(array="rho", time="0.5", low="0 0 0", high="1 1 1", system="0", level_steps="0", scale=1,
+          more=()):
+    folder = os.path.dirname(path(""))
+    os.makedirs(full(f"{folder}/Level_0"))
+    box = "((0,0,0) (3,3,3) (0,0,0))"
+    first, last = ([float(v) for v in text.split()] for text in (low, high))
+    spacing = " ".join(str((b - a) / 4) for a, b in zip(first, last))
+    sides = "\n".join(f"{a} {b}" for a, b in zip(first, last))
+    cells = scale * np.arange(64.0)
+    texts = {"Header": f"HyperCLaw-V1.1\n1\n{array}\n3\n{time}\n0\n{low}\n{high}\n\n{box}\n{level_steps}\n{spacing}\n"
+                       f"{system}\n0\n0 1 {time}\n{level_steps}\n{sides}\nLevel_0/Cell\n",
+             "Level_0/Cell_H": f"1\n1\n1\n0\n(1 0\n{box}\n)\n1\nFabOnDisk: Cell_D_00000 0\n\n1,1\n0,\n\n1,1\n{cells[-1]},\n",
+             **{name: "text\n" for name in more}}
+    for name, text in texts.items():
+        with open(full(f"{folder}/{name}"), "w") as out:
+            out.write(text)
+    with open(full(f"{folder}/Level_0/Cell_D_00000"), "wb") as out:
+        out.write(f"FAB ((8, (64 11 52 0 1 12 0 1023)),(8, (8 7 6 5 4 3 2 1))){box} 1\n".encode() + cells.tobytes())
+    return folder + "/Header"
+
+
+kind, plain = "AMReX", amrex()
+add(kind, "variables", plain, amrex(array="T"), **mesh)
+add(kind, "time", plain, amrex(time="2.5"), **mesh)
+add(kind, "prob_lo", plain, amrex(low="-1 0 0"), **mesh)
+add(kind, "prob_hi", plain, amrex(high="2 1 1"), **mesh)
+add(kind, "FAB", plain, amrex(scale=2), **mesh)
+add(kind, "coordinate system", plain, amrex(system="1"), **mesh)
+add(kind, "level_steps", plain, amrex(level_steps="7"), **mesh)
+add(kind, "job_info", plain, amrex(more=["job_info"]), **mesh)
+add(kind, "particles", plain, amrex(more=["particles"]), **mesh)
 
 done("fields")

@@ -357,7 +357,7 @@ def judge(program, path, row, folder):
 def check(program, root, table=TABLE):
     keys = ["repository", "commit", "path", "licence", "options", "vertices", "spacing", "times", "isovalues", "cells"]
     rows = [dict(zip(keys, line.rstrip("\n").split("\t"))) for line in open(table) if not line.startswith("#")]
-    found = collections.Counter()
+    found, by_repository = collections.Counter(), collections.defaultdict(collections.Counter)
     with tempfile.TemporaryDirectory() as folder:
         for row in rows:
             path = os.path.join(root, row["repository"].replace("/", "+"), row["path"])
@@ -365,10 +365,14 @@ def check(program, root, table=TABLE):
                 found["not there"] += 1
                 continue
             said = judge(program, path, row, folder)
-            found["read right" if not said else said if said == "refused" else "wrong"] += 1
+            result = "read right" if not said else said if said == "refused" else "wrong"
+            found[result] += 1
+            by_repository[row["repository"]][result] += 1
             if said and said != "refused":
                 print(f"{row['repository']} {row['path']}: {said}")
-    print(", ".join(f"{count} {what}" for what, count in sorted(found.items())))
+    for repository, counts in sorted(by_repository.items()):
+        print(f"{repository:<34}" + ", ".join(f"{count:>3} {what}" for what, count in sorted(counts.items())))
+    print("all: " + ", ".join(f"{count} {what}" for what, count in sorted(found.items())))
     return found["wrong"] > 0 or not (found["read right"] or found["refused"])
 
 

@@ -4,11 +4,11 @@ import os
 import shutil
 import struct
 
-import h5py
 import numpy as np
 import vtk
 from vtk.util.vtkAlgorithm import VTKPythonAlgorithmBase
 
+from cgns_files import write_zone
 from manifest import done, expect, path, refuse
 
 
@@ -229,41 +229,11 @@ expect(["plt00000", "plt00001"], np.array([of_cells(12, t) for t in (0.25, 0.75)
        spacing=(1 / 11, 1 / 11, 1 / 11), kind="within", array="rho", resample=[12, 12, 12])
 expect("plt00000", of_cells(12, 0.25), times=[0.25], spacing=(1 / 11, 1 / 11, 1 / 11), kind="within", array="rho",
        resample=[12, 12, 12])
+write("flat/Header", "HyperCLaw-V1.1\n1\nrho\n2\n0.25\n0\n0 0\n1 1\n\n((0,0) (7,7) (0,0))\n0\n0.125 0.125\n0\n0\n")
+refuse("flat", "a plotfile of 2 dimensions, expected 3", resample=[4, 4, 4])
 
 
-# CGNS on HDF5: a structured zone of 5 x 4 x 3 vertices.
-def node(parent, name, label, kind, data=None):
-    group = parent.create_group(name, track_order=True)
-    group.attrs.create("name", np.bytes_(name.ljust(32, "\0")), dtype="S33")
-    group.attrs.create("label", np.bytes_(label.ljust(32, "\0")), dtype="S33")
-    group.attrs.create("type", np.bytes_(kind), dtype="S3")
-    group.attrs.create("flags", np.array([1], "i4"))
-    if data is not None:
-        group.create_dataset(" data", data=data)
-    return group
-
-
-def text(value):
-    return np.frombuffer(value.encode(), "i1")
-
-
-with h5py.File(path("zone.cgns"), "w", track_order=True, libver=("earliest", "v108")) as file:
-    file.attrs.create("name", np.bytes_("HDF5 MotherNode".ljust(32, "\0")), dtype="S33")
-    file.attrs.create("label", np.bytes_("Root Node of HDF5 File".ljust(32, "\0")), dtype="S33")
-    file.attrs.create("type", np.bytes_("MT"), dtype="S3")
-    file.create_dataset(" format", data=text("IEEE_LITTLE_32"))
-    file.create_dataset(" hdf5version", data=text("HDF5 Version 1.10.8".ljust(33, "\0")))
-    node(file, "CGNSLibraryVersion", "CGNSLibraryVersion_t", "R4", np.array([3.3], "f4"))
-    base = node(file, "Base", "CGNSBase_t", "I4", np.array([3, 3], "i4"))
-    zone = node(base, "Zone", "Zone_t", "I4", np.array([[5, 4, 3], [4, 3, 2], [0, 0, 0]], "i4"))
-    node(zone, "ZoneType", "ZoneType_t", "C1", text("Structured"))
-    places = node(zone, "GridCoordinates", "GridCoordinates_t", "MT")
-    z, y, x = np.meshgrid(np.arange(3.0), np.arange(4.0), 2 * np.arange(5.0), indexing="ij")
-    for name, at in zip("XYZ", (x, y, z)):
-        node(places, "Coordinate" + name, "DataArray_t", "R8", at)
-    solution = node(zone, "Solution", "FlowSolution_t", "MT")
-    node(solution, "GridLocation", "GridLocation_t", "C1", text("Vertex"))
-    node(solution, "Density", "DataArray_t", "R8", linear(x, y, z))
+write_zone(path("zone.cgns"), 2, linear)
 expect("zone.cgns", grid_values((9, 4, 5), (1, 1, 0.5)), spacing=(1, 1, 0.5), kind="within", array="Density",
        resample=[9, 4, 5])
 done()

@@ -127,7 +127,8 @@ for number, (counts, cell) in enumerate((((8, 8, 8), 1), ((8, 16, 16), 0.5))):
     levels.SetSpacing(number, [cell] * 3)
     levels.SetAMRBox(number, 0, vtk.vtkAMRBox([0, 0, 0], grid.GetDimensions(), [cell] * 3, [0, 0, 0], vtk.VTK_XYZ_GRID))
     levels.SetDataSet(number, 0, grid)
-write(vtk.vtkXMLUniformGridAMRWriter(), levels, "levels.vth")
+for name in ["levels.vth", "boxes.vthb"]:
+    write(vtk.vtkXMLUniformGridAMRWriter(), levels, name)
 at = 8 * np.arange(12) / 11  # between the borders of cells
 z, y, x = np.meshgrid(at, at, at, indexing="ij")
 cell = np.where(x < 4, 0.5, 1)
@@ -137,5 +138,6 @@ def center(v):
     return np.minimum(np.floor(v / cell), 8 / cell - 1) * cell + cell / 2
 
 
-expect("levels.vth", center(x) + 2 * center(y) - 3 * center(z), spacing=[8 / 11] * 3, kind="within", resample=[12] * 3)
+for name in ["levels.vth", "boxes.vthb"]:
+    expect(name, center(x) + 2 * center(y) - 3 * center(z), spacing=[8 / 11] * 3, kind="within", resample=[12] * 3)
 done()

@@ -127,12 +127,19 @@ TEST(KeptExtraction, IsTheSameAsOneMadeAnewOnRandomWalksOfAllTypes) {
             {35, 21, 20}, steps, type,
             scaled(staying_field(random, turbulence(random), 0.85, steps), 60, 3));
         const StepValues values = field.view();
-        const auto file = indexed(folder, values);
-        for (const Shading shading : {Shading::none, Shading::cells}) {
+        const auto all = indexed(folder, values);
+        // There is no room for a step as a whole in the second one's cache, but for its chunks.
+        const auto some =
+            IndexFile::open(folder.path() / "a.isochron", 3 * values.step_bytes(0).size());
+        ASSERT_TRUE(all->better_whole(0));
+        ASSERT_FALSE(some->better_whole(0));
+        for (const auto& [file, shading] :
+             {std::pair(all, Shading::none), std::pair(all, Shading::cells),
+              std::pair(some, Shading::none), std::pair(some, Shading::cells)}) {
             Walk walk(random, values);
             const Extract kept = extract_from(file, std::nullopt, shading);
             ExtractionPtr before;
-            for (int i = 0; i < 720; ++i) {
+            for (int i = 0; i < tries(360); ++i) {
                 walk.next();
                 walk.query().mesh_room = shading == Shading::cells && walk.chance(2) ? 1 << 28 : 0;
                 const ExtractionPtr found = kept(walk.query(), {});
@@ -149,8 +156,8 @@ TEST(KeptExtraction, IsTheSameAsOneMadeAnewOnRandomWalksOfAllTypes) {
             }
         }
     }
-    EXPECT_GT(reused, 300'000u);
-    EXPECT_GT(changes, 1000u);
+    EXPECT_GT(reused, static_cast<std::uint64_t>(tries(300'000)));
+    EXPECT_GT(changes, static_cast<std::uint64_t>(tries(1000)));
 }
 
 /// An index with a second array and an array to color by, whose chunks change at other steps.
@@ -203,6 +210,27 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
     }
     EXPECT_GT(reused, 10'000u);
     EXPECT_GT(coarse, 10u);
+}
+
+TEST(KeptExtraction, DecodesAStepAsAWholeWhereItsIsovalueIsDragged) {
+    const TestFolder folder;
+    std::mt19937 random(test_seed());
+    // More than what is always decoded as a whole.
+    const TestField field({120, 110, 100}, 1, ValueType::f32, turbulence(random, 3));
+    const StepValues values = field.view();
+    const auto file = indexed(folder, values, {.tiers = TierSet().with(Tier::bricks)});
+    const auto other = IndexFile::open(folder.path() / "a.isochron");
+    const Extract extract = extract_from(file), anew = extract_from(other, SearchMethod::bricks);
+    const auto isovalues = quantiles(sorted_values(values), 41);
+    int as_a_whole = 0;
+    for (std::size_t i = 0; i < 24; ++i) {
+        const SurfacesQuery query{0, {isovalues[8 + i]}};
+        const ExtractionPtr found = extract(query, {});
+        as_a_whole += file->chunks().missing_bytes(0) == 0;
+        ASSERT_NO_FATAL_FAILURE(expect_same(*found, *anew(query, {}))) << i;
+        ASSERT_TRUE(as_a_whole > 0 || i < 20);
+    }
+    EXPECT_GT(as_a_whole, 3);
 }
 
 TEST(KeptExtraction, GoesOnWhereAnIndexGrows) {

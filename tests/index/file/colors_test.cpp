@@ -201,7 +201,7 @@ TEST_F(Colors, ByFirstCrossingRunInPhysicalTime) {
     const std::vector<double> times{10, 11, 20};
     const std::vector<CellId> cells{3, 0, 2, 1};
     std::vector<std::uint16_t> out(cells.size());
-    color_by_first_crossing(crossings, times, cells, out);
+    color_by_first_crossing(crossings, times, 0, cells, out);
     EXPECT_EQ(out, (std::vector<std::uint16_t>{kColorSteps / 10, 0, kNoColor, kColorSteps}));
 }
 

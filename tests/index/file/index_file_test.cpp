@@ -207,13 +207,13 @@ TEST_F(IndexFileTest, EveryKindOfHeaderDamageHasItsOwnLine) {
     std::string bytes = good;
     reseal(bytes, newer);
     EXPECT_THAT(message_of(bytes),
-                HasSubstr("file version 5, this program reads versions 3 and 4"));
+                HasSubstr("file version 6, this program reads versions 3 to 5"));
     FileHeader older = header_of(good);
     older.version = 2;
     bytes = good;
     reseal(bytes, older);
     EXPECT_THAT(message_of(bytes), HasSubstr("file version 2, this program reads versions 3 "
-                                             "and 4; isochron build"));
+                                             "to 5; isochron build"));
 
     FileHeader foreign = header_of(good);
     foreign.byte_order = 0x04030201;

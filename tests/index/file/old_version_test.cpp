@@ -121,7 +121,7 @@ class OldVersionTest : public testing::Test {
 
 TEST_F(OldVersionTest, IsRefusedInOneLineThatSaysWhatToDo) {
     EXPECT_THAT(error_of([&] { IndexFile::open(old_); }),
-                HasSubstr("old.isochron: file version 2, this program reads versions 3 and 4; "
+                HasSubstr("old.isochron: file version 2, this program reads versions 3 to 5; "
                           "isochron build"));
 }
 

@@ -212,15 +212,35 @@ TestField continued(const IndexFile& file, std::size_t more) {
     return field;
 }
 
-TEST(StayingChunks, ThatAFileOfVersion3DoesNotKnowAreStillReadAndAppendedTo) {
-    for (const char* const name : {"version3_u8.isochron", "version3_f32.isochron"}) {
+/// Whether a step has values of several bytes in packed rows, which files of version 4 have not.
+bool has_wide_rows(const IndexFile& file, std::uint32_t step) {
+    const ChunkStore& store = file.chunks();
+    bool any = false;
+    for (std::uint32_t layer = 0; layer < store.grid().layers(); ++layer) {
+        const ChunkLayerPtr table = store.layer(step, layer);
+        for (std::uint32_t place = 0; place < table->low.size(); ++place) {
+            std::array<std::byte, 1> head{};
+            const std::uint64_t before = sizeof(RecordChecksum) + sizeof(ChunkBricks);
+            if (table->bytes(place) <= before)
+                continue;
+            store.source().read(table->offsets[place] + before, head);
+            any |= (head[0] & std::byte{64}) != std::byte{0};
+        }
+    }
+    return any;
+}
+
+TEST(StayingChunks, OfFilesOfEarlierVersionsAreStillReadAndAppendedTo) {
+    for (const auto& [name, version] : {std::pair{"version3_u8.isochron", 3u},
+                                        {"version3_f32.isochron", 3u},
+                                        {"version4_f32.isochron", 4u}}) {
         const TestFolder folder;
         const std::filesystem::path path = folder.path() / "a";
         std::filesystem::copy_file(std::filesystem::path(test_support::test_data()) / "old" / name,
                                    path);
         const auto old = IndexFile::open(path);
-        EXPECT_EQ(old->header().version, kVersionWithoutSince);
-        EXPECT_FALSE(old->has_since());
+        EXPECT_EQ(old->header().version, version);
+        EXPECT_EQ(old->has_since(), version > 3);
         EXPECT_NO_THROW(old->verify());
         // As a source it gives the content of now, where the second half stays.
         build_index(*open_index_series(path, {}), folder.path() / "new", {});
@@ -251,7 +271,11 @@ TEST(StayingChunks, ThatAFileOfVersion3DoesNotKnowAreStillReadAndAppendedTo) {
             ASSERT_TRUE(append_index(*all, *old, file, path, {}, {}, *alone()));
         }
         const auto grown = IndexFile::open(path);
-        EXPECT_EQ(grown->header().version, kVersionWithoutSince);
+        EXPECT_EQ(grown->header().version, version);
+        if (old->info().type == ValueType::f32) {
+            EXPECT_FALSE(has_wide_rows(*grown, static_cast<std::uint32_t>(values.steps - 2)));
+            EXPECT_TRUE(has_wide_rows(*now, 0));
+        }
         EXPECT_EQ(grown->info().steps(), values.steps);
         EXPECT_NO_THROW(grown->verify());
         ASSERT_NO_FATAL_FAILURE(expect_cells(grown));

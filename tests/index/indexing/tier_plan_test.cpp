@@ -1,16 +1,24 @@
 // The choice of tiers for a series, and their figures.
 #include "index/error.h"
+#include "index/file/index_file.h"
+#include "index/indexing/index_build.h"
 #include "index/indexing/tier_plan.h"
+#include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"
+#include "tests/support/test_folder.h"
+#include "tests/support/test_seed.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace isochron::index {
 namespace {
 
+using test_support::TestFolder;
 using testing::HasSubstr;
 
 /// A series of so many steps that are all alike.
@@ -30,9 +38,39 @@ TEST(TierPlan, CellsOfManySmallStepsPayForTheirBytes) {
     const TierPlan plan =
         plan_tiers(standing(field, 10'000), LevelMap::of_type(ValueType::u8), std::nullopt);
     EXPECT_TRUE(plan.tiers.has(Tier::cells));
-    EXPECT_TRUE(plan.tiers.has(Tier::deltas));
+    EXPECT_FALSE(plan.tiers.has(Tier::deltas));
+    EXPECT_THAT(reasons_of(plan), HasSubstr("no deltas: they would take 0."));
     EXPECT_THAT(reasons_of(plan), HasSubstr("cells pay: 0.0"));
     EXPECT_THAT(reasons_of(plan), HasSubstr("bytes for each byte of values"));
+}
+
+TEST(TierPlan, CellsBesideAllElseTakeAtMostSixFifthsOfTheValues) {
+    const TestField field({40, 40, 40}, 1, ValueType::u8, moving_sphere);
+    const auto tiers_beside = [&](double others) {
+        return plan_tiers(standing(field, 10'000), LevelMap::of_type(ValueType::u8), std::nullopt,
+                          others)
+            .tiers;
+    };
+    EXPECT_TRUE(tiers_beside(1.1).has(Tier::cells));
+    EXPECT_FALSE(tiers_beside(1.2).has(Tier::cells));
+}
+
+TEST(TierPlan, OfSmallSeriesKeepsTheIndexNearTheSizeOfTheData) {
+    std::mt19937 random(test_seed());
+    for (const bool still : {true, false}) {
+        const TestFolder folder;
+        const auto moving = turbulence(random), at_rest = turbulence(random);
+        const TestField field(
+            {64, 64, 64}, 12, ValueType::u8, [&](double x, double y, double z, double t) {
+                return 120 + 30 * (still ? at_rest(x, y, z, 0) : moving(x, y, z, t));
+            });
+        MemorySeries series(field.view());
+        build_index(series, folder.path() / "a", {});
+        const auto file = IndexFile::open(folder.path() / "a");
+        const double data = 12.0 * 64 * 64 * 64;
+        EXPECT_LT(static_cast<double>(file->stats().file_bytes), 1.2 * data) << still;
+        EXPECT_EQ(file->plan().tiers.has(Tier::cells), still);
+    }
 }
 
 TEST(TierPlan, CellsOfLargeStepsAreNotEvenLookedAt) {

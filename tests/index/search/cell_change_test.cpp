@@ -79,7 +79,10 @@ TEST_F(CellChangeTest, FollowsARandomWalkThroughStepsAndIsovalues) {
         walk(indexed(field.view()), field.view(), 200);
     }
     const TestField sphere({30, 25, 28}, 20, ValueType::u8, moving_sphere);
-    const int whole = walk(indexed(sphere.view()), sphere.view(), 200, {40, 60, 112.5, 180});
+    const BuildOptions deltas{
+        .tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::deltas)};
+    const int whole =
+        walk(indexed(sphere.view(), deltas), sphere.view(), 200, {40, 60, 112.5, 180});
     EXPECT_LT(whole, 100); // most are after an isovalue out of range, or to one
     // Without deltas the time nodes that steps share serve; with a falling scaling too.
     const TestField falling({30, 25, 28}, 20, ValueType::u8, moving_sphere, {-0.5, 3});

@@ -76,6 +76,32 @@ TEST_F(SurfaceMeshTest, IsTheMeshThatIsDrawn) {
     }
 }
 
+TEST_F(SurfaceMeshTest, InPiecesIsTheSame) {
+    const TestField field({37, 41, 70}, 1, ValueType::f32, turbulence(random_));
+    const double isovalue = quantiles(sorted_values(field.view()), 3)[1];
+    const auto files = indexed(field.view());
+    for (const auto& file : files) {
+        SurfaceMeshes meshes(file);
+        const std::optional<CellMesh> whole = meshes.make_packed({0, isovalue});
+        CellMesh joined;
+        std::size_t pieces = 0, before = 0; // vertices before the last piece
+        ASSERT_TRUE(meshes.make_pieces({0, isovalue}, {}, [&](CellMesh piece) {
+            for (const std::uint32_t corner : piece.triangles)
+                ASSERT_GE(corner, before) << "in this piece or the one before it";
+            before = joined.vertices.size();
+            ++pieces;
+            const auto append = [](auto& to, const auto& from) {
+                to.insert(to.end(), from.begin(), from.end());
+            };
+            append(joined.vertices, piece.vertices);
+            append(joined.triangles, piece.triangles);
+            append(joined.cases, piece.cases);
+        }));
+        EXPECT_EQ(pieces, file == files[0] ? 1u : 5u) << "one for each layer of chunks";
+        EXPECT_TRUE(joined == *whole);
+    }
+}
+
 TEST_F(SurfaceMeshTest, HasTheValuesOfAnotherArrayWhereTheyAreAsked) {
     // Linear in space, so that interpolation along an edge is exact.
     const auto linear = [](double x, double y, double z, double t) {

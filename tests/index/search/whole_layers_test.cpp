@@ -5,6 +5,7 @@
 #include "index/indexing/index_build.h"
 #include "index/scan/bricks.h"
 #include "index/search/id_sort.h"
+#include "index/search/index_search.h"
 #include "index/search/layer_search.h"
 #include "index/search/whole_layers.h"
 #include "tests/support/memory_series.h"
@@ -29,7 +30,7 @@ constexpr std::uint64_t kRoom = std::uint64_t{1} << 30;
 class CountedSource final : public ByteSource {
   public:
     explicit CountedSource(const std::filesystem::path& path)
-        : bytes_(read_file(path)), reads(bytes_.size()) {}
+        : bytes_(read_file(path)), reads(bytes_.size()), announced(bytes_.size()) {}
 
     const std::string& name() const override { return name_; }
     std::uint64_t size() const override { return bytes_.size(); }
@@ -38,7 +39,11 @@ class CountedSource final : public ByteSource {
     std::string name_ = "counted.isochron", bytes_;
 
   public:
-    mutable std::vector<std::atomic<std::uint8_t>> reads;
+    void expect(std::uint64_t offset, std::uint64_t bytes) const override {
+        count(announced, offset, bytes);
+    }
+
+    mutable std::vector<std::uint8_t> reads, announced; ///< read when no search runs
     mutable std::atomic<int> requests{0};
     std::function<void(int request)> at_read;
 
@@ -47,10 +52,19 @@ class CountedSource final : public ByteSource {
         if (const int request = ++requests; at_read)
             at_read(request);
         std::memcpy(out.data(), bytes_.data() + offset, out.size());
-        for (std::uint64_t i = offset; i < offset + out.size(); ++i)
-            ++reads[i];
+        count(reads, offset, out.size());
         return out.size();
     }
+
+  private:
+    /// Under one lock, as an atomic count for each byte costs a sanitizer some hundred bytes.
+    void count(std::vector<std::uint8_t>& counts, std::uint64_t offset, std::uint64_t bytes) const {
+        const std::lock_guard lock(mutex_);
+        for (std::uint64_t i = offset; i < offset + bytes; ++i)
+            ++counts[i];
+    }
+
+    mutable std::mutex mutex_;
 };
 
 class WholeLayersTest : public testing::Test {
@@ -130,6 +144,43 @@ TEST_F(WholeLayersTest, AreReadOnceAndOnlyTheFirstTimeThatAStepIsLookedAt) {
     ASSERT_TRUE(search(set));
     EXPECT_GT(file_->reading().held, field.view().grid.vertex_count()) << "chunks are kept";
     EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(128.5));
+}
+
+TEST_F(WholeLayersTest, AreAnnouncedOnceEachAndNothingBehindTheirStep) {
+    // With a step behind it.
+    const TestField field({150, 150, 260}, 2, ValueType::u16,
+                          scaled(white_noise(random_), 10'000, 30'000));
+    index(field);
+    CellSet set;
+    set.query = {0, 30'000.5};
+    ASSERT_TRUE(worth(30'000.5));
+    const ChunkStore& store = file_->chunks();
+    const std::uint32_t layers = store.grid().layers();
+    const std::uint64_t first = store.layer(0, 0)->offsets.front(),
+                        end = store.layer(0, layers - 1)->offsets.back();
+    ASSERT_GT(end - first, std::uint64_t{9} << 20);
+    for (auto* counts : {&source_->reads, &source_->announced})
+        for (auto& count : *counts)
+            count = 0;
+    ASSERT_TRUE(search(set));
+    for (std::uint64_t i = 0; i < source_->size(); ++i) {
+        const int once = i >= first && i < end ? 1 : 0;
+        ASSERT_EQ(source_->announced[i], once) << i << " of " << first << " to " << end;
+        ASSERT_EQ(source_->reads[i], once) << i;
+    }
+}
+
+TEST_F(WholeLayersTest, OfASmallStepComeInOneRequestWithItsTablesAndLevels) {
+    for (const ValueType type : {ValueType::u8, ValueType::f32}) {
+        const TestField field({60, 50, 40}, 3, type, scaled(white_noise(random_), 100, 128));
+        index(field);
+        for (const std::uint32_t step : {1u, 0u, 2u}) {
+            source_->requests = 0;
+            const CellSetPtr found = search_in(file_, {}, Shading::cells)({step, 128.5}, {});
+            EXPECT_EQ(source_->requests, 1) << name_of(type);
+            EXPECT_EQ(found->ids, BruteForce(field.view(), step).active(128.5));
+        }
+    }
 }
 
 TEST_F(WholeLayersTest, AreOnlyTakenWhereMostIsNeededAndThereIsRoom) {

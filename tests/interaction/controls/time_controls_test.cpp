@@ -118,5 +118,126 @@ TEST(TimeControls, NoStepsAreNoTrouble) {
         EXPECT_EQ(desk.tap(action).step, std::nullopt);
 }
 
+TEST(TimeControls, ArrowsGoFromAMomentToTheStepsAroundIt) {
+    Desk desk;
+    EXPECT_EQ(desk.tap(Action::between_steps).between, BetweenSteps::blend);
+    desk.settings.step = 2;
+    desk.settings.fraction = 1000;
+    desk.tap(bit(Action::step_back));
+    EXPECT_EQ(desk.settings.moment(), Moment(2));
+    desk.settings.fraction = 1000;
+    desk.tap(bit(Action::step_forward));
+    EXPECT_EQ(desk.settings.moment(), Moment(3));
+    EXPECT_EQ(desk.tap(Action::between_steps).between, BetweenSteps::hold);
+}
+
+DeviceState wand_pushing(float rate) {
+    DeviceState wand = wand_at(kStanding, 0);
+    wand.valuators = {0, 0, 0, 0, rate};
+    return wand;
+}
+
+TEST(TimeControls, AWandPushesTimeBetweenStepsToTheEndsAndBack) {
+    Desk desk;
+    desk.tap(Action::between_steps);
+    std::vector<Moment> seen{desk.settings.moment()};
+    const auto push = [&](float rate, int frames) {
+        for (int frame = 0; frame < frames; ++frame) {
+            desk.frame({wand_pushing(rate)});
+            if (desk.settings.moment() != seen.back())
+                seen.push_back(desk.settings.moment());
+        }
+    };
+    push(0.5f, 60);
+    EXPECT_GT(seen.size(), 50u) << "every frame has its moment";
+    EXPECT_GT(std::ranges::count_if(seen, [](const Moment& at) { return at.fraction > 0; }), 40);
+    EXPECT_TRUE(std::ranges::is_sorted(seen, {}, [](const Moment& at) {
+        return std::uint64_t{at.step} * kFractions + at.fraction;
+    }));
+    const Moment rests = desk.settings.moment();
+    push(0, 60);
+    EXPECT_EQ(desk.settings.moment(), rests);
+    EXPECT_FALSE(desk.settings.playback.playing);
+    push(1, 600);
+    EXPECT_EQ(desk.settings.moment(), Moment(4)) << "the last step: it does not start over";
+    push(-1, 600);
+    EXPECT_EQ(desk.settings.moment(), Moment(0));
+}
+
+TEST(TimeControls, AWandPushesTimeByStepsWhereStepsAreHeldAndWithinTheRange) {
+    Desk desk;
+    desk.settings.play_range = {1, 3};
+    desk.settings.step = 1;
+    for (int frame = 0; frame < 600; ++frame)
+        EXPECT_FALSE(desk.frame({wand_pushing(1)}).fraction);
+    EXPECT_EQ(desk.settings.step, 3u);
+    desk.tap(bit(Action::play)); // pushing ends playing
+    desk.frame({wand_pushing(-1)});
+    for (int frame = 0; frame < 600; ++frame)
+        desk.frame({wand_pushing(-1)});
+    EXPECT_EQ(desk.settings.step, 1u);
+    EXPECT_FALSE(desk.settings.playback.playing);
+}
+
+DeviceState stick_at(float x) {
+    DeviceState wand = wand_at(kStanding, 0);
+    wand.valuators = {0, 0, 0, 0, 0, x};
+    return wand;
+}
+
+TEST(TimeControls, AHeadsetsStickGoesThroughTheMomentsWhereStepsAreBlended) {
+    Desk desk;
+    desk.tap(Action::between_steps);
+    std::vector<Moment> seen{desk.settings.moment()};
+    for (int frame = 0; frame < 40; ++frame) {
+        desk.frame({stick_at(0.5f)});
+        EXPECT_GT(desk.settings.moment(), seen.back());
+        seen.push_back(desk.settings.moment());
+    }
+    EXPECT_GT(std::ranges::count_if(seen, [](const Moment& at) { return at.fraction > 0; }), 30);
+    for (int frame = 0; frame < 600; ++frame)
+        desk.frame({stick_at(-1)});
+    EXPECT_EQ(desk.settings.moment(), Moment(0));
+}
+
+TEST(TimeControls, AHeadsetsStickGoesAStepForEachPushWhereStepsAreHeld) {
+    Desk desk;
+    desk.settings.playback.loop = false;
+    for (const std::uint32_t step : {1u, 2u, 3u}) {
+        desk.frame({stick_at(1)});
+        EXPECT_EQ(desk.settings.step, step);
+        desk.frame({stick_at(1)}); // still held, not yet for so long that it repeats
+        EXPECT_EQ(desk.settings.step, step);
+        desk.frame({stick_at(0.3f)});
+    }
+    desk.frame({stick_at(-1)});
+    EXPECT_EQ(desk.settings.moment(), Moment(2));
+    for (int frame = 0; frame < 60; ++frame)
+        desk.frame({stick_at(-1)});
+    EXPECT_EQ(desk.settings.step, 0u) << "held, it repeats";
+}
+
+TEST(TimeControls, TimeThatIsHeldSetsNoFractions) {
+    Desk desk;
+    desk.tap(bit(Action::play));
+    for (int frame = 0; frame < 300; ++frame)
+        EXPECT_FALSE(desk.frame({head_at(kStanding)}).fraction);
+    desk.settings.quality = QualityMode::paper; // which holds
+    desk.tap(Action::between_steps);
+    for (int frame = 0; frame < 300; ++frame)
+        EXPECT_FALSE(desk.frame({head_at(kStanding)}).fraction);
+}
+
+TEST(TimeControls, ACommandWithAStepAloneIsThatStepItself) {
+    Commands commands;
+    commands.step = 3;
+    commands.fraction = 77;
+    Commands later;
+    later.step = 5;
+    merge(commands, later);
+    EXPECT_EQ(commands.step, 5u);
+    EXPECT_FALSE(commands.fraction);
+}
+
 } // namespace
 } // namespace isochron::interaction

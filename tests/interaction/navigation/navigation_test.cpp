@@ -203,9 +203,8 @@ TEST(Navigator, TheWheelStopsAtItsBoundsAndSaysSo) {
         for (int i = 0; i < 20; ++i)
             desk.wheel(way);
         EXPECT_NEAR(desk.volume().scale, way > 0 ? home * 100 : home / 20, 1e-9 * home * 100);
-        EXPECT_THAT(desk.notes(),
-                    testing::Contains("the wheel goes no further: Home shows all data "
-                                      "again"));
+        EXPECT_THAT(desk.notes(), testing::Contains("the data can be made no larger or smaller; "
+                                                    "Home resets the view and all settings"));
         desk.tap(bit(Action::reset));
         EXPECT_EQ(desk.volume(), desk.context.series.home);
     }

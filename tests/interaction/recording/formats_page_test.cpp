@@ -1,5 +1,6 @@
 // docs/FORMATS.md describes every key of `commands` in a recording, and no other.
 #include "interaction/command_fields.h"
+#include "interaction/error.h"
 #include "interaction/recording/commands_json.h"
 #include "tests/support/paths.h"
 
@@ -75,7 +76,7 @@ TEST(FormatsPage, TellsEveryKeyOfCommandsAndNoOther) {
 TEST(FormatsPage, TheKeysOfPartsAreLookedFor) {
     const auto keys = keys_of_commands();
     EXPECT_EQ(keys.at("isosurfaces"), (std::vector<std::string>{"isovalue", "color", "opacity"}));
-    EXPECT_EQ(keys.at("mark"), (std::vector<std::string>{"position", "step", "value"}));
+    EXPECT_EQ(keys.at("mark"), (std::vector<std::string>{"position", "step", "value", "fraction"}));
     EXPECT_EQ(keys.at("stamps"), std::vector<std::string>{});
 }
 
@@ -87,6 +88,19 @@ TEST(FormatsPage, AxesOfVersion01AreStillRead) {
         EXPECT_EQ(commands_from({{"axes", shown}}, "commands"), expected);
         EXPECT_EQ(commands_json(expected).count("axes"), 0u);
     }
+}
+
+TEST(FormatsPage, AMarkOfOlderRecordingsIsAtAStepItself) {
+    const auto old = nlohmann::json::parse(R"({"position":[1,2.5,-3],"step":3,"value":9.25})");
+    Commands expected;
+    expected.mark = Mark{MarkedPoint{{1, 2.5, -3}, 3, 9.25, 0}};
+    EXPECT_EQ(commands_from({{"mark", old}}, "commands"), expected);
+    expected.mark->point->fraction = 16384;
+    EXPECT_EQ(commands_json(expected).at("mark").at("fraction"), 16384);
+    EXPECT_EQ(commands_from(commands_json(expected), "commands"), expected);
+    nlohmann::json wrong = old;
+    wrong["fraction"] = 65536u;
+    EXPECT_THROW(commands_from({{"mark", wrong}}, "commands"), interaction::Error);
 }
 
 TEST(FormatsPage, RowsAreThoseBelowTheHeading) {

@@ -38,7 +38,7 @@ class CellUpload : public CellUploadTest {
         std::size_t rank = 0;
         for (unsigned s = 0; s < set.surfaces.size(); ++s)
             for (std::size_t i = 0; i < set.surfaces[s].ids.size(); ++i, ++rank) {
-                const unsigned style = points[buffers.slots().slot_of_rank[rank]].style;
+                const unsigned style = points[buffers.slots().slot_of(rank)].style;
                 ASSERT_EQ(style & 7u, s);
                 ASSERT_EQ(style >> 3, set.colors.empty() ? 0u : set.colors[rank]);
             }

@@ -119,8 +119,8 @@ TEST_P(CellComputing, PointsThatComeWithASetAreTakenAsTheyAre) {
         const auto points = read<index::CellPoint>(given.texture(), given.size());
         const auto others = read<index::CellPoint>(computed.texture(), computed.size());
         for (std::size_t rank = 0; rank < points.size(); ++rank) {
-            const index::CellPoint& point = points[given.slots().slot_of_rank[rank]];
-            const index::CellPoint& other = others[computed.slots().slot_of_rank[rank]];
+            const index::CellPoint& point = points[given.slots().slot_of(rank)];
+            const index::CellPoint& other = others[computed.slots().slot_of(rank)];
             ASSERT_EQ(id_of(values.grid, point), id_of(values.grid, other));
             ASSERT_EQ(point.style, other.style);
             ASSERT_TRUE(are_equal_planes(point.plane, other.plane));

@@ -19,8 +19,10 @@ class LateVolume : public CellUploadTest {
         if (!values.empty())
             gl_.GetNamedBufferSubData(GLuint(buffer), 0, GLsizeiptr(values.size() * sizeof(float)),
                                       values.data());
-        for (const std::uint32_t slot : buffers.slots().slot_of_rank)
-            by_rank.insert(by_rank.end(), values.begin() + 8 * slot, values.begin() + 8 * slot + 8);
+        for (std::size_t rank = 0; rank < buffers.size(); ++rank) {
+            const auto from = values.begin() + 8 * buffers.slots().slot_of(rank);
+            by_rank.insert(by_rank.end(), from, from + 8);
+        }
         return by_rank;
     }
     /// The active cells of an isovalue that few of the values reach.

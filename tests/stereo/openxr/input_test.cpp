@@ -177,7 +177,7 @@ const std::vector<Control> kControls{
     {kTouch, false, "thumbstick/y", 0, 0, 0, WandValuator::fly},
     {kTouch, false, "thumbstick/x", 0, 0, 0, WandValuator::turn},
     {kTouch, true, "thumbstick/y", 0, 0, 0, WandValuator::isovalue},
-    {kTouch, true, "thumbstick/x", 0, 0, bit(Action::step_forward)},
+    {kTouch, true, "thumbstick/x", 0, 0, 0, WandValuator::step},
     {kTouch, true, "trigger/value", 0, 0, bit(Action::play)},
     {kTouch, true, "x/click", 0, 0, bit(Action::reverse)},
     {kTouch, true, "y/click", 0, 0, bit(Action::room_panel)},
@@ -214,7 +214,8 @@ TEST_F(HandsTest, EveryControlDoesWhatItIsFor) {
         EXPECT_EQ(device("wand2").buttons, control.wand2);
         const auto* keys = input_.find("keys");
         EXPECT_EQ(keys ? keys->buttons : 0, control.keys);
-        for (const auto which : {WandValuator::isovalue, WandValuator::fly, WandValuator::turn})
+        for (const auto which : {WandValuator::isovalue, WandValuator::fly, WandValuator::turn,
+                                 WandValuator::time, WandValuator::step})
             EXPECT_EQ(valuator(which), which == control.valuator ? 1.0f : 0.0f);
         EXPECT_EQ(codes(), std::vector<std::string>());
         client_->leave();

@@ -131,8 +131,8 @@ XrResult check_view(const XrCompositionLayerProjectionView& view, const Space& s
     const auto origin = locate(space);
     out.pose = compose(origin ? origin->pose : interaction::Pose{}, from_xr(view.pose));
     out.fov = {view.fov.angleLeft, view.fov.angleRight, view.fov.angleUp, view.fov.angleDown};
-    if (!same(out.pose, mine.located[i]) || out.fov != world().headset.eyes[i].fov)
-        refuse(kEnd, "other_view", XR_SUCCESS, "a view is not as it was located");
+    if (!same(out.pose, mine.filled[i]) || out.fov != world().headset.eyes[i].fov)
+        refuse(kEnd, "other_view", XR_SUCCESS, "a view is not as its picture was drawn for");
     return XR_SUCCESS;
 }
 

@@ -131,6 +131,7 @@ XrResult XRAPI_CALL release(XrSwapchain handle, const XrSwapchainImageReleaseInf
         return refuse(kCall, "release_without_wait", XR_ERROR_CALL_ORDER_INVALID,
                       "the oldest image was not waited for");
     swapchain->released = swapchain->acquired.front();
+    world().session->filled = world().session->located;
     swapchain->acquired.pop_front();
     swapchain->waited = false;
     return XR_SUCCESS;

@@ -53,6 +53,7 @@ struct Session {
     std::int64_t display_time = 0;                   ///< of the newest frame
     bool views_located = false, views_valid = false; ///< for that frame
     std::array<interaction::Pose, 2> located;        ///< in the stage
+    std::array<interaction::Pose, 2> filled;         ///< `located` when the images were last filled
     std::unique_ptr<render::Gl> gl;
     void* context = nullptr; ///< GL context with which it was made
     void* (*current_context)() = nullptr;

@@ -40,6 +40,7 @@ TEST(SessionFile, AnyStateComesBackAsItWas) {
     for (int round = 0; round < 300; ++round) {
         state.apply(interaction::random_commands(random), kSteps);
         state.leaving = false; // nobody is asked again
+        state.exporting = {};  // and nothing is exported again
         save_session(path, kept_of(state));
         EXPECT_EQ(back_from(path), state);
         EXPECT_EQ(read_session(path).head, kept_of(state).head);
@@ -176,7 +177,7 @@ TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
             {-0.31, 0.87, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, -0.2)), 0.041};
         commands.clip = interaction::ClipPlane{true, {16, 15, 15}, {1, 0, 0}};
         commands.ruler = interaction::Ruler{{{10, 10, 10}, {20, 20, 12}}};
-        commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, 4, 9.25}};
+        commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, 4, 9.25, 12345}};
         commands.grid = true;
         session.frame(head_at_rest(0), commands, Waiting::for_cells);
         left = settled(session);

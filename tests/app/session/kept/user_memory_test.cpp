@@ -36,6 +36,21 @@ TEST(UserMemory, KeepsFoldersAndSeriesToo) {
     EXPECT_TRUE(memory.recent().empty());
 }
 
+TEST(UserMemory, KeepsTheArrayThatWasChosenOfEachData) {
+    test_support::TestFolder folder;
+    UserMemory memory(folder.path());
+    EXPECT_EQ(memory.array_of("/data/run.h5"), "");
+    memory.remember_array("/data/run.h5", "rho");
+    memory.remember_array("/data/run.h5.old", "u.magnitude");
+    memory.remember_array("/data/run.h5", "fields/heat flux");
+    EXPECT_EQ(memory.array_of("/data/run.h5"), "fields/heat flux");
+    EXPECT_EQ(memory.array_of("/data/./run.h5.old"), "u.magnitude");
+    for (int i = 0; i < 150; ++i)
+        memory.remember_array(fmt::format("/data/{}", i), "p");
+    EXPECT_EQ(memory.array_of("/data/run.h5"), "") << "the oldest go";
+    EXPECT_EQ(memory.array_of("/data/149"), "p");
+}
+
 TEST(UserMemory, SaysOnceThatTheFirstLinesWereSeenAndNothingWithoutAFolder) {
     test_support::TestFolder folder;
     EXPECT_FALSE(UserMemory(folder.path()).introduced());

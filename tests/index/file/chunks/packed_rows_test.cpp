@@ -62,6 +62,66 @@ TEST(PackedRows, AreWhatTheirDescriptionSaysForEveryWidthAndLength) {
     }
 }
 
+/// What the header says of numbers of several bytes, bit by bit.
+/// @param numbers the first bytes of all, then all second bytes, and so on
+Bytes slow_word_rows_of(const Bytes& numbers, std::size_t word) {
+    const std::size_t count = numbers.size() / word, rows = (count + 15) / 16;
+    Bytes widths, planes;
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::array<std::uint64_t, 16> of{};
+        unsigned bits = 0;
+        for (std::size_t i = 0; i < 16 && row * 16 + i < count; ++i) {
+            for (std::size_t byte = 0; byte < word; ++byte)
+                of[i] |= std::to_integer<std::uint64_t>(numbers[byte * count + row * 16 + i])
+                         << 8 * byte;
+            while (bits < 64 && of[i] >> bits)
+                ++bits;
+        }
+        widths.push_back(static_cast<std::byte>(bits));
+        const unsigned whole = bits / 8;
+        for (unsigned byte = 0; byte < whole; ++byte)
+            for (std::size_t i = 0; i < 16; ++i)
+                planes.push_back(static_cast<std::byte>(of[i] >> 8 * byte & 255));
+        for (unsigned bit = 8 * whole; bit < bits; ++bit)
+            for (std::size_t half = 0; half < 2; ++half) {
+                unsigned byte = 0;
+                for (std::size_t i = 0; i < 8; ++i)
+                    byte |= static_cast<unsigned>(of[half * 8 + i] >> bit & 1) << i;
+                planes.push_back(static_cast<std::byte>(byte));
+            }
+    }
+    widths.insert(widths.end(), planes.begin(), planes.end());
+    return widths;
+}
+
+TEST(PackedRows, OfSeveralBytesAreWhatTheirDescriptionSays) {
+    std::mt19937_64 random(test_seed());
+    for (int round = 0; round < 400; ++round)
+        for (const std::size_t word : {2u, 4u, 8u}) {
+            const std::size_t count = round < 40 ? round + 1 : 1 + random() % 4200;
+            const auto widest = random() % (8 * word + 1);
+            Bytes numbers(count * word);
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto bits = random() % (widest + 1);
+                const std::uint64_t number = bits == 0 ? 0 : random() >> (64 - bits);
+                for (std::size_t byte = 0; byte < word; ++byte)
+                    numbers[byte * count + i] = static_cast<std::byte>(number >> 8 * byte & 255);
+            }
+            Bytes packed;
+            pack_word_rows(numbers, word, packed);
+            ASSERT_EQ(packed, slow_word_rows_of(numbers, word)) << count << ' ' << word;
+            Bytes again(numbers.size());
+            ASSERT_TRUE(unpack_word_rows(packed, word, again));
+            ASSERT_EQ(again, numbers);
+            ASSERT_FALSE(unpack_word_rows(std::span(packed).first(packed.size() - 1), word, again));
+            packed.push_back(std::byte{0});
+            ASSERT_FALSE(unpack_word_rows(packed, word, again));
+            packed.pop_back();
+            packed[0] = static_cast<std::byte>(8 * word + 1);
+            ASSERT_FALSE(unpack_word_rows(packed, word, again));
+        }
+}
+
 TEST(PackedRows, OfAnotherLengthAreRefused) {
     const Bytes numbers(33, std::byte{0x83});
     Bytes packed = rows_of(numbers), out(33);

@@ -1,0 +1,227 @@
+// `isochron table`: what a session marked, or how long its frames took, as a table.
+#include "app/command_line/subcommands.h"
+#include "app/output/guarded_outputs.h"
+#include "app/output/known_files.h"
+#include "app/session/kept/recording_file.h"
+#include "app/session/kept/session_file.h"
+#include "index/error.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct TableArguments {
+    fs::path file, out;
+    bool json = false, force = false;
+};
+
+struct Table {
+    std::vector<std::string> columns; ///< those of marks, also where nothing is marked
+    Json rows;
+};
+
+/// What was marked, row by row, in the order of time.
+class MarkRows {
+  public:
+    void at(std::optional<double> seconds) { seconds_ = seconds; }
+    void add(const interaction::Commands& commands) {
+        if (commands.step) {
+            step_ = *commands.step;
+            fraction_ = 0;
+        }
+        fraction_ = commands.fraction.value_or(fraction_);
+        if (commands.mark && commands.mark->point) {
+            const interaction::MarkedPoint& point = *commands.mark->point;
+            Json& row = push("mark", point.step, point.fraction, "");
+            place(row, point.position);
+            row["value"] = point.value;
+        }
+        if (commands.ruler && commands.ruler->places.size() == interaction::kMostRulerPlaces) {
+            const auto& places = commands.ruler->places;
+            for (const glm::dvec3& each : places)
+                place(push("ruler", step_, fraction_, ""), each);
+            rows_.back()["value"] = glm::distance(places[0], places[1]);
+        }
+        if (commands.bookmarks)
+            add(*commands.bookmarks);
+        for (const std::string& stamp : commands.stamps)
+            push("stamp", step_, fraction_, stamp);
+    }
+    Table table() && {
+        return {{"what", "seconds", "step", "fraction", "name", "x", "y", "z", "value"},
+                std::move(rows_)};
+    }
+
+  private:
+    void add(const std::vector<interaction::Bookmark>& all) {
+        for (const interaction::Bookmark& each : all)
+            if (std::ranges::find(known_, each) == known_.end())
+                push("bookmark", each.step, each.fraction, each.name);
+        known_ = all;
+    }
+    Json& push(const char* what, std::uint32_t step, std::uint32_t fraction,
+               const std::string& name) {
+        Json row{{"what", what},         {"seconds", nullptr}, {"step", step},
+                 {"fraction", fraction}, {"name", name},       {"x", nullptr},
+                 {"y", nullptr},         {"z", nullptr},       {"value", nullptr}};
+        if (seconds_)
+            row["seconds"] = *seconds_;
+        rows_.push_back(std::move(row));
+        return rows_.back();
+    }
+    static void place(Json& row, const glm::dvec3& at) {
+        row["x"] = at.x;
+        row["y"] = at.y;
+        row["z"] = at.z;
+    }
+
+    std::optional<double> seconds_;
+    std::uint32_t step_ = 0, fraction_ = 0;
+    std::vector<interaction::Bookmark> known_;
+    Json rows_ = Json::array();
+};
+
+/// The members of objects within objects, with the names of both: `asked.step`.
+void flatten(const Json& value, const std::string& name, Json& row) {
+    if (value.is_object()) {
+        for (const auto& [key, member] : value.items())
+            flatten(member, name.empty() ? key : name + "." + key, row);
+    } else {
+        row[name] = value;
+    }
+}
+
+Json timing_rows(const fs::path& file) {
+    std::ifstream in(file);
+    Json report;
+    try {
+        report = Json::parse(in);
+    } catch (const Json::parse_error& mistake) {
+        throw index::Error(fmt::format("{}: not a timing report: not JSON at byte {}",
+                                       file.string(), mistake.byte));
+    }
+    if (!report.is_object() || !report.contains("rows") || !report["rows"].is_array())
+        throw index::Error(fmt::format("{}: expected a recording, a session or a timing report of "
+                                       "`isochron replay --report`",
+                                       file.string()));
+    Json rows = Json::array();
+    for (const Json& each : report["rows"]) {
+        Json row = Json::object();
+        flatten(each, "", row);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Table table_of(const fs::path& file) {
+    if (!std::ifstream(file))
+        throw index::Error(fmt::format("{}: cannot be read", file.string()));
+    MarkRows marks;
+    if (names_format(file, "isochron recording")) {
+        const interaction::Recording recording = read_recording(file);
+        marks.at(recording.frames.empty() ? 0.0 : recording.frames.front().input.time.count());
+        marks.add(recording.header.start);
+        for (const interaction::RecordedFrame& frame : recording.frames) {
+            marks.at(frame.input.time.count());
+            marks.add(frame.commands);
+        }
+        return std::move(marks).table();
+    }
+    if (names_format(file, "isochron session")) {
+        marks.add(read_session(file).state);
+        return std::move(marks).table();
+    }
+    return {{}, timing_rows(file)};
+}
+
+/// A field as RFC 4180 has it; nothing for null.
+std::string field_of(const Json& value) {
+    if (value.is_null())
+        return "";
+    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    if (text.find_first_of(",\"\n\r") == std::string::npos)
+        return text;
+    std::string quoted = "\"";
+    for (const char c : text)
+        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+/// @param columns that come first, also where no row has them
+std::string csv_of(const Json& rows, std::vector<std::string> columns) {
+    // The others come in the order in which rows have them first.
+    for (const Json& row : rows)
+        for (const auto& [key, value] : row.items())
+            if (std::ranges::find(columns, key) == columns.end())
+                columns.push_back(key);
+    std::string text;
+    const auto end_line = [&] { text.back() = '\n'; };
+    for (const std::string& each : columns)
+        text += field_of(each) + ",";
+    if (!columns.empty())
+        end_line();
+    for (const Json& row : rows) {
+        for (const std::string& each : columns)
+            text += (row.contains(each) ? field_of(row[each]) : "") + ",";
+        end_line();
+    }
+    return text;
+}
+
+void run_table(const TableArguments& arguments) {
+    const auto [columns, rows] = table_of(arguments.file);
+    const std::string text = arguments.json
+                                 ? rows.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
+                                 : csv_of(rows, columns);
+    if (arguments.out.empty()) {
+        fmt::print("{}", text);
+        return;
+    }
+    guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
+                  arguments.force);
+    index::NewFile file(arguments.out);
+    file.write_at(0, std::as_bytes(std::span(text)));
+    file.commit();
+    fmt::print("wrote {}: {} rows\n", arguments.out.string(), rows.size());
+}
+
+} // namespace
+
+void add_table(Command& program) {
+    auto arguments = std::make_shared<TableArguments>();
+    Command command = program.subcommand(
+        "table", "Print what a session marked, or how long its frames took, as a table.");
+    command.examples({"isochron table walk.jsonl", "isochron table walk.jsonl --json"});
+    command
+        .option("file", arguments->file,
+                "Recording or session: its marks, rulers, bookmarks and stamps. Or a timing report "
+                "(`replay --report`): a row for each frame")
+        .required()
+        .type_name("FILE");
+    command.option("-o,--out", arguments->out, "Output file (default: the terminal)");
+    command.flag("--force", arguments->force, "Replace a file that exists");
+    command.flag("--json", arguments->json, "A list of JSON objects instead of CSV");
+    command.footer(
+        "Columns of marks: what (mark, ruler, bookmark, stamp), seconds since the session began, "
+        "step "
+        "and\nfraction (65536ths of the way to the next step), name, x y z (in the data's unit), "
+        "value (at a mark;\nat a ruler's second place its length). Columns of frames: those of the "
+        "report, `asked.step` and so on.");
+    command.on_run([arguments] { run_table(*arguments); });
+}
+
+} // namespace isochron::app

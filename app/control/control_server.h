@@ -1,0 +1,74 @@
+// Listens for clients that steer a session from outside, on a thread of its own.
+#pragma once
+
+#include "app/control/control_address.h"
+#include "app/control/control_connection.h"
+#include "app/control/control_desk.h"
+#include "app/control/control_searches.h"
+#include "stereo/context/wake.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace isochron::app {
+
+struct ControlServerOptions {
+    bool only_watches = false; ///< answers `state`, `subscribe` and `picture` alone
+    /// Time of a steady clock, for tests; null: the system's.
+    std::function<interaction::Seconds()> clock = {};
+};
+
+class ControlServer {
+  public:
+    static constexpr std::size_t kMostClients = 16;
+    static constexpr interaction::Seconds kTokenWithin{10}; ///< else the connection is closed
+
+    /// @param desk has shown a first frame; outlives the server, which is woken through it
+    /// @throws interaction::Error when nothing can listen at the address
+    ControlServer(ControlAddress address, ControlDesk& desk, ControlServerOptions options);
+    /// Ends all connections. Removes the socket, and the token's file.
+    ~ControlServer();
+    ControlServer(const ControlServer&) = delete;
+    ControlServer& operator=(const ControlServer&) = delete;
+
+    /// The path, or `127.0.0.1:PORT, token in FILE`.
+    std::string where() const;
+    const ControlAddress& address() const { return address_; }
+    std::size_t clients() const { return clients_; }
+
+  private:
+    using Connection = ControlConnection;
+    void run();
+    void wait_for_something();
+    void accept_clients();
+    void read_requests(Connection& client);
+    void obey(Connection& client, const std::string& line);
+    void answer(Connection& client, const ControlRequest& request, const std::string& id);
+    void add_search(Connection& client, const ControlRequest& request, const std::string& id);
+    void tell_frames();
+    void answer_waiting(Connection& client, const ShownFrame& shown, const ControlPicture* picture);
+    void tell_events(Connection& client, const std::shared_ptr<const ShownFrame>& shown);
+    void take_found();
+
+    ControlAddress address_;
+    ControlDesk& desk_;
+    const ControlServerOptions options_;
+    std::string token_;
+    ControlSocket listener_;
+    const stereo::Wake wake_;
+    std::vector<std::unique_ptr<Connection>> connections_;
+    std::uint64_t named_ = 0; ///< connections so far
+    bool delayed_ = false;    ///< requests are there that are read when there is room
+    interaction::Seconds next_look_{0};
+    std::atomic<std::size_t> clients_{0};
+    std::atomic<bool> ends_{false};
+    ControlSearches searches_;
+    std::jthread thread_; ///< last: begins when all else is there
+};
+
+} // namespace isochron::app

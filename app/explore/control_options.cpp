@@ -1,0 +1,40 @@
+// Opens the control socket of a session.
+#include "app/explore/control_options.h"
+
+#include "app/text.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace isochron::app {
+
+void add_control_option(Command& command, std::optional<std::string>& control) {
+    command
+        .option("--control", control,
+                "Let programs of this user steer the session through a socket (isochron tell, "
+                "isochron.connect() in Python): a path, or 127.0.0.1:PORT, which asks for a token "
+                "(default: control.sock in the user's runtime folder)")
+        .value_optional()
+        .type_name("[PATH]");
+}
+
+void check_control(const std::optional<std::string>& control) {
+    if (control)
+        expect_place_for_socket(control_address(*control));
+}
+
+std::unique_ptr<SessionControl> opened_control(const std::optional<std::string>& control,
+                                               const Session& session,
+                                               std::shared_ptr<const index::IndexFile> file,
+                                               ControlServerOptions options) {
+    if (!control)
+        return nullptr;
+    auto opened = std::make_unique<SessionControl>(control_address(*control), session,
+                                                   std::move(file), std::move(options));
+    print_safely(fmt::format("isochron: control socket: {}\n", opened->where()), stderr);
+    return opened;
+}
+
+} // namespace isochron::app

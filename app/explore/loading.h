@@ -1,0 +1,54 @@
+// What happens before a session's first picture: the window says what is being done, and Escape
+// gives it up.
+#pragma once
+
+#include "app/config/config.h"
+#include "app/session/data_choice.h"
+#include "index/file/index_file.h"
+#include "interaction/input/window_event.h"
+#include "stereo/windows.h"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// Opens an index on a thread of its own, so that a slow disk holds up no window. Who gives up lets
+/// that thread end alone.
+class IndexOpening {
+  public:
+    using File = std::shared_ptr<const index::IndexFile>;
+    explicit IndexOpening(std::function<File()> open);
+
+    /// Waits until it is done, at most this long. @return whether it is done
+    bool is_done(std::chrono::milliseconds most = std::chrono::milliseconds(0)) const;
+    /// Waits for the index. @throws what opening throws
+    File take() { return file_.get(); }
+
+  private:
+    std::future<File> file_;
+};
+
+/// Options of a page that is shown before there is a session.
+PageWindowOptions page_options(const Config& config);
+
+/// Says in the first window what is being done, until it is done.
+/// @param name of the data @param line `opening`, for example
+Waited wait_until(const std::function<bool()>& done, const stereo::Windows& windows,
+                  const std::string& name, const std::string& line, const Config& config);
+/// Says it, and goes on at once. @param others gets the events that have another meaning
+Waited say_what_is_done(const stereo::Windows& windows, const std::string& name,
+                        const std::string& line, const Config& config,
+                        std::vector<interaction::WindowEvent>& others);
+
+/// Whether the user has pressed Escape in one of the windows since they were looked at last.
+/// @param others likewise
+bool gives_up(const stereo::Windows& windows, std::vector<interaction::WindowEvent>& others);
+
+} // namespace isochron::app

@@ -1,0 +1,77 @@
+// A movie of an index without a recording.
+#include "app/explore/series_movie.h"
+
+#include "app/command_line/command_line.h"
+#include "app/command_line/step_range.h"
+#include "app/config/first_placement.h"
+#include "app/explore/explore_start.h"
+#include "app/session/movie_maker.h"
+#include "app/session/replay.h"
+#include "app/version.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace isochron::app {
+namespace {
+
+/// The data fill the picture where the screen is the viewer's, as in a window.
+void fill_picture(const Session& session, const Config& config, const index::SeriesInfo& info,
+                  ExplorerState& state) {
+    const stereo::Windows& windows = session.outputs().windows();
+    const stereo::Screen& screen = config.installation.windows.front().viewports.front().screen;
+    if (config.placement.fill <= 0 || windows.room() || !screen.carried_by_head ||
+        !screen.fit_aspect)
+        return;
+    state.room_from_physical = filling(info, config.placement, screen,
+                                       {config.installation.viewers.front().position, {1, 0, 0, 0}},
+                                       windows.first().framebuffer_size());
+}
+
+/// Sets what plays: `0:63:4` is every fourth step from 0 to 63.
+void play_steps(const SeriesMovie& movie, std::size_t steps, interaction::Commands& state) {
+    if (movie.steps.empty())
+        return;
+    const std::vector<std::uint32_t> chosen = steps_of(movie.steps, "--steps", steps);
+    state.play_range = interaction::StepRange{chosen.front(), chosen.back()};
+    interaction::PlaybackState playback = state.playback.value_or(interaction::PlaybackState{});
+    playback.every = chosen.size() > 1 ? chosen[1] - chosen[0] : 1;
+    if (playback.every > interaction::kMostSkipped)
+        throw UsageError(fmt::format("--steps: a movie takes every {}th step at most, got {}",
+                                     interaction::kMostSkipped, movie.steps));
+    state.playback = playback;
+}
+
+} // namespace
+
+interaction::RecordingHeader header_of_series(const ReplaySource& options) {
+    interaction::RecordingHeader header;
+    header.program = kProgram;
+    header.configuration = read_config(options.config.value_or("desktop")).text;
+    header.data = std::filesystem::absolute(options.recording).string();
+    return header;
+}
+
+interaction::Recording steps_seen(Session& session, const Config& config,
+                                  const index::IndexFile& file,
+                                  const interaction::RecordingHeader& header,
+                                  const SeriesMovie& movie, double rate) {
+    const index::SeriesInfo& info = file.info();
+    ExplorerState start = session.state();
+    fill_picture(session, config, info, start);
+    if (movie.isovalue)
+        start.set_isovalue(*movie.isovalue);
+    if (movie.between)
+        start.between = *interaction::value_named<interaction::BetweenSteps>(*movie.between);
+    else if (!config.between)
+        start.between = advised_between(file);
+    session.set_state(start);
+    PictureNote view = session.note();
+    play_steps(movie, info.steps(), view.state);
+    interaction::Recording recording = series_seen(header, view, info.times, rate);
+    session.set_state(start_of(recording.header, session.state(), info.steps(), {}));
+    return recording;
+}
+
+} // namespace isochron::app

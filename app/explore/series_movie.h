@@ -1,0 +1,33 @@
+// A movie of an index without a recording: every step once, as a first look shows them.
+#pragma once
+
+#include "app/config/config.h"
+#include "app/explore/replay_source.h"
+#include "app/session/session.h"
+#include "interaction/recording/recording.h"
+
+#include <optional>
+#include <string>
+
+namespace isochron::app {
+
+struct SeriesMovie {
+    std::optional<double> isovalue;     ///< none: as at the first look
+    std::string steps;                  ///< FIRST:LAST[:STRIDE]; empty: all
+    std::optional<std::string> between; ///< a name of BetweenSteps; none: as configured or advised
+};
+
+/// The header that a recording of a first look at this index would have, without its state.
+/// `options.recording` names the index.
+interaction::RecordingHeader header_of_series(const ReplaySource& options);
+
+/// The recording: the steps pass as fast as playback shows the whole series at first. Sets the
+/// session's state to its start.
+/// @param rate frames per second: each step is shown for at least one
+/// @param file the index @throws UsageError when the series does not have such steps
+interaction::Recording steps_seen(Session& session, const Config& config,
+                                  const index::IndexFile& file,
+                                  const interaction::RecordingHeader& header,
+                                  const SeriesMovie& movie, double rate);
+
+} // namespace isochron::app

@@ -1,0 +1,28 @@
+// The track of all steps: the range that plays, bookmarks as flags, and steps at hand.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "interaction/commands.h"
+
+#include <cstdint>
+#include <string>
+
+namespace isochron::app {
+
+/// Height of the lane above the track, where flags and the ends of the range are, and of the track
+/// itself, panel pixels.
+inline constexpr float kLaneHeight = 12.0f, kTrackHeight = 16.0f;
+
+/// Lays lane and track out across the rest of the current window, with times below them. A press on
+/// the track shows a step; the ends of the range are dragged in the lane; a flag leads to its
+/// bookmark; the right button opens a menu of what can be done with a step.
+void time_track(const PanelModel& model, interaction::Commands& commands);
+
+/// Commands that show a moment.
+void show(const interaction::Moment& at, interaction::Commands& commands);
+/// The number of the last step that the session knows.
+std::uint32_t last_step(const PanelModel& model);
+/// The time of a step, in words.
+std::string time_of(const PanelModel& model, std::uint32_t step);
+
+} // namespace isochron::app

@@ -1,0 +1,43 @@
+// What a newcomer is offered: a hint, and a tour of six steps that can be left at any point; and
+// the offer to go on with the session before.
+#pragma once
+
+#include "app/panel/panel_model.h"
+#include "app/panel/parts/places.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace isochron::app {
+
+/// What the user answers to an offer.
+enum class Answer : std::uint8_t { none, yes, no };
+
+/// The hint for newcomers, with the offer of the tour.
+/// @param held the pointer is on it, so that a press there is an answer
+Answer hint_card(const PanelBox& picture, bool& held);
+/// The offer to go on with the session before.
+Answer earlier_card(const PanelBox& picture, float top);
+
+/// Each step says what to do, and notices when it is done.
+class Tour {
+  public:
+    static constexpr std::size_t kSteps = 6;
+
+    void start() { step_ = 0; }
+    void leave() { step_.reset(); }
+    bool goes_on() const { return step_.has_value(); }
+    std::size_t step() const { return step_.value_or(kSteps); }
+
+    /// Lays the card of its step out at the bottom of the picture.
+    void draw(const PanelModel& model, const PanelBox& picture);
+
+  private:
+    std::optional<std::size_t> step_;      ///< none: no tour goes on
+    std::optional<std::size_t> before_of_; ///< the step that `before_` is of
+    ExplorerState before_;                 ///< when the step began
+    bool done_ = false;
+};
+
+} // namespace isochron::app

@@ -1,0 +1,167 @@
+"""A session that `isochron explore --control` began, steered from outside."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from collections.abc import Iterator, Mapping
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from . import _native
+
+
+def _folder() -> str:
+    runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+    if runtime.startswith("/"):
+        return os.path.join(runtime, "isochron")
+    state = os.environ.get("XDG_STATE_HOME") or os.path.join(os.path.expanduser("~"), ".local", "state")
+    return os.path.join(state, "isochron")
+
+
+class Session:
+    """A connection to a running session. Not for several threads at once; each may open its own.
+
+    What a session refuses raises `isochron.Error` with the session's words, and so does a session that has ended.
+    """
+
+    def __init__(self, path: str | os.PathLike[str] | None = None, *, token: str | None = None) -> None:
+        where = os.path.join(_folder(), "control.sock") if path is None else os.fspath(path)
+        host, colon, port = where.rpartition(":")
+        tcp = bool(colon) and "/" not in where
+        if tcp and (host not in ("127.0.0.1", "localhost") or not port.isdecimal()):
+            raise _native.Error(f"{where}: expected a path, or 127.0.0.1:PORT")
+        self._socket = socket.socket(socket.AF_INET if tcp else socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            self._socket.connect(("127.0.0.1", int(port)) if tcp else where)
+        except OSError as error:
+            self._socket.close()
+            raise _native.Error(
+                f"{where}: nobody listens there ({error.strerror}); isochron explore --control begins a session that does"
+            ) from None
+        self._stream = self._socket.makefile("rb")
+        self._requests = 0
+        self._events: list[dict[str, Any]] = []
+        if tcp:
+            if token is None:
+                with open(os.path.join(_folder(), f"control-{port}.token"), encoding="ascii") as file:
+                    token = file.readline().strip()
+            self._ask("hello", token=token)
+
+    def tell(self, commands: Mapping[str, Any] | None = None, /, **more: Any) -> int:
+        """Says commands, with the keys of a recording's: tell(step=7, isovalue=0.5), tell(undo=True).
+
+        Returns the number of the frame that obeys them once it is shown.
+        """
+        answer, _ = self._ask("commands", commands={**(commands or {}), **more})
+        return answer["frame"]
+
+    def state(self) -> dict[str, Any]:
+        """All settings, as a recording's `start` has them."""
+        return self._ask("state")[0]["state"]
+
+    def picture(self, *, now: bool = False) -> NDArray[np.uint8]:
+        """What the first window shows beside its panel: (height, width, 3) in sRGB.
+
+        It waits for the cells and the final quality, at most ten seconds of motion, unless `now` is true.
+        """
+        answer, data = self._ask("picture", now=now)
+        return np.frombuffer(data, np.uint8).reshape(answer["height"], answer["width"], 3)
+
+    def cells(
+        self, isovalue: float | None = None, step: int | None = None, *, array: str | None = None
+    ) -> NDArray[Any]:
+        """The numbers of the active cells, as `Run.cells` has them; what is not given is as it is shown."""
+        answer, data = self._ask("cells", **_given(isovalue=isovalue, step=step, array=array))
+        return np.frombuffer(data, np.uint64 if answer["id_bits"] == 64 else np.uint32)
+
+    def mesh(
+        self,
+        isovalue: float | None = None,
+        step: int | None = None,
+        *,
+        array: str | None = None,
+        dtype: DTypeLike = np.float32,
+    ) -> tuple[NDArray[Any], NDArray[np.uint32]]:
+        """The surface as points (N, 3) and triangles (M, 3), absolute, as `isochron export` writes them."""
+        answer, data = self._ask("mesh", **_given(isovalue=isovalue, step=step, array=array))
+        points, triangles = answer["points"], answer["triangles"]
+        places = np.frombuffer(data, np.float32, 3 * points).reshape(points, 3)
+        corners = np.frombuffer(data, np.uint32, 3 * triangles, 24 * points).reshape(triangles, 3)
+        return (places + np.asarray(answer["origin"])).astype(dtype), corners
+
+    def events(self, *topics: str, rate: float = 30) -> Iterator[dict[str, Any]]:
+        """What changes, until the session ends: `state`, `time`, `cells` or `statistics`, at most `rate` a second.
+
+        Each event has the keys `event`, `frame`, and one of the topic's name. Leave the loop, and nothing more is sent.
+        """
+        self._ask("subscribe", to=list(topics or ("state",)), rate=rate)
+        try:
+            while True:
+                while self._events:
+                    yield self._events.pop(0)
+                line = self._stream.readline()
+                if not line:
+                    return
+                event = json.loads(line)
+                if "event" in event:
+                    yield event
+        finally:
+            try:
+                self._ask("subscribe", to=[])
+            except (_native.Error, OSError, ValueError):
+                pass  # the session has ended
+            self._events.clear()
+
+    def close(self) -> None:
+        """Ends the connection; the session goes on."""
+        self._stream.close()
+        self._socket.close()
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _ask(self, verb: str, **more: Any) -> tuple[dict[str, Any], bytes]:
+        self._requests += 1
+        line = json.dumps({"id": self._requests, "verb": verb, **more}, default=_plain) + "\n"
+        try:
+            self._socket.sendall(line.encode())
+            while True:
+                answer = self._read()
+                if "event" in answer:
+                    self._events.append(answer)
+                    continue
+                data = self._stream.read(answer.get("bytes", 0))
+                if answer.get("id") in (self._requests, None):
+                    break
+        except OSError as error:
+            raise _native.Error(f"control socket: {error.strerror}") from None
+        if not answer["ok"]:
+            raise _native.Error(answer["error"])
+        return answer, data
+
+    def _read(self) -> dict[str, Any]:
+        line = self._stream.readline()
+        if not line:
+            raise _native.Error("control socket: the session has ended the connection")
+        return json.loads(line)
+
+
+def _given(**values: Any) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if value is not None}
+
+
+def _plain(value: Any) -> Any:
+    """NumPy's numbers and arrays as JSON has them."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is no value of a command")

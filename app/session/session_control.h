@@ -1,0 +1,55 @@
+// Steers a session from outside: hands the commands of the control socket to the loop of frames, and shows
+// its clients the frames.
+#pragma once
+
+#include "app/control/control_server.h"
+#include "app/quality/capture_wait.h"
+#include "app/session/session.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace isochron::app {
+
+class SessionControl {
+  public:
+    static constexpr interaction::Seconds kBetweenPictures{0.1}; ///< at least
+
+    /// @param file of the session
+    /// @throws interaction::Error when nothing can listen at the address
+    SessionControl(ControlAddress address, const Session& session,
+                   std::shared_ptr<const index::IndexFile> file, ControlServerOptions options);
+    ~SessionControl();
+
+    /// Where it listens, for people.
+    std::string where() const { return server_->where(); }
+    const ControlServer& server() const { return *server_; }
+    /// Sets what is called, on any thread, when there is something for the next frame.
+    void set_wake(std::function<void()> wake) { desk_.set_loop_wake(std::move(wake)); }
+    /// The data have more steps now.
+    void set_file(std::shared_ptr<const index::IndexFile> file);
+
+    /// The commands for the next frame, as a recording holds them. Call it once a frame.
+    interaction::Commands take(const Session& session);
+    /// Shows the clients a frame, and draws the picture that they wait for.
+    void tell(Session& session, const FrameReport& frame);
+    /// Whether a client waits for frames.
+    bool is_waited_for() const { return waits_ || desk_.has_commands(); }
+
+  private:
+    void give_pictures(Session& session, const FrameReport& frame);
+
+    ControlDesk desk_;
+    std::shared_ptr<const index::IndexFile> file_;
+    std::shared_ptr<const ExplorerState> state_; ///< as it was shown last
+    std::uint64_t frames_ = 0, obeyed_ = 0;
+    PictureWishes given_, asked_; ///< asked_: pictures that `capture_` was told of
+    CaptureWait capture_;
+    interaction::Seconds next_picture_{0};
+    bool waits_ = false;
+    std::optional<ControlServer> server_; ///< last: its thread uses the desk
+};
+
+} // namespace isochron::app

@@ -1,0 +1,300 @@
+// Blends chunks, the tables of layers, and whole steps.
+#include "index/file/between_steps.h"
+
+#include "index/file/chunks/spare_memory.h"
+#include "index/system/huge_pages.h"
+#include "index/volume/ordinal.h"
+#include "index/volume/stored_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+constexpr std::uint64_t kKeptBytes = 128 << 20; ///< of blended chunks
+constexpr std::size_t kRanks = LevelMap::kMaxLevels;
+
+/// The scaled values of a stored one, which may be infinite: in between, these are missing.
+double scaled_of(ValueType type, const Scaling& scaling, std::uint64_t ordinal) {
+    const double most = std::numeric_limits<double>::max();
+    return visit_value_type(type, [&]<class T>(std::type_identity<T>) {
+        const std::uint64_t number =
+            std::clamp<std::uint64_t>(ordinal, lowest_ordinal<T>(), highest_ordinal<T>());
+        const T value = from_ordinal<T>(static_cast<Ordinal<T>>(number));
+        return std::clamp(scaling(static_cast<double>(value)), -most, most);
+    });
+}
+
+/// By rank: the scaled values of the smallest and of the largest stored value that has it.
+struct ValuesOfRanks {
+    std::array<double, kRanks> first{}, last{};
+    std::size_t count = 0;
+};
+ValuesOfRanks values_of_ranks(const LevelMap& levels, const Scaling& scaling) {
+    ValuesOfRanks values;
+    values.count = levels.levels();
+    const auto thresholds = levels.thresholds();
+    const LevelMap::Extremes all = levels.extremes().value_or(LevelMap::Extremes{});
+    const auto value = [&](std::uint64_t ordinal) {
+        return scaled_of(levels.type(), scaling, ordinal);
+    };
+    const std::vector<std::uint64_t> distinct =
+        levels.lossless() ? levels.distinct() : std::vector<std::uint64_t>();
+    for (std::size_t rank = 0; rank < values.count; ++rank) {
+        if (levels.lossless()) {
+            values.first[rank] = values.last[rank] = value(distinct[rank]);
+            continue;
+        }
+        values.first[rank] = value(rank == 0 ? all.low : thresholds[rank - 1]);
+        values.last[rank] = value(
+            rank + 1 == values.count ? all.high : std::max<std::uint64_t>(thresholds[rank], 1) - 1);
+    }
+    return values;
+}
+
+/// Levels of blends: scaled values, ascending, and the same as ordinals of what blends are stored as.
+struct Thresholds {
+    std::vector<double> scaled;
+    std::vector<std::uint64_t> ordinals;
+
+    /// Those between which the blends' ranks lie. @param isovalues empty: the thresholds of `levels`
+    Thresholds(const LevelMap& levels, const Scaling& scaling, const Blend& blend,
+               std::span<const double> isovalues) {
+        std::vector<double> all(isovalues.begin(), isovalues.end());
+        if (isovalues.empty())
+            for (const std::uint64_t threshold : levels.thresholds())
+                all.push_back(scaled_of(levels.type(), scaling, threshold));
+        std::ranges::sort(all); // a negative slope reverses them
+        for (const double value : all) {
+            const auto cut = stored_cut(blend.type(), blend.scaling(), value);
+            if (!cut || (!ordinals.empty() && ordinals.back() == *cut))
+                continue; // it divides no blends, or the same ones
+            scaled.push_back(value);
+            ordinals.push_back(*cut);
+        }
+    }
+};
+
+/// Of a few thresholds: by where each is reached. @param now, next ascend
+std::vector<std::uint8_t> table_of_few(std::span<const double> now, std::span<const double> next,
+                                       std::uint32_t n, std::span<const double> thresholds) {
+    std::vector<std::uint8_t> table(kRanks * kRanks);
+    for (const double threshold : thresholds) {
+        // The larger the first value, the smaller the second one with which the blend is there.
+        std::size_t k = next.size();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            while (k > 0 && blended(now[i], next[k - 1], n) >= threshold)
+                --k;
+            for (std::size_t more = k; more < next.size(); ++more)
+                ++table[i * kRanks + more];
+        }
+    }
+    return table;
+}
+
+/// The ranks of the blends of all pairs of values. @param now, next monotone
+std::vector<std::uint8_t> table_of(std::span<const double> now, std::span<const double> next,
+                                   std::uint32_t n, std::span<const double> thresholds) {
+    if (thresholds.size() <= Blend::kMostIsovalues && std::ranges::is_sorted(now) &&
+        std::ranges::is_sorted(next))
+        return table_of_few(now, next, n, thresholds);
+    std::vector<std::uint8_t> table(kRanks * kRanks);
+    const Blend blend(ValueType::f64, {}, n);
+    std::array<double, kRanks> same{}, row{};
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        std::fill_n(same.begin(), next.size(), now[i]);
+        blend(std::as_bytes(std::span(same).first(next.size())), std::as_bytes(next),
+              reinterpret_cast<std::byte*>(row.data()));
+        std::size_t rank = 0; // of the value before, from which the next one is not far
+        for (std::size_t k = 0; k < next.size(); ++k) {
+            while (rank < thresholds.size() && thresholds[rank] <= row[k])
+                ++rank;
+            while (rank > 0 && thresholds[rank - 1] > row[k])
+                --rank;
+            table[i * kRanks + k] = static_cast<std::uint8_t>(rank);
+        }
+    }
+    return table;
+}
+
+struct BlendedChunk : Chunk {
+    explicit BlendedChunk(std::shared_ptr<SpareMemory> spare_memory)
+        : spare(std::move(spare_memory)), memory(spare->take()) {}
+    ~BlendedChunk() { spare->give_back(std::move(memory)); }
+    BlendedChunk(const BlendedChunk&) = delete;
+    BlendedChunk& operator=(const BlendedChunk&) = delete;
+
+    std::shared_ptr<SpareMemory> spare;
+    SpareMemory::Doubles memory; ///< of doubles, for its alignment
+};
+
+} // namespace
+
+BlendedRanks::BlendedRanks(const LevelMap& now, const LevelMap& next, const Scaling& scaling,
+                           const Blend& blend, std::uint32_t n, std::span<const double> isovalues)
+    : reversed_(scaling.slope < 0) {
+    const Thresholds of_blends(now, scaling, blend, isovalues);
+    const std::vector<double>& thresholds = of_blends.scaled;
+    levels_ =
+        std::make_shared<const LevelMap>(LevelMap::of_thresholds(blend.type(), of_blends.ordinals));
+    const ValuesOfRanks of_now = values_of_ranks(now, scaling),
+                        of_next = values_of_ranks(next, scaling);
+    const auto some = [](const std::array<double, kRanks>& values, std::size_t count) {
+        return std::span(values).first(count);
+    };
+    low_ = table_of(some(reversed_ ? of_now.last : of_now.first, of_now.count),
+                    some(reversed_ ? of_next.last : of_next.first, of_next.count), n, thresholds);
+    high_ = table_of(some(reversed_ ? of_now.first : of_now.last, of_now.count),
+                     some(reversed_ ? of_next.first : of_next.last, of_next.count), n, thresholds);
+}
+
+void BlendedRanks::blend(std::span<std::uint8_t> low, std::span<std::uint8_t> high,
+                         std::span<const std::uint8_t> low_next,
+                         std::span<const std::uint8_t> high_next) const {
+    for (std::size_t i = 0; i < low.size(); ++i) {
+        if (low[i] > high[i] || low_next[i] > high_next[i]) { // no cell without missing values
+            low[i] = 255;
+            high[i] = 0;
+            continue;
+        }
+        const std::size_t of_low = low[i] * kRanks + low_next[i],
+                          of_high = high[i] * kRanks + high_next[i];
+        low[i] = low_[reversed_ ? of_high : of_low];
+        high[i] = high_[reversed_ ? of_low : of_high];
+    }
+}
+
+std::uint64_t BlendedRanks::bytes() const {
+    return sizeof(*this) + low_.size() + high_.size() +
+           levels_->thresholds().size() * sizeof(std::uint64_t);
+}
+
+std::shared_ptr<const BlendedRanks> BlendedRanks::of(const ChunkStore& store, Instant at,
+                                                     const Blend& blend) {
+    const auto make = [&] {
+        return std::make_shared<const BlendedRanks>(
+            *store.levels(at.step), *store.levels(at.step + 1), store.info().scaling, blend,
+            at.fraction, blend.isovalues());
+    };
+    if (!blend.isovalues().empty()) // which is sooner done than said
+        return make();
+    ByteCache& kept = store.for_blends().ranks;
+    const ByteCache::Key key{0, at.number()};
+    if (auto found = kept.find<BlendedRanks>(key))
+        return found;
+    auto made = make();
+    kept.add(key, made, made->bytes());
+    return made;
+}
+
+BetweenSteps::BetweenSteps(const ChunkStore& store, Instant at, const Blend& blend)
+    : store_(store), at_(at), blend_(blend), kept_(kKeptBytes) {}
+
+const BlendedRanks& BetweenSteps::ranks() const {
+    std::call_once(made_ranks_, [&] { ranks_ = BlendedRanks::of(store_, at_, blend_); });
+    return *ranks_;
+}
+
+ChunkLayerPtr BetweenSteps::layer(std::uint32_t layer) const {
+    const ByteCache::Key key{1, layer};
+    if (auto kept = kept_.find<ChunkLayer>(key))
+        return kept;
+    const auto made = std::make_shared<ChunkLayer>(*store_.layer(at_.step, layer));
+    if (store_.has_bricks()) {
+        const ChunkLayerPtr next = store_.layer(at_.step + 1, layer);
+        ranks().blend(made->low, made->high, next->low, next->high);
+    }
+    kept_.add(key, made, made->low.size() * (sizeof(std::uint64_t) + sizeof(std::uint32_t) + 2));
+    return made;
+}
+
+ChunkPtr BetweenSteps::blended(const Chunk& now, const Chunk& next) const {
+    const auto made = std::make_shared<BlendedChunk>(store_.for_blends().spare);
+    made->size = now.size;
+    made->bricks = now.bricks;
+    if (store_.has_bricks())
+        ranks().blend(std::span(made->bricks).first(kBricksOfChunk),
+                      std::span(made->bricks).last(kBricksOfChunk),
+                      std::span(next.bricks).first(kBricksOfChunk),
+                      std::span(next.bricks).last(kBricksOfChunk));
+    const std::size_t count = now.values.size() / size_of(store_.info().type);
+    const std::size_t bytes = count * size_of(blend_.type());
+    auto* const values = reinterpret_cast<std::byte*>(made->memory.get());
+    blend_(now.values, next.values, values);
+    made->values = {values, bytes};
+    return made;
+}
+
+std::vector<ChunkPtr> BetweenSteps::chunks(std::uint32_t layer,
+                                           std::span<const std::uint32_t> places,
+                                           const std::stop_token& stop) const {
+    std::vector<ByteCache::Key> keys;
+    for (const std::uint32_t place : places)
+        keys.push_back({2, std::uint64_t{layer} << 32 | place});
+    std::vector<ChunkPtr> found = kept_.find_all<Chunk>(keys);
+    std::vector<std::uint32_t> missing;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (!found[i])
+            missing.push_back(places[i]);
+    if (missing.empty())
+        return found;
+    store_.expect(at_.step + 1, layer, missing); // announced before the first step is waited for
+    const std::vector<ChunkPtr> now = store_.chunks(at_.step, layer, missing, stop);
+    const std::vector<ChunkPtr> next = store_.chunks(at_.step + 1, layer, missing, stop);
+    std::vector<ByteCache::Entry> entries;
+    for (std::size_t i = 0, at = 0; i < places.size(); ++i) {
+        if (found[i])
+            continue;
+        stop_if_asked(stop);
+        found[i] = blended(*now[at], *next[at]);
+        entries.push_back({keys[i], found[i], found[i]->values.size() + sizeof(BlendedChunk)});
+        ++at;
+    }
+    kept_.add_all(std::move(entries));
+    return found;
+}
+
+std::uint64_t BetweenSteps::expect(std::uint32_t layer,
+                                   std::span<const std::uint32_t> places) const {
+    return store_.expect(at_.step, layer, places) + store_.expect(at_.step + 1, layer, places);
+}
+
+std::uint64_t BetweenSteps::fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
+                                  const std::stop_token& stop) const {
+    return store_.fetch(at_.step, layer, places, stop) +
+           store_.fetch(at_.step + 1, layer, places, stop);
+}
+
+LoadedStep BetweenSteps::whole(const LoadedStep& now, const LoadedStep& next, Instant at,
+                               const ChunkStore* store, const Blend& blend) {
+    struct Owner {
+        LargeMemory values;
+        std::vector<std::uint8_t> bricks;
+    };
+    const auto owner = std::make_shared<Owner>();
+    LoadedStep made{.values = now.values};
+    made.values.type = blend.type();
+    made.values.scaling = blend.scaling();
+    const std::size_t bytes = now.values.grid.vertex_count() * size_of(blend.type());
+    owner->values = large_memory(bytes);
+    blend(now.values.step_bytes(at.step), next.values.step_bytes(at.step + 1), owner->values.get());
+    made.values.first = owner->values.get();
+    made.values.first_step = at.step;
+    made.values.stride = (bytes + 7) / 8 * 8;
+    if (!now.bricks.empty() && store) {
+        owner->bricks.assign(now.bricks.begin(), now.bricks.end());
+        const std::size_t count = now.bricks.size() / 2;
+        const std::span<std::uint8_t> bricks = owner->bricks;
+        BlendedRanks::of(*store, at, blend)
+            ->blend(bricks.first(count), bricks.subspan(count, count), next.bricks.first(count),
+                    next.bricks.subspan(count, count));
+        made.bricks = bricks;
+    }
+    made.owner = owner;
+    return made;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,81 @@
+// Values and bounds between two steps: chunks of both are blended when they are needed.
+#pragma once
+
+#include "index/file/chunks/byte_cache.h"
+#include "index/file/chunks/chunk_store.h"
+#include "index/volume/blend.h"
+#include "index/volume/instant.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Bounds of blended values, as ranks among levels of blended values. A blend never decreases when
+/// one of its two values grows, so the blend of two bounds is a bound of the blends. The levels are
+/// those of the steps, or, where the isovalues are known, these isovalues: then far fewer blends tell
+/// all ranks.
+class BlendedRanks {
+  public:
+    /// @param now, next the levels of the two steps
+    /// @param isovalues that the bounds will be compared with; empty: any may be
+    BlendedRanks(const LevelMap& now, const LevelMap& next, const Scaling& scaling,
+                 const Blend& blend, std::uint32_t n, std::span<const double> isovalues = {});
+
+    const LevelMapPtr& levels() const { return levels_; }
+    /// @param low, high ranks of some values, at the first and at the second step; replaced by the
+    ///        ranks of their blends @param low_next, high_next the second step's
+    void blend(std::span<std::uint8_t> low, std::span<std::uint8_t> high,
+               std::span<const std::uint8_t> low_next,
+               std::span<const std::uint8_t> high_next) const;
+    std::uint64_t bytes() const;
+    /// Those of a moment of a store, which keeps the last ones for any isovalues. @throws as
+    /// ChunkStore does
+    static std::shared_ptr<const BlendedRanks> of(const ChunkStore& store, Instant at,
+                                                  const Blend& blend);
+
+  private:
+    using Table = std::vector<std::uint8_t>; ///< by both ranks
+    LevelMapPtr levels_;
+    Table low_, high_;
+    bool reversed_; ///< larger stored values are smaller scaled ones
+};
+
+/// What a store has at a moment between two of its steps. Keeps what it has blended, up to a limit.
+/// Thread-safe; throws as ChunkStore does.
+class BetweenSteps {
+  public:
+    /// @param store outlives this @param at between two steps of it @param blend of them
+    BetweenSteps(const ChunkStore& store, Instant at, const Blend& blend);
+
+    const Blend& kind() const { return blend_; }
+    LevelMapPtr levels() const { return ranks().levels(); }
+    ChunkLayerPtr layer(std::uint32_t layer) const;
+    std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
+                                 const std::stop_token& stop) const;
+    std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;
+    std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
+                        const std::stop_token& stop) const;
+
+    /// The blend of two whole steps. @param store has the levels of their bricks, if they have some
+    static LoadedStep whole(const LoadedStep& now, const LoadedStep& next, Instant at,
+                            const ChunkStore* store, const Blend& blend);
+
+  private:
+    const BlendedRanks& ranks() const;
+    ChunkPtr blended(const Chunk& now, const Chunk& next) const;
+
+    const ChunkStore& store_;
+    Instant at_;
+    Blend blend_;
+    mutable std::once_flag made_ranks_;
+    mutable std::shared_ptr<const BlendedRanks> ranks_;
+    mutable ByteCache kept_;
+};
+
+} // namespace isochron::index

@@ -1,0 +1,60 @@
+// What blends of the steps of a store share: memory of blended chunks that are done with, for those
+// of the next moment, and tables of ranks.
+#pragma once
+
+#include "index/file/chunks/byte_cache.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace isochron::index {
+
+/// New memory is cleared by the system, which takes longer than the blend of two chunks. Thread-safe.
+class SpareMemory {
+  public:
+    using Doubles = std::unique_ptr<double[]>;
+    /// @param count doubles that memory must have room for
+    /// @param limit bytes that are kept
+    SpareMemory(std::size_t count, std::size_t limit)
+        : count_(count), most_(limit / (count * sizeof(double))) {}
+
+    /// Room for `count` doubles, with undefined contents.
+    Doubles take() {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (!free_.empty()) {
+                Doubles memory = std::move(free_.back());
+                free_.pop_back();
+                return memory;
+            }
+        }
+        return std::make_unique_for_overwrite<double[]>(count_);
+    }
+    void give_back(Doubles memory) {
+        const std::scoped_lock lock(mutex_);
+        if (free_.size() < most_)
+            free_.push_back(std::move(memory));
+    }
+
+  private:
+    const std::size_t count_, most_;
+    std::mutex mutex_;
+    std::vector<Doubles> free_;
+};
+
+/// Views of a moment come and go: a search has several, and each look at a place has one. Making
+/// ranks takes longer than such a look. Thread-safe.
+struct BlendMemory {
+    /// @param chunk doubles of a blended chunk @param limit bytes of them that are kept
+    BlendMemory(std::size_t chunk, std::size_t limit)
+        : spare(std::make_shared<SpareMemory>(chunk, limit)), ranks(kRankBytes) {}
+
+    static constexpr std::uint64_t kRankBytes = 2 << 20; ///< of ranks: about 15 moments
+    std::shared_ptr<SpareMemory> spare;                  ///< blended chunks may outlive the store
+    ByteCache ranks;                                     ///< by the number of the moment
+};
+
+} // namespace isochron::index

@@ -1,0 +1,163 @@
+// Surfaces that a session exports: in the background, under names that are free, and no part of a file.
+#include "app/output/export_request.h"
+#include "app/output/surface_maker.h"
+#include "tests/support/eventually.h"
+#include "tests/support/session_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+using interaction::ExportWork;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class SurfaceMakerTest : public testing::Test {
+  protected:
+    SurfaceMakerTest() {
+        state_.isosurfaces = {{8.0, {1, 0, 0}, 1}, {4.0, {0, 0, 1}, 0.5f}};
+        state_.exporting = {true, 0};
+    }
+    /// Frames until the export has ended. @return what is said of it
+    std::string outcome() {
+        std::vector<std::string> lines;
+        EXPECT_TRUE(test_support::eventually([&] {
+            if (const auto work = maker_.update(state_)) {
+                state_.exporting = *work;
+                told_.push_back(*work);
+            }
+            const auto more = maker_.messages();
+            lines.insert(lines.end(), more.begin(), more.end());
+            return !lines.empty() && !state_.exporting.goes_on;
+        }));
+        maker_.update(state_);
+        EXPECT_EQ(lines.size(), 1u);
+        return lines.empty() ? std::string() : lines.front();
+    }
+    std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder_.path() / "out"))
+            names.push_back(entry.path().filename().string());
+        std::ranges::sort(names);
+        return names;
+    }
+
+    TestFolder folder_;
+    std::shared_ptr<const index::IndexFile> file_ = build_sphere(folder_.path());
+    SurfaceMaker maker_{file_, folder_.path() / "out", {}};
+    ExplorerState state_;
+    std::vector<ExportWork> told_;
+};
+
+TEST_F(SurfaceMakerTest, WhatIsShownIsWrittenUnderAFreeName) {
+    fs::create_directory(folder_.path() / "out");
+    folder_.write("out/isochron_surface_0001.ply", "someone else's");
+    state_.step = 2;
+    EXPECT_THAT(outcome(), HasSubstr("isochron_surface_0002.ply: "));
+    EXPECT_EQ(told_.back(), ExportWork{}) << "the panel is told that it has ended";
+    EXPECT_THAT(files(), ElementsAre("isochron_surface_0001.ply", "isochron_surface_0002.ply"));
+    EXPECT_EQ(folder_.read("out/isochron_surface_0001.ply"), "someone else's");
+    EXPECT_THAT(folder_.read("out/isochron_surface_0002.ply"), HasSubstr("step 2, time 1 s"));
+}
+
+TEST_F(SurfaceMakerTest, ARangeHasAFileForEachOfItsSteps) {
+    state_.pictures.surfaces = {"vtp", interaction::ExportedSteps::range, true};
+    state_.play_range = {1, 3};
+    outcome();
+    EXPECT_THAT(files(),
+                ElementsAre("isochron_surface_0001.pvd", "isochron_surface_0001_0001.vtp",
+                            "isochron_surface_0001_0002.vtp", "isochron_surface_0001_0003.vtp"));
+}
+
+TEST_F(SurfaceMakerTest, WhatIsCanceledLeavesNoPartOfAFile) {
+    state_.pictures.surfaces = {"ply", interaction::ExportedSteps::range, true};
+    maker_.update(state_);
+    state_.exporting = {};
+    EXPECT_EQ(maker_.update(state_), std::nullopt) << "the user knows";
+    maker_.finish();
+    for (const std::string& name : files())
+        EXPECT_THAT(folder_.read("out/" + name), HasSubstr("end_header")) << name;
+}
+
+TEST_F(SurfaceMakerTest, AFolderThatCannotBeIsOneLine) {
+    folder_.write("plain", "a file");
+    state_.pictures.folder = (folder_.path() / "plain/sub").string();
+    EXPECT_THAT(outcome(), HasSubstr("plain"));
+    EXPECT_FALSE(fs::exists(folder_.path() / "out"));
+}
+
+TEST_F(SurfaceMakerTest, TheClipPlaneCutsAsItIsShown) {
+    state_.clip = {true, {12, 15.5, 15.5}, {1, 0, 0}};
+    const index::ExportRequest cut = shown_request(state_, file_);
+    ASSERT_TRUE(cut.reshape);
+    EXPECT_EQ(cut.surfaces[1].opacity, 0.5f);
+    EXPECT_EQ(cut.surfaces[1].color, (std::array<std::uint8_t, 3>{0, 0, 255}));
+    state_.pictures.surfaces.clipped = false;
+    EXPECT_FALSE(shown_request(state_, file_).reshape);
+}
+
+TEST_F(SurfaceMakerTest, ColorsHaveTheRangeOfThePicture) {
+    state_.coloring.by = interaction::ColorBy::value;
+    state_.coloring.percentiles = {5, 95};
+    ColorScale scale;
+    scale.range = {5, 7};
+    const auto color_of = shown_request(state_, file_, scale).values->color_of;
+    EXPECT_EQ(color_of(4), color_of(5));
+    EXPECT_NE(color_of(5), color_of(6));
+    EXPECT_NE(color_of(6), color_of(7));
+    EXPECT_EQ(color_of(7), color_of(8));
+
+    int asked = 0;
+    const auto scale_of_picture = [&] {
+        ++asked;
+        return std::optional(scale);
+    };
+    maker_.update(state_, scale_of_picture);
+    maker_.update(state_, scale_of_picture);
+    EXPECT_EQ(asked, 1) << "the range does not move while files are written";
+}
+
+TEST_F(SurfaceMakerTest, VerticesHaveTheTimeOfFirstCrossing) {
+    state_.coloring.by = interaction::ColorBy::first_crossing;
+    state_.isosurfaces.resize(1);
+    state_.step = 2;
+    EXPECT_THAT(outcome(), HasSubstr("isochron_surface_0001.ply: "));
+    const std::string ply = folder_.read("out/isochron_surface_0001.ply");
+    const std::string end = "end_header\n";
+    std::size_t vertices = 0;
+    ASSERT_EQ(
+        std::sscanf(ply.c_str() + ply.find("element vertex"), "element vertex %zu", &vertices), 1);
+    std::map<float, std::size_t> found;
+    std::set<std::string> colors;
+    constexpr std::size_t kPlace = 12, kNormal = 12, kColor = 3, kLine = kPlace + kNormal + 3 + 5;
+    const char* at = ply.c_str() + ply.find(end) + end.size();
+    for (std::size_t i = 0; i < vertices; ++i, at += kLine) {
+        float value = 0;
+        std::memcpy(&value, at + kPlace + kNormal + kColor, sizeof(value));
+        ++found[value];
+        colors.emplace(at + kPlace + kNormal, kColor);
+    }
+    const auto& times = file_->info().times;
+    for (const auto& [value, count] : found)
+        EXPECT_TRUE(std::ranges::any_of(times, [&](double time) {
+            return time <= times[2] && std::abs(time - value) < 1e-3;
+        })) << value;
+    EXPECT_EQ(colors.size(), found.size()) << "a color for each time";
+    EXPECT_GT(found.rbegin()->first, times[1] + 1e-3) << "some cells are new";
+    EXPECT_GT(found.size(), 1u) << "others are not";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -4,14 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 
 #include <fcntl.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 
 namespace isochron::app {
 
 using interaction::Seconds;
+
+namespace {
+
+constexpr std::size_t kSentTogether = 64; ///< lines, and the bytes behind them, of one call
+
+std::size_t bytes_of(const ControlAnswer& answer) {
+    return answer.line.size() + (answer.bytes ? answer.bytes->size() : 0);
+}
+
+} // namespace
 
 bool RequestRate::take(Seconds now) {
     if (before_)
@@ -77,25 +89,38 @@ void ControlConnection::send(ControlAnswer answer) {
 
 void ControlConnection::flush() {
     while (!unsent_.empty() && !over_) {
-        const ControlAnswer& first = unsent_.front();
-        const std::size_t line = first.line.size(), bytes = first.bytes ? first.bytes->size() : 0;
-        const void* const from = sent_ < line
-                                     ? static_cast<const void*>(first.line.data() + sent_)
-                                     : static_cast<const void*>(first.bytes->data() + sent_ - line);
-        const std::size_t left = sent_ < line ? line - sent_ : line + bytes - sent_;
-        const ssize_t count = ::send(socket_.get(), from, left, MSG_DONTWAIT | MSG_NOSIGNAL);
-        if (count < 0 && errno == EINTR)
+        std::array<iovec, kSentTogether> parts;
+        std::size_t count = 0, before = sent_; // bytes that the parts have begun with
+        const auto add = [&](const void* from, std::size_t bytes) {
+            const std::size_t begun = std::min(before, bytes);
+            before -= begun;
+            if (bytes > begun)
+                parts[count++] = {static_cast<char*>(const_cast<void*>(from)) + begun,
+                                  bytes - begun};
+        };
+        for (const ControlAnswer& answer : unsent_) {
+            if (count + 2 > parts.size())
+                break;
+            add(answer.line.data(), answer.line.size());
+            if (answer.bytes)
+                add(answer.bytes->data(), answer.bytes->size());
+        }
+        msghdr message{};
+        message.msg_iov = parts.data();
+        message.msg_iovlen = count;
+        const ssize_t sent = sendmsg(socket_.get(), &message, MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
             continue;
-        if (count < 0) {
+        if (sent < 0) {
             over_ = errno != EAGAIN && errno != EWOULDBLOCK;
             return;
         }
-        sent_ += static_cast<std::size_t>(count);
-        if (sent_ < line + bytes)
-            continue;
-        unsent_bytes_ -= line;
-        sent_ = 0;
-        unsent_.pop_front();
+        sent_ += static_cast<std::size_t>(sent);
+        while (!unsent_.empty() && sent_ >= bytes_of(unsent_.front())) {
+            sent_ -= bytes_of(unsent_.front());
+            unsent_bytes_ -= unsent_.front().line.size();
+            unsent_.pop_front();
+        }
     }
 }
 

@@ -30,8 +30,10 @@ bool go_together(const Commands& earlier, const Commands& later) {
 
 std::uint64_t ControlDesk::post(const Commands& commands) {
     std::uint64_t number = 0;
+    bool first = false; // whoever takes a batch looks for the next one before it waits
     {
         const std::lock_guard lock(mutex_);
+        first = batches_.empty();
         if (!batches_.empty() && go_together(batches_.back().commands, commands))
             interaction::merge(batches_.back().commands, commands);
         else if (batches_.size() < kMostBatches)
@@ -40,7 +42,8 @@ std::uint64_t ControlDesk::post(const Commands& commands) {
             return 0;
         number = batches_.back().last = ++posted_;
     }
-    wake_loop();
+    if (first)
+        wake_loop();
     return number;
 }
 

@@ -6,6 +6,7 @@
 import argparse
 import json
 import os
+import select
 import socket
 import statistics
 import subprocess
@@ -52,6 +53,11 @@ class Link:
         assert answer["ok"], answer
         return answer
 
+    def skip_until_still(self, seconds):
+        """Skips what is told of frames, until none comes for so long: then nothing is drawn."""
+        while select.select([self.socket], [], [], seconds)[0]:
+            self.read()
+
     def tell(self, **commands):
         return self.ask(verb="commands", commands=commands)["frame"]
 
@@ -74,7 +80,7 @@ def over_the_frame(teller, watcher, count):
     """Of commands to a session at rest: answered less the time of the frame that shows it, and answered. [ms]"""
     over, whole = [], []
     for i in range(count):
-        time.sleep(0.05)  # until nothing is drawn
+        watcher.skip_until_still(0.3)
         begun = time.perf_counter()
         frame = teller.tell(step=i % 2)
         passed = 1e3 * (time.perf_counter() - begun)

@@ -48,7 +48,7 @@ struct FrameCells {
     unsigned finest = 0, coarsest = 0;         ///< levels of detail that they are of
     std::optional<std::uint64_t> volume_cells; ///< active cells of level 0, if counted
     std::uint64_t candidates = 0; ///< cells that the search returned before the exact test
-    std::uint64_t reused = 0;     ///< candidates that incremental search took from the last set
+    std::uint64_t reused = 0;     ///< of `cells`: index::FoundCells
     std::string refused;          ///< why the newest cells are not shown; empty: they are
     bool extracting = false;      ///< the worker was busy when the frame began or ended
     render::UploadCount uploaded; ///< in this frame

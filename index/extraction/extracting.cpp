@@ -188,10 +188,8 @@ class Extracting {
             return true;
         const auto started = std::chrono::steady_clock::now();
         CellMesh mesh;
-        if (!layers_.make_mesh(step, set, mesh, stop, colors ? &*colors : nullptr, earlier))
+        if (!layers_.make_mesh(step, set, mesh, stop, {colors ? &*colors : nullptr}, earlier))
             return false;
-        if (colors)
-            color_by_values(mesh, colors->array().low, colors->array().high);
         if (bytes_of(mesh) <= room)
             set.mesh = std::make_shared<const CellMesh>(std::move(mesh));
         set.shading_time += std::chrono::steady_clock::now() - started;

@@ -1,6 +1,9 @@
 // Decides by the tables of chunks how much stays.
 #include "index/extraction/extraction_at_hand.h"
 
+#include "index/file/color_source.h"
+#include "index/volume/cell_walk.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -46,7 +49,9 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
     staying_.reset();
     step_.reset();
     mesh_.reset();
+    staying_colors_.reset();
     places_.assign(query.isovalues.size(), {});
+    colored_.assign(query.isovalues.size(), {});
     if (!may_keep(query))
         return;
     looks_ = from_->query.step == query.step ? looks_ + 1 : 0;
@@ -58,8 +63,21 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
     if (share < kLeastKept)
         return;
     staying_.emplace(*step_, from_->query.step, shading_ != Shading::none);
-    if (!enough_stays(share))
+    if (enough_stays(share))
+        look_at_colors();
+    else
         staying_.reset();
+}
+
+/// Finds out where the colors at hand stay, if they are those that are asked for.
+void ExtractionAtHand::look_at_colors() {
+    const SurfacesQuery& earlier = from_->query;
+    if (!same_colors_ || query_.coloring != CellColoring::value ||
+        earlier.coloring != query_.coloring || earlier.colors != query_.colors ||
+        query_.colors >= ColorSource::count(*file_))
+        return;
+    if (const ChunkStore* const chunks = ColorSource(*file_, query_.colors).chunks())
+        staying_colors_.emplace(StepView(*chunks, query_.step), earlier.step, false);
 }
 
 /// Of the cells at hand. @param chunks share of the chunks that stay
@@ -96,29 +114,45 @@ bool ExtractionAtHand::find(std::size_t surface, bool meshed, const std::stop_to
     }
     mesh_ = meshed ? earlier.mesh : nullptr;
     found_ = surface;
-    const bool asks = mesh_ || query_.coloring == CellColoring::value;
     change = join_cells(file_->info().grid, earlier, *staying_, others, set,
-                        asks ? &places_[surface] : nullptr);
+                        mesh_ || staying_colors_ ? &places_[surface] : nullptr,
+                        mesh_ ? &inner_ : nullptr);
+    if (staying_colors_)
+        keep_colors(surface, set);
     if (mesh_)
-        corners_ = corners_of_cells(*mesh_);
+        cells_ = cells_of(*mesh_);
     set.search_time = std::chrono::steady_clock::now() - started;
     return !stop.stop_requested();
 }
 
+/// Of a surface's cells that stay: notes those whose colors stay, too.
+void ExtractionAtHand::keep_colors(std::size_t surface, const CellSet& set) {
+    std::vector<std::uint32_t>& places = colored_[surface] = places_[surface];
+    CellWalk walk(file_->info().grid);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        walk.to(set.ids[i]);
+        if (!staying_colors_->has_cell(walk.x(), walk.y(), walk.z()))
+            places[i] = EarlierMesh::kNone;
+    }
+}
+
 EarlierMesh ExtractionAtHand::mesh() const {
-    return mesh_ ? EarlierMesh{mesh_.get(), corners_, places_[found_]} : EarlierMesh{};
+    if (!mesh_)
+        return {};
+    EarlierMesh mesh{mesh_.get(), &cells_, places_[found_], inner_};
+    if (staying_colors_ && mesh_->colors.size() == mesh_->vertices.size())
+        mesh.colored = colored_[found_];
+    return mesh;
 }
 
 KnownColors ExtractionAtHand::colors() const {
-    if (!staying_ || !same_colors_ || query_.coloring != CellColoring::value ||
-        from_->query.coloring != query_.coloring || from_->query.colors != query_.colors ||
-        from_->colors.size() != from_->cells())
+    if (!staying_colors_ || from_->colors.size() != from_->cells())
         return {};
-    KnownColors known{from_->query.step, from_->colors, from_->corner_colors, {}};
+    KnownColors known{from_->colors, from_->corner_colors};
     std::size_t first = 0;
     for (std::size_t i = 0; i < from_->surfaces.size(); ++i) {
-        if (i < places_.size())
-            known.surfaces.push_back({places_[i], first});
+        if (i < colored_.size())
+            known.surfaces.push_back({colored_[i], first});
         first += from_->surfaces[i].ids.size();
     }
     return known;

@@ -43,7 +43,8 @@ class ExtractionAtHand {
     /// @return false when stopped
     bool find(std::size_t surface, bool meshed, const std::stop_token& stop, CellSet& set,
               SurfaceChange& change);
-    /// The mesh of the cells that the last `find` kept; none if it was not meshed.
+    /// The mesh of the cells that the last `find` kept, with its colors if these can be kept; none if
+    /// it was not meshed.
     EarlierMesh mesh() const;
 
     /// Whether the extraction at hand is of the same step, some of whose chunks are in memory then.
@@ -65,6 +66,8 @@ class ExtractionAtHand {
   private:
     bool may_keep(const SurfacesQuery& query) const;
     bool enough_stays(double chunks) const;
+    void look_at_colors();
+    void keep_colors(std::size_t surface, const CellSet& set);
 
     std::shared_ptr<const IndexFile> file_;
     LayerSearch& layers_;
@@ -78,10 +81,15 @@ class ExtractionAtHand {
     unsigned looks_ = 0; ///< at the same step, one after the other
     std::optional<StepView> step_;
     std::optional<StayingCells> staying_; ///< none if nothing is taken over
-    CellMeshPtr mesh_;                    ///< of the last surface that was found
-    std::vector<std::uint32_t> corners_;  ///< EarlierMesh
+    /// Of the array to color by; none if no colors are taken over.
+    std::optional<StayingCells> staying_colors_;
+    CellMeshPtr mesh_;                ///< of the last surface that was found
+    CellsOfMesh cells_;               ///< of that mesh
+    std::vector<std::uint8_t> inner_; ///< EarlierMesh, of the surface that was found
     /// By surface: EarlierMesh::places; empty where nothing is kept, or nobody asks.
     std::vector<std::vector<std::uint32_t>> places_;
+    /// Likewise EarlierMesh::colored, also without a mesh.
+    std::vector<std::vector<std::uint32_t>> colored_;
     std::size_t found_ = 0; ///< the last surface that was found
 };
 

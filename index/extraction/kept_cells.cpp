@@ -55,19 +55,27 @@ double share_kept(const Grid& grid, std::span<const CellId> ids, const StayingCe
 }
 
 SurfaceChange join_cells(const Grid& grid, const CellSet& earlier, const StayingCells& staying,
-                         const CellSet& others, CellSet& set, std::vector<std::uint32_t>* kept) {
+                         const CellSet& others, CellSet& set, std::vector<std::uint32_t>* kept,
+                         std::vector<std::uint8_t>* inner) {
     SurfaceChange change;
     CellJoiner joiner(earlier, others, set);
-    if (kept) {
-        kept->clear();
-        kept->reserve(earlier.ids.size() + others.ids.size());
-    }
+    const auto clear = [&](auto* values) {
+        if (!values)
+            return;
+        values->clear();
+        values->reserve(earlier.ids.size() + others.ids.size());
+    };
+    clear(kept);
+    clear(inner);
+    CellWalk walk(grid);
     const auto add = [&](const CellSet& from, std::size_t i, std::uint32_t place) {
         joiner.add(from, i);
         if (kept)
             kept->push_back(place);
+        if (inner)
+            inner->push_back(place != EarlierMesh::kNone &&
+                             staying.has_around(walk.x(), walk.y(), walk.z()));
     };
-    CellWalk walk(grid);
     std::size_t other = 0;
     for (std::uint32_t i = 0; i < earlier.ids.size(); ++i) {
         const CellId id = earlier.ids[i];

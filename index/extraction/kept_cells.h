@@ -28,9 +28,10 @@ double share_kept(const Grid& grid, std::span<const CellId> ids, const StayingCe
 /// @param earlier of the same isovalue; with points if `others` has some
 /// @param others the active cells that do not stay
 /// @param set gets ids, and points and rows if `others` has points; counts what is kept
-/// @param kept if not null, gets for each cell its place in the earlier set, or EarlierMesh::kNone
+/// @param kept if not null, gets EarlierMesh::places @param inner likewise EarlierMesh::inner
 SurfaceChange join_cells(const Grid& grid, const CellSet& earlier, const StayingCells& staying,
                          const CellSet& others, CellSet& set,
-                         std::vector<std::uint32_t>* kept = nullptr);
+                         std::vector<std::uint32_t>* kept = nullptr,
+                         std::vector<std::uint8_t>* inner = nullptr);
 
 } // namespace isochron::index

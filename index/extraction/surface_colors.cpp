@@ -2,7 +2,6 @@
 #include "index/extraction/surface_colors.h"
 
 #include "index/surface/cell_colors.h"
-#include "index/volume/cell_walk.h"
 
 #include <algorithm>
 #include <span>
@@ -28,12 +27,6 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
             return true;
         source.emplace(*file_, query.colors);
     }
-    std::optional<StepView> colors;
-    std::optional<StayingCells> staying;
-    if (source && !known.colors.empty() && source->chunks()) {
-        colors.emplace(*source->chunks(), query.step);
-        staying.emplace(*colors, known.at, false);
-    }
     const bool blended = query.coloring == CellColoring::first_blended_crossing;
     std::size_t rank = 0;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -45,10 +38,9 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
         if (source) {
             corners.resize(8 * out.size(), kNoFineColor);
             const Part colored{part, std::span(corners).subspan(8 * rank)};
-            const bool keeps =
-                staying && i < known.surfaces.size() && !known.surfaces[i].places.empty();
-            if (keeps ? !fill_others(step, surfaces[i], *source, known, known.surfaces[i], *staying,
-                                     colored, stop)
+            const bool keeps = i < known.surfaces.size() && !known.surfaces[i].places.empty();
+            if (keeps ? !fill_others(step, surfaces[i], *source, known, known.surfaces[i], colored,
+                                     stop)
                       : !layers_.color_cells(step, surfaces[i], *source, colored.colors, stop,
                                              colored.corners))
                 return false;
@@ -63,19 +55,16 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
     return true;
 }
 
-/// Takes over the colors of cells that stay with their colors, and colors the others.
+/// Takes over the colors that stay, and colors the other cells.
 bool SurfaceColors::fill_others(const StepView& step, const CellSet& surface,
                                 const ColorSource& source, const KnownColors& known,
-                                const KnownColors::Surface& earlier, const StayingCells& staying,
-                                const Part& part, const std::stop_token& stop) {
+                                const KnownColors::Surface& earlier, const Part& part,
+                                const std::stop_token& stop) {
     CellSet others;
     others.query = surface.query;
     std::vector<std::uint32_t> places; // of the others in the surface
-    CellWalk walk(step.grid());
     for (std::uint32_t i = 0; i < surface.ids.size(); ++i) {
-        walk.to(surface.ids[i]);
-        if (earlier.places[i] == EarlierMesh::kNone ||
-            !staying.has_cell(walk.x(), walk.y(), walk.z())) {
+        if (earlier.places[i] == EarlierMesh::kNone) {
             others.ids.push_back(surface.ids[i]);
             places.push_back(i);
             continue;

@@ -3,7 +3,6 @@
 
 #include "index/search/first_crossing.h"
 #include "index/search/layer_search.h"
-#include "index/search/staying_cells.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,15 +14,14 @@
 
 namespace isochron::index {
 
-/// Colors by value of an earlier extraction, some of whose cells are as they were. They are kept where
-/// the array to color by is as it was, too.
+/// Colors by value of an earlier extraction, some of which stay.
 struct KnownColors {
     struct Surface {
-        /// Of each cell: its place in the earlier surface, or EarlierMesh::kNone; empty: none is kept.
+        /// Of each cell: its place in the earlier surface, or EarlierMesh::kNone where its colors may
+        /// have changed; empty: none is kept.
         std::span<const std::uint32_t> places;
         std::size_t first = 0; ///< place of the earlier surface's first cell among all cells
     };
-    Instant at = 0;                                 ///< when they were made
     std::span<const std::uint16_t> colors, corners; ///< of all surfaces; empty: nothing is known
     std::vector<Surface> surfaces = {};
 };
@@ -53,7 +51,7 @@ class SurfaceColors {
     };
     bool fill_others(const StepView& step, const CellSet& surface, const ColorSource& source,
                      const KnownColors& known, const KnownColors::Surface& earlier,
-                     const StayingCells& staying, const Part& part, const std::stop_token& stop);
+                     const Part& part, const std::stop_token& stop);
     void forget_all_but(const SurfacesQuery& query);
     const FirstCrossings* crossings(double isovalue, bool blended, const std::stop_token& stop);
 

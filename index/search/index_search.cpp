@@ -106,14 +106,23 @@ class IndexSearch {
     bool search_tree(const StepView& step, CellSet& set, const std::stop_token& stop) {
         if (!tree_)
             tree_ = tree_of(*file_);
-        set.reused =
-            tree_->search_incremental(cursor_, set.query.step, keys_.threshold(set.query.isovalue));
-        candidates_ = cursor_.cells;
-        set.candidates = candidates_.size();
-        return test_candidates(step, set, stop);
+        const auto reused = static_cast<std::ptrdiff_t>(tree_->search_incremental(
+            cursor_, set.query.step, keys_.threshold(set.query.isovalue)));
+        const auto first = cursor_.cells.begin();
+        set.candidates = cursor_.cells.size();
+        candidates_.assign(first, first + reused);
+        if (!test_candidates(step, set, stop))
+            return false;
+        set.reused = set.ids.size();
+        candidates_.assign(first + reused, cursor_.cells.end());
+        if (!test_candidates(step, set, stop))
+            return false;
+        std::ranges::inplace_merge(set.ids,
+                                   set.ids.begin() + static_cast<std::ptrdiff_t>(set.reused));
+        return true;
     }
 
-    /// Appends the active ones of `candidates_`, ascending.
+    /// Appends the active ones of `candidates_`, ascending among themselves.
     bool test_candidates(const StepView& step, CellSet& set, const std::stop_token& stop) {
         // Sorts first, so that the test reads the volume in order.
         sort_ids(candidates_, step.grid().cell_count());

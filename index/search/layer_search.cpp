@@ -5,6 +5,7 @@
 #include "index/scan/scan.h"
 #include "index/search/active_cells.h"
 #include "index/surface/cell_colors.h"
+#include "index/surface/mesh_colors.h"
 #include "index/surface/mesh_parts.h"
 #include "index/system/parallel.h"
 #include "index/volume/cell_walk.h"
@@ -24,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kCellsPerLook = 1 << 16;  ///< cells between two looks at the stop token
-constexpr std::size_t kMeshedAtATime = 1 << 13; ///< fewer cells are one part
+constexpr std::size_t kMeshedAtATime = 1 << 13; ///< fewer cells than are made anew: one part
 
 /// Ids relative to a layer's first cell, from ids of the step.
 std::vector<CellId> counted_from(CellId first, std::span<const CellId> ids) {
@@ -45,7 +46,11 @@ CellId first_of(const Grid& grid, std::uint32_t layer) {
 std::size_t LayerSearch::parts(const StepView& step, const Cells& cells, unsigned most) {
     if (step.by_chunks())
         return StepSlab::layers(step.grid());
-    return std::clamp<std::size_t>(cells.ids.size() / kMeshedAtATime, 1, most);
+    const bool some = cells.earlier && !cells.earlier->inner.empty();
+    const std::size_t count =
+        some ? static_cast<std::size_t>(std::ranges::count(cells.earlier->inner, 0))
+             : cells.ids.size();
+    return std::clamp<std::size_t>(count / kMeshedAtATime, 1, most);
 }
 
 /// Calls `work` for each part, also for one without cells.
@@ -212,12 +217,12 @@ bool LayerSearch::shade_cells(const StepView& step, CellSet& set, const std::sto
 }
 
 bool LayerSearch::make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
-                            const std::stop_token& stop, const ColorSource* values,
+                            const std::stop_token& stop, const VertexColors& colors,
                             const EarlierMesh& earlier) {
     const Cells cells{set.ids, set.points, earlier.mesh ? &earlier : nullptr};
     std::vector<MeshPart> made(parts(step, cells, thread_count(0)));
     const auto take = [&](std::size_t number, MeshPart part) { made[number] = std::move(part); };
-    if (!make_parts(step, cells, set.query, take, stop, values))
+    if (!make_parts(step, cells, set.query, take, stop, colors))
         return false;
     mesh = join_parts(std::move(made));
     return true;
@@ -225,10 +230,10 @@ bool LayerSearch::make_mesh(const StepView& step, const CellSet& set, CellMesh& 
 
 bool LayerSearch::make_mesh_pieces(const StepView& step, const CellSet& set,
                                    const std::function<void(CellMesh piece)>& take,
-                                   const std::stop_token& stop, const ColorSource* values) {
+                                   const std::stop_token& stop, const VertexColors& colors) {
     if (!step.by_chunks()) { // small, and where it is cut depends on the number of threads
         CellMesh mesh;
-        if (!make_mesh(step, set, mesh, stop, values))
+        if (!make_mesh(step, set, mesh, stop, colors))
             return false;
         take(std::move(mesh));
         return true;
@@ -249,43 +254,75 @@ bool LayerSearch::make_mesh_pieces(const StepView& step, const CellSet& set,
                 take(std::move(piece));
         }
     };
-    return make_parts(step, cells, set.query, take_in_order, stop, values);
+    return make_parts(step, cells, set.query, take_in_order, stop, colors);
 }
 
 /// Makes the mesh of each part, also of those without cells, and hands it on from the part's thread.
 bool LayerSearch::make_parts(const StepView& step, const Cells& cells, const Query& query,
                              const TakePart& take, const std::stop_token& stop,
-                             const ColorSource* values) {
-    const auto of_values = values ? std::optional(values->step(step)) : std::nullopt;
-    if (of_values && !of_values->by_chunks())
-        of_values->whole(stop); // before there are several threads
+                             const VertexColors& colors) {
+    const auto other = colors.source ? std::optional(colors.source->step(step)) : std::nullopt;
+    if (other && !other->by_chunks())
+        other->whole(stop); // before there are several threads
     makers_.resize(thread_count(0));
     return for_each_part(
         step, cells, true, static_cast<unsigned>(makers_.size()),
         [&](const CellsOfPart& part) {
             MeshPart made;
             if (!part.ids.empty()) {
-                const EarlierMesh earlier = cells.earlier ? *cells.earlier : EarlierMesh{};
-                makers_[part.worker].make(part.values, query, part.ids, made, part.first_plane,
-                                          stop, earlier.part(part.before, part.ids.size()));
-                if (of_values) {
-                    StepSlab slab;
-                    made.values = values_at(around(*of_values, part, slab, stop), step.at(),
-                                            made.vertices, part.first_plane);
-                }
+                const EarlierMesh all = cells.earlier ? *cells.earlier : EarlierMesh{};
+                const EarlierMesh earlier = all.part(part.before, part.ids.size());
+                MeshMaker& maker = makers_[part.worker];
+                maker.make(part.values, query, part.ids, made, part.first_plane, stop, earlier);
+                if (other)
+                    color(*other, colors, part, earlier, maker.uncolored(), made, stop);
             }
             take(part.number, std::move(made));
         },
         stop);
 }
 
-/// The values of another array at the vertices of a part's cells. @param slab that holds them
-StepValues LayerSearch::around(const StepView& other, const CellsOfPart& part, StepSlab& slab,
+/// Gives the vertices of a part what they get of an array, but for those that an earlier mesh colored.
+void LayerSearch::color(const StepView& other, const VertexColors& colors, const CellsOfPart& part,
+                        const EarlierMesh& earlier, std::span<const std::uint32_t> uncolored,
+                        MeshPart& made, const std::stop_token& stop) {
+    StepSlab slab;
+    const auto values_of = [&](std::span<const CellId> cells,
+                               std::span<const MeshVertex> vertices) {
+        return values_at(around(other, part.layer, cells, slab, stop), other.at(), vertices,
+                         part.first_plane);
+    };
+    const ColorArray& array = colors.source->array();
+    if (!earlier.has_colors()) {
+        made.values = values_of(part.ids, made.vertices);
+        if (!colors.as_values)
+            color_by_values(made, array.low, array.high);
+        return;
+    }
+    if (uncolored.empty())
+        return;
+    std::vector<CellId> cells;
+    for (std::size_t i = 0; i < part.ids.size(); ++i)
+        if (!earlier.has_colors_of(i))
+            cells.push_back(part.ids[i]);
+    std::vector<MeshVertex> vertices;
+    vertices.reserve(uncolored.size());
+    for (const std::uint32_t number : uncolored)
+        vertices.push_back(made.vertices[number]);
+    const auto found = colors_of(values_of(cells, vertices), array.low, array.high);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        made.colors[uncolored[i]] = found[i];
+}
+
+/// The values of another array at the vertices of cells of a part. @param slab that holds them
+/// @param layer, ids of the part
+StepValues LayerSearch::around(const StepView& other, std::uint32_t layer,
+                               std::span<const CellId> ids, StepSlab& slab,
                                const std::stop_token& stop) {
     if (!other.by_chunks())
         return other.whole(stop).values;
-    slab.begin(other, part.layer, stop);
-    slab.fill_around(part.ids, false);
+    slab.begin(other, layer, stop);
+    slab.fill_around(ids, false);
     return slab.around();
 }
 
@@ -300,7 +337,7 @@ bool LayerSearch::color_cells(const StepView& step, const CellSet& set, const Co
             if (part.ids.empty())
                 return;
             StepSlab slab;
-            const StepValues around_cells = around(colors, part, slab, stop);
+            const StepValues around_cells = around(colors, part.layer, part.ids, slab, stop);
             index::color_cells(part.values, around_cells, set.query, part.ids, array.low,
                                array.high, out.subspan(part.before, part.ids.size()), stop);
             if (!corners.empty())

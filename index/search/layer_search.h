@@ -22,6 +22,12 @@
 
 namespace isochron::index {
 
+/// What the vertices of a mesh get of an array to color by: color coordinates, or its values.
+struct VertexColors {
+    const ColorSource* source = nullptr; ///< null: nothing; else as of LayerSearch::color_cells
+    bool as_values = false;
+};
+
 /// A part of a step is a layer of chunks, or some or all planes of a step that is worked on as a
 /// whole. What is done with it is the same. By chunks, the index must carry its values. Functions
 /// throw Error as ChunkStore does. When they were stopped they return false, or throw Stopped, and the
@@ -48,16 +54,15 @@ class LayerSearch {
     /// Adds points and rows.
     bool shade_cells(const StepView& step, CellSet& set, const std::stop_token& stop);
     /// @param set in the order of `search`; with points, if the grid has wide ids
-    /// @param values array whose values the mesh gets; null: none; else as `source` below
-    /// @param earlier has the mesh of some cells
+    /// @param earlier has the mesh of some cells; with colors if the mesh gets some by `colors`
     bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
-                   const std::stop_token& stop, const ColorSource* values = nullptr,
+                   const std::stop_token& stop, const VertexColors& colors = {},
                    const EarlierMesh& earlier = {});
     /// The same mesh in pieces, in their order, as PartsJoiner numbers them: by chunks the memory of
     /// a few layers is enough. @param take called by one thread at a time, while the others wait
     bool make_mesh_pieces(const StepView& step, const CellSet& set,
                           const std::function<void(CellMesh piece)>& take,
-                          const std::stop_token& stop, const ColorSource* values = nullptr);
+                          const std::stop_token& stop, const VertexColors& colors = {});
     /// @param set as above @param source by chunks, has chunks at the step's level of detail
     /// @param corners eight for each cell (color_corners); empty: they are not wanted
     bool color_cells(const StepView& step, const CellSet& set, const ColorSource& source,
@@ -90,8 +95,12 @@ class LayerSearch {
                        const Work& work, const std::stop_token& stop);
     using TakePart = std::function<void(std::size_t number, MeshPart part)>;
     bool make_parts(const StepView& step, const Cells& cells, const Query& query,
-                    const TakePart& take, const std::stop_token& stop, const ColorSource* values);
-    static StepValues around(const StepView& other, const CellsOfPart& part, StepSlab& slab,
+                    const TakePart& take, const std::stop_token& stop, const VertexColors& colors);
+    static void color(const StepView& other, const VertexColors& colors, const CellsOfPart& part,
+                      const EarlierMesh& earlier, std::span<const std::uint32_t> uncolored,
+                      MeshPart& made, const std::stop_token& stop);
+    static StepValues around(const StepView& other, std::uint32_t layer,
+                             std::span<const CellId> ids, StepSlab& slab,
                              const std::stop_token& stop);
     std::span<const CellId> of_layer(const StepView& step, const Cells& cells,
                                      std::uint32_t layer) const;

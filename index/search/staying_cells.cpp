@@ -5,8 +5,22 @@
 
 namespace isochron::index {
 
+/// By chunk around (a bit of ChunksAround): the regions whose cells reach it.
+constexpr std::array<std::uint32_t, kChunksAround> StayingCells::kRegionsNeeding = [] {
+    std::array<std::uint32_t, kChunksAround> needing{};
+    for (unsigned bit = 0; bit < kChunksAround; ++bit)
+        for (unsigned region = 0; region < kRegions * kRegions * kRegions; ++region) {
+            bool reached = true;
+            for (unsigned d = bit, r = region, axis = 0; axis < 3; ++axis, d /= 3, r /= kRegions)
+                reached = reached && (d % 3 == 1 || d % 3 == r % kRegions);
+            needing[bit] |= std::uint32_t{reached} << region;
+        }
+    return needing;
+}();
+
 StayingCells::StayingCells(const StepView& step, Instant at, bool normals)
-    : chunks_(&step.chunk_grid()), changed_(chunks_->count()), others_(chunks_->count()) {
+    : chunks_(&step.chunk_grid()), changed_(chunks_->count()), others_(chunks_->count()),
+      around_(chunks_->count()) {
     const std::uint32_t earlier = std::min<std::uint32_t>(step.at(), at),
                         later = std::max<std::uint32_t>(step.at(), at);
     if (earlier == later)
@@ -25,6 +39,7 @@ StayingCells::StayingCells(const StepView& step, Instant at, bool normals)
                 (1u << kChunksAround) - 1, {x, y, layer}, *chunks_,
                 [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t cz) {
                     others_[number(cx, cy, cz)] |= needing[kChunksAround - 1 - bit];
+                    around_[number(cx, cy, cz)] |= kRegionsNeeding[kChunksAround - 1 - bit];
                 });
         }
     }

@@ -4,6 +4,7 @@
 #include "index/file/step_view.h"
 #include "index/search/chunk_reach.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,8 +34,21 @@ class StayingCells {
                     side_of_cell(x, y, z) &
                 1) == 0;
     }
+    /// Whether a cell stays together with all that share an edge with it. False for some that do.
+    bool has_around(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        const unsigned region =
+            kRegion[x % kChunkEdge] +
+            kRegions * (kRegion[y % kChunkEdge] + kRegions * unsigned{kRegion[z % kChunkEdge]});
+        return (around_[number(x / kChunkEdge, y / kChunkEdge, z / kChunkEdge)] >> region & 1) == 0;
+    }
 
   private:
+    /// Along an axis: the cells of a chunk whose neighbors reach the chunk below, none, or that above.
+    static constexpr unsigned kRegions = 3;
+    static constexpr std::array<std::uint8_t, kChunkEdge> kRegion{0, 0, 1, 1, 1, 1, 1, 1,
+                                                                  1, 1, 1, 1, 1, 2, 2, 2};
+    static const std::array<std::uint32_t, kChunksAround> kRegionsNeeding;
+
     std::size_t number(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
         const auto& n = chunks_->counts();
         return (std::size_t{z} * n[1] + y) * n[0] + x;
@@ -43,6 +57,7 @@ class StayingCells {
     const ChunkGrid* chunks_;
     std::vector<std::uint8_t> changed_; ///< by layer and place
     std::vector<SidesOfCells> others_;  ///< by position of the chunk, x fastest
+    std::vector<std::uint32_t> around_; ///< likewise: regions, all around which may have changed
 };
 
 /// Of the chunks that may hold active cells of the isovalues at the step: the share that has the same

@@ -82,7 +82,7 @@ std::optional<CellMesh> SurfaceMeshes::make_packed(const Query& query, const Mes
                                                    const std::stop_token& stop, CellSet* cells) {
     CellMesh mesh;
     const auto make = [&](const StepView& step, const CellSet& found, const ColorSource* source) {
-        return work_->layers.make_mesh(step, found, mesh, stop, source);
+        return work_->layers.make_mesh(step, found, mesh, stop, {source, true});
     };
     if (!work_->search_and_make(query, wishes, stop, cells, make))
         return std::nullopt;
@@ -93,7 +93,7 @@ bool SurfaceMeshes::make_pieces(const Query& query, const MeshWishes& wishes,
                                 const std::function<void(CellMesh piece)>& take,
                                 const std::stop_token& stop, CellSet* cells) {
     const auto make = [&](const StepView& step, const CellSet& found, const ColorSource* source) {
-        return work_->layers.make_mesh_pieces(step, found, take, stop, source);
+        return work_->layers.make_mesh_pieces(step, found, take, stop, {source, true});
     };
     return work_->search_and_make(query, wishes, stop, cells, make);
 }

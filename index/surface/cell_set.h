@@ -20,9 +20,10 @@ namespace isochron::index {
 struct FoundCells {
     Query query;
     SearchMethod method = SearchMethod::scan;
-    std::vector<CellId> ids;                 ///< ascending, unless the grid has wide ids
-    std::uint64_t candidates = 0;            ///< cells that the search found before the exact test
-    std::uint64_t reused = 0;                ///< of these, taken from the previous search
+    std::vector<CellId> ids;      ///< ascending, unless the grid has wide ids
+    std::uint64_t candidates = 0; ///< cells that the search found before the exact test
+    /// Of the active cells: those that were taken over from an earlier result and not looked for again.
+    std::uint64_t reused = 0;
     std::chrono::nanoseconds search_time{0}; ///< of search and exact test
 };
 

@@ -8,10 +8,15 @@
 
 namespace isochron::index {
 
-void color_by_values(CellMesh& mesh, double low, double high) {
-    mesh.colors.resize(mesh.values.size());
-    std::ranges::transform(mesh.values, mesh.colors.begin(),
+std::vector<std::uint16_t> colors_of(std::span<const float> values, double low, double high) {
+    std::vector<std::uint16_t> colors(values.size());
+    std::ranges::transform(values, colors.begin(),
                            [&](float value) { return fine_color_coordinate(value, low, high); });
+    return colors;
+}
+
+void color_by_values(CellMesh& mesh, double low, double high) {
+    mesh.colors = colors_of(mesh.values, low, high);
     mesh.values = {};
 }
 

@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace isochron::index {
 namespace {
@@ -63,20 +64,43 @@ void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
     }
 }
 
-/// Copies the vertices that a cell is the first to have.
-/// @param first, end numbers of these @param corners of the cell, in the new mesh
+/// The corners of a cell in the earlier mesh.
+const std::uint32_t* corners_in(const EarlierMesh& earlier, std::size_t cell) {
+    return earlier.mesh->triangles.data() + earlier.cells->corners[earlier.places[cell]];
+}
+
+/// Number of inner cells from one on, before `end`, that follow each other in the earlier mesh, too. Of
+/// all of them colors are kept, or of none.
+std::size_t length_of_run(const EarlierMesh& earlier, std::size_t first, std::size_t end) {
+    if (earlier.inner.empty())
+        return 0;
+    const auto goes_on = [&](std::size_t i) {
+        return earlier.inner[i] && earlier.places[i] - earlier.places[first] == i - first &&
+               (!earlier.has_colors() || earlier.has_colors_of(i) == earlier.has_colors_of(first));
+    };
+    std::size_t next = first;
+    while (next < end && goes_on(next))
+        ++next;
+    return next - first;
+}
+
+/// Copies the vertices that a cell is the first to have, and their colors if these stay.
+/// @param first number of the first of them @param corners of the cell, in the new mesh
 void take_vertices(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
-                   std::uint32_t end, std::span<const std::uint32_t> corners,
-                   std::vector<MeshVertex>& vertices) {
-    const std::uint32_t* const of_earlier =
-        earlier.mesh->triangles.data() + earlier.corners[earlier.places[cell]];
-    // Which corners are new follows no pattern that a processor could foresee: all are noted
-    // without a branch, those with older vertices behind the others.
-    std::array<std::uint32_t, kCellEdges + 1> from{};
+                   std::span<const std::uint32_t> corners, MeshPart& part) {
+    const std::uint32_t* const of_earlier = corners_in(earlier, cell);
+    const bool colored = earlier.has_colors() && earlier.has_colors_of(cell);
     for (std::size_t k = 0; k < corners.size(); ++k)
-        from[std::min<std::uint32_t>(corners[k] - first, kCellEdges)] = of_earlier[k];
+        if (corners[k] >= first) {
+            part.vertices[corners[k]] = earlier.mesh->vertices[of_earlier[k]];
+            if (colored)
+                part.colors[corners[k]] = earlier.mesh->colors[of_earlier[k]];
+        }
+}
+
+void add_numbers(std::uint32_t first, std::uint32_t end, std::vector<std::uint32_t>& numbers) {
     for (std::uint32_t number = first; number < end; ++number)
-        vertices[number] = earlier.mesh->vertices[from[number - first]];
+        numbers.push_back(number);
 }
 
 } // namespace
@@ -108,12 +132,37 @@ class MeshMaker::Pass {
             least_[e] = kEdgePlaces[e].axis != 2 && kEdgePlaces[e].z == 0 ? before : begin_;
     }
 
+    /// Takes over cells that follow each other in an earlier mesh, as do all around them.
+    /// @param place of the first of them @param renumbered see MeshMaker; gets their vertices
+    void take(const EarlierMesh& earlier, std::size_t place, std::size_t cells,
+              std::uint32_t* renumbered) {
+        const CellsOfMesh& of_mesh = *earlier.cells;
+        const std::uint32_t first = of_mesh.vertices[place], end = of_mesh.vertices[place + cells];
+        const std::size_t begin = of_mesh.corners[place],
+                          corners = of_mesh.corners[place + cells] - begin;
+        make_room(end - first, corners);
+        std::copy_n(earlier.mesh->vertices.data() + first, end - first,
+                    part_.vertices.data() + count_);
+        std::iota(renumbered + first, renumbered + end, base_ + count_);
+        const std::uint32_t* const from = earlier.mesh->triangles.data() + begin;
+        std::uint32_t* const out = part_.triangles.data() + corners_;
+        for (std::size_t k = 0; k < corners; ++k)
+            out[k] = renumbered[from[k]] - base_;
+        count_ += end - first;
+        corners_ += corners;
+    }
+
+    /// Notes which vertices of a cell, that an earlier mesh has, have numbers already.
+    void know(std::uint32_t x, std::uint32_t y, const MeshCase& of_cell,
+              const std::uint32_t* of_earlier, const std::uint32_t* renumbered) {
+        std::uint32_t* const table = table_ + std::size_t{y} * row_ + x;
+        for (std::size_t k = 0; k < std::size_t{3} * of_cell.triangles; ++k)
+            if (const std::uint32_t number = renumbered[of_earlier[k]]; number >= base_)
+                table[places_[z_ & 1][of_cell.edges[k]]] = number;
+    }
+
     void add(std::uint32_t x, std::uint32_t y, const MeshCase& of_cell) {
-        if (part_.vertices.size() < count_ + kCellEdges)
-            part_.vertices.resize(part_.vertices.size() + part_.vertices.size() / 2 + kCellEdges);
-        if (part_.triangles.size() < corners_ + of_cell.edges.size())
-            part_.triangles.resize(part_.triangles.size() + part_.triangles.size() / 2 +
-                                   of_cell.edges.size());
+        make_room(kCellEdges, of_cell.edges.size());
         const auto& places = places_[z_ & 1];
         std::uint32_t* const table = table_ + std::size_t{y} * row_ + x;
         const EdgeKey key = key_of(x, y, z_ + first_plane_);
@@ -147,6 +196,14 @@ class MeshMaker::Pass {
     std::size_t corners() const { return corners_; }
 
   private:
+    void make_room(std::size_t vertices, std::size_t corners) {
+        const auto fit = [](auto& values, std::size_t count, std::size_t more) {
+            if (values.size() < count + more)
+                values.resize(values.size() + values.size() / 2 + more);
+        };
+        fit(part_.vertices, count_, vertices);
+        fit(part_.triangles, corners_, corners);
+    }
     void name(std::size_t e, EdgeKey key, const std::array<std::size_t, kCellEdges>& places,
               std::uint32_t* table, std::array<std::uint32_t, kCellEdges>& numbers) {
         put(key + kEdgePlaces[e].key);
@@ -165,16 +222,19 @@ class MeshMaker::Pass {
     std::array<std::uint32_t, kCellEdges> least_{}; ///< least number of a valid entry
 };
 
-std::vector<std::uint32_t> corners_of_cells(const CellMesh& mesh) {
+CellsOfMesh cells_of(const CellMesh& mesh) {
     const std::array<MeshCase, 256>& cases = mesh_cases();
-    std::vector<std::uint32_t> corners;
-    corners.reserve(mesh.cases.size());
-    std::uint32_t next = 0;
-    for (const std::uint8_t of_cell : mesh.cases) {
-        corners.push_back(next);
-        next += 3u * cases[of_cell].triangles;
+    CellsOfMesh cells{std::vector<std::uint32_t>(mesh.cases.size() + 1),
+                      std::vector<std::uint32_t>(mesh.cases.size() + 1)};
+    std::uint32_t corner = 0, vertices = 0;
+    for (std::size_t i = 0; i < mesh.cases.size(); ++i) {
+        for (const std::uint32_t end = corner + 3u * cases[mesh.cases[i]].triangles; corner < end;
+             ++corner)
+            vertices = std::max(vertices, mesh.triangles[corner] + 1);
+        cells.corners[i + 1] = corner;
+        cells.vertices[i + 1] = vertices;
     }
-    return corners;
+    return cells;
 }
 
 /// Those of cells that the earlier mesh has come from there.
@@ -199,6 +259,39 @@ void MeshMaker::find_cases_of(const StepValues& values, const Query& query, std:
     for (std::size_t i = 0, next = 0; i < ids.size(); ++i)
         if (!earlier.has(i))
             cases[i] = cases_[next++];
+}
+
+/// After a cell: takes over vertices and colors, or notes those that are new.
+/// @param first, end numbers of the vertices that it is the first to have @param corners of the cell
+void MeshMaker::finish_cell(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
+                            std::uint32_t end, std::span<const std::uint32_t> corners,
+                            MeshPart& part) {
+    if (earlier.has_colors()) {
+        if (part.colors.size() < part.vertices.size())
+            part.colors.resize(part.vertices.size());
+        if (!earlier.has_colors_of(cell))
+            add_numbers(first, end, uncolored_);
+    }
+    if (!earlier.has(cell))
+        return add_numbers(first, end, numbers_);
+    take_vertices(earlier, cell, first, corners, part);
+    const std::uint32_t* const of_earlier = corners_in(earlier, cell);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        renumbered_[of_earlier[k]] = tables_.base + corners[k];
+}
+
+/// The same for the colors of cells that have been taken over together. @param cell the first of them
+void MeshMaker::color_run(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
+                          std::uint32_t end, MeshPart& part) {
+    if (!earlier.has_colors())
+        return;
+    if (part.colors.size() < part.vertices.size())
+        part.colors.resize(part.vertices.size());
+    if (earlier.has_colors_of(cell))
+        std::copy_n(earlier.mesh->colors.data() + earlier.cells->vertices[earlier.places[cell]],
+                    end - first, part.colors.data() + first);
+    else
+        add_numbers(first, end, uncolored_);
 }
 
 /// Places the vertices with the numbers that have been noted.
@@ -226,6 +319,7 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
                      MeshPart& part, std::uint32_t first_plane, const std::stop_token& stop,
                      const EarlierMesh& earlier) {
     part = {};
+    uncolored_.clear();
     const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
     if (ids.empty() || !cut)
         return true;
@@ -234,6 +328,11 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
     part.triangles.resize(3 * (2 * ids.size() + ids.size() / 8));
     part.cases.resize(ids.size());
     tables_.fit(values.grid, ids.size());
+    if (earlier.mesh) {
+        if (tables_.base == 1) // of a new table
+            renumbered_.clear();
+        renumbered_.resize(earlier.mesh->vertices.size());
+    }
     Pass pass(tables_, values.grid, first_plane, part);
     const std::array<MeshCase, 256>& cases = mesh_cases();
     const CellId plane_cells = values.grid.cells()[0] * values.grid.cells()[1];
@@ -252,20 +351,27 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
         const std::uint32_t first = pass.vertices();
         pass.enter_plane(z);
         numbers_.clear();
-        for (; i < end; ++i) {
-            walk.to(ids[i]);
+        // The vertices of the first plane may be those of another part.
+        const bool may_run = z > ids.front() / plane_cells;
+        while (i < end) {
             const std::uint32_t before = pass.vertices();
-            const std::size_t corner = pass.corners();
-            pass.add(walk.x(), walk.y(), cases[part.cases[i]]);
-            if (!earlier.mesh)
+            if (const std::size_t run = may_run ? length_of_run(earlier, i, end) : 0) {
+                pass.take(earlier, earlier.places[i], run, renumbered_.data());
+                color_run(earlier, i, before, pass.vertices(), part);
+                i += run;
                 continue;
+            }
+            walk.to(ids[i]);
+            const MeshCase& of_cell = cases[part.cases[i]];
             if (earlier.has(i))
-                take_vertices(earlier, i, before, pass.vertices(),
-                              std::span(part.triangles).subspan(corner, pass.corners() - corner),
-                              part.vertices);
-            else
-                for (std::uint32_t number = before; number < pass.vertices(); ++number)
-                    numbers_.push_back(number);
+                pass.know(walk.x(), walk.y(), of_cell, corners_in(earlier, i), renumbered_.data());
+            const std::size_t corner = pass.corners();
+            pass.add(walk.x(), walk.y(), of_cell);
+            if (earlier.mesh)
+                finish_cell(earlier, i, before, pass.vertices(),
+                            std::span(part.triangles).subspan(corner, pass.corners() - corner),
+                            part);
+            ++i;
         }
         if (earlier.mesh)
             place_new(values, query, first_plane, part.vertices);
@@ -276,6 +382,7 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
     }
     part.triangles.resize(pass.corners());
     part.vertices.resize(pass.vertices());
+    part.colors.resize(earlier.has_colors() ? pass.vertices() : 0);
     tables_.base += pass.vertices();
     return !stopped;
 }

@@ -16,34 +16,49 @@ namespace isochron::index {
 /// The mesh of the cells in some planes of a step; its vertices are numbered from 0.
 using MeshPart = CellMesh;
 
+/// Where in a mesh each of its cells begins, and at last where the last one ends.
+struct CellsOfMesh {
+    std::vector<std::uint32_t> corners;  ///< among its `triangles`
+    std::vector<std::uint32_t> vertices; ///< those that no cell before has
+};
+CellsOfMesh cells_of(const CellMesh& mesh);
+
 /// The mesh of an earlier set, some of whose cells are as they were.
 struct EarlierMesh {
     static constexpr std::uint32_t kNone = ~0u;
     const CellMesh* mesh = nullptr;
-    /// Of each cell of the earlier set: where its corners begin among the mesh's `triangles`.
-    std::span<const std::uint32_t> corners;
+    const CellsOfMesh* cells = nullptr; ///< of the mesh
     /// Of each cell of the new set: its place in the earlier one, or kNone.
     std::span<const std::uint32_t> places;
+    /// Of each cell of the new set: whether it and all that share an edge with it, in either set, are as
+    /// they were; empty: unknown.
+    std::span<const std::uint8_t> inner = {};
+    /// `places` without the cells whose vertices may have other colors; empty: the new mesh has none.
+    std::span<const std::uint32_t> colored = {};
 
     EarlierMesh part(std::size_t first, std::size_t count) const {
-        return {mesh, corners, mesh ? places.subspan(first, count) : places};
+        const auto some = [&](auto all) { return all.empty() ? all : all.subspan(first, count); };
+        return {mesh, cells, some(places), some(inner), some(colored)};
     }
     bool has(std::size_t cell) const { return mesh && places[cell] != kNone; }
+    bool has_colors() const { return !colored.empty(); }
+    bool has_colors_of(std::size_t cell) const { return colored[cell] != kNone; }
 };
-/// `EarlierMesh::corners` of a mesh.
-std::vector<std::uint32_t> corners_of_cells(const CellMesh& mesh);
-
 /// Makes meshes of cells; keeps its work space. One for each thread.
 class MeshMaker {
   public:
     /// @param values with the neighbors of the cells that normals need
     /// @param ids active cells of `values`, ascending
     /// @param first_plane added to the z of vertices
-    /// @param earlier has triangles and vertices of some cells, around which no values are needed
+    /// @param earlier has triangles and vertices of some cells, around which no values are needed;
+    ///        if it has colors, the part gets those that stay, and room for the others
     /// @return false when it was stopped and the part is incomplete
     bool make(const StepValues& values, const Query& query, std::span<const CellId> ids,
               MeshPart& part, std::uint32_t first_plane = 0, const std::stop_token& stop = {},
               const EarlierMesh& earlier = {});
+    /// If the earlier mesh has colors: vertices of the last part that did not get theirs from there,
+    /// ascending.
+    std::span<const std::uint32_t> uncolored() const { return uncolored_; }
 
   private:
     /// The vertex of each edge of a plane of cells, if the edge has one: edges along x and y on
@@ -58,6 +73,10 @@ class MeshMaker {
     void find_cases_of(const StepValues& values, const Query& query, std::uint64_t cut,
                        std::span<const CellId> ids, const EarlierMesh& earlier,
                        std::span<std::uint8_t> cases);
+    void finish_cell(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
+                     std::uint32_t end, std::span<const std::uint32_t> corners, MeshPart& part);
+    void color_run(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
+                   std::uint32_t end, MeshPart& part);
     void place_new(const StepValues& values, const Query& query, std::uint32_t first_plane,
                    std::span<MeshVertex> vertices);
     Tables tables_;
@@ -65,6 +84,9 @@ class MeshMaker {
     std::vector<CellId> ids_;
     std::vector<std::uint8_t> cases_;
     std::vector<std::uint32_t> numbers_; ///< of their vertices
+    std::vector<std::uint32_t> uncolored_;
+    /// Of each vertex of the earlier mesh: its number plus Tables::base; less than that: it has none.
+    std::vector<std::uint32_t> renumbered_;
     std::vector<MeshVertex> vertices_;
 };
 

@@ -10,17 +10,19 @@ namespace {
 
 /// Makes room for all parts, since a mesh that grows is copied.
 void reserve(const std::vector<MeshPart>& parts, CellMesh& mesh) {
-    std::size_t vertices = 0, triangles = 0, cells = 0, values = 0;
+    std::size_t vertices = 0, triangles = 0, cells = 0, values = 0, colors = 0;
     for (const MeshPart& part : parts) {
         vertices += part.vertices.size();
         triangles += part.triangles.size();
         cells += part.cases.size();
         values += part.values.size();
+        colors += part.colors.size();
     }
     mesh.vertices.reserve(vertices);
     mesh.triangles.reserve(triangles);
     mesh.cases.reserve(cells);
     mesh.values.reserve(values);
+    mesh.colors.reserve(colors);
 }
 
 /// The index in `ids` of the first cell of a plane at about `i` of `n` equal parts.
@@ -45,6 +47,8 @@ void PartsJoiner::add(const MeshPart& part, CellMesh& to) {
     vertices_ += static_cast<std::uint32_t>(part.vertices.size()) - first;
     if (!part.values.empty())
         to.values.insert(to.values.end(), part.values.begin() + first, part.values.end());
+    if (!part.colors.empty())
+        to.colors.insert(to.colors.end(), part.colors.begin() + first, part.colors.end());
     const auto number = [&](std::uint32_t of_part) {
         return of_part < first ? numbers_[of_part] : of_part + offset;
     };
@@ -78,6 +82,8 @@ void PartsJoiner::find_known(const MeshPart& part, CellMesh& to) {
             to.vertices.push_back(vertex);
             if (!part.values.empty())
                 to.values.push_back(part.values[numbers_.size() - 1]);
+            if (!part.colors.empty())
+                to.colors.push_back(part.colors[numbers_.size() - 1]);
         }
     }
 }

@@ -61,6 +61,7 @@ struct ChangeRow {
     bool again = false; ///< both sets have been looked at before
     std::size_t cells = 0;
     double kept_ms = 0;  ///< from the set at hand
+    double sent_ms = 0;  ///< of it: sending the set to the GPU
     double anew_ms = 0;  ///< made anew, right after the other set
     double alone_ms = 0; ///< made anew, where nothing of the step before has been decoded
     double over_anew = 0, over_alone = 0, floor = 0;
@@ -79,9 +80,14 @@ void send_to_gpu(const render::Gl& gl, render::CellBuffers& cells,
     gl.Finish();
 }
 
+/// Milliseconds of all threads.
+struct ChangeTime {
+    double all = 0, sending = 0;
+};
+
 /// From a file that is opened anew, whose bytes are in memory.
-double time_change(const render::Gl& gl, const fs::path& path, const ChangeUse& use,
-                   const ChangeCase& of, How how, bool again, std::size_t& cells) {
+ChangeTime time_change(const render::Gl& gl, const fs::path& path, const ChangeUse& use,
+                       const ChangeCase& of, How how, bool again, std::size_t& cells) {
     const auto file = index::IndexFile::open(path);
     // A method that is asked for takes nothing over.
     const index::Extract extract = index::extract_from(
@@ -106,10 +112,11 @@ double time_change(const render::Gl& gl, const fs::path& path, const ChangeUse& 
     gl.Finish();
     const Stopwatch watch(Stopwatch::Of::all_threads);
     const index::ExtractionPtr set = extract(after, {});
+    const double extracted = watch.seconds();
     send_to_gpu(gl, buffers, set);
     const double seconds = watch.seconds();
     cells = set->cells();
-    return 1e3 * seconds;
+    return {1e3 * seconds, 1e3 * (seconds - extracted)};
 }
 
 ChangeRow measure(const render::Gl& gl, const fs::path& path, const ChangeUse& use,
@@ -118,14 +125,19 @@ ChangeRow measure(const render::Gl& gl, const fs::path& path, const ChangeUse& u
         .what = alike.front().what, .use = use.name, .again = again, .floor = alike.front().floor};
     constexpr std::array kTurns{How::kept, How::anew, How::alone};
     std::array<std::vector<double>, kTurns.size()> times;
+    std::vector<double> sending;
     for (const ChangeCase& of : alike)
         for (std::size_t first = 0; first < kTurns.size(); ++first) // each comes first once
             for (std::size_t i = 0; i < kTurns.size(); ++i) {
                 const std::size_t turn = (first + i) % kTurns.size();
-                times[turn].push_back(
-                    time_change(gl, path, use, of, kTurns[turn], again, row.cells));
+                const ChangeTime time =
+                    time_change(gl, path, use, of, kTurns[turn], again, row.cells);
+                times[turn].push_back(time.all);
+                if (kTurns[turn] == How::kept)
+                    sending.push_back(time.sending);
             }
     row.kept_ms = median(times[0]);
+    row.sent_ms = median(sending);
     row.anew_ms = median(times[1]);
     row.alone_ms = median(times[2]);
     row.over_anew = row.kept_ms / row.anew_ms;
@@ -134,10 +146,11 @@ ChangeRow measure(const render::Gl& gl, const fs::path& path, const ChangeUse& u
 }
 
 std::string table_line(const ChangeRow& row) {
-    return fmt::format("{:<28} {:<20} {:<6} {:>8} {:>8.2f} {:>8.2f} {:>8.2f} {:>6.2f} {:>6.2f} "
-                       "{:>6.2f}{}\n",
+    return fmt::format("{:<28} {:<20} {:<6} {:>8} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>6.2f} "
+                       "{:>6.2f} {:>6.2f}{}\n",
                        row.what, row.use, row.again ? "again" : "first", row.cells, row.kept_ms,
-                       row.anew_ms, row.alone_ms, row.over_anew, row.over_alone, row.floor,
+                       row.sent_ms, row.anew_ms, row.alone_ms, row.over_anew, row.over_alone,
+                       row.floor,
                        row.over_anew <= row.floor    ? ""
                        : row.over_alone <= row.floor ? "  over alone"
                                                      : "  missed");
@@ -152,6 +165,7 @@ void write_rows(const fs::path& path, const std::vector<ChangeRow>& rows, const 
                         {"again", row.again},
                         {"cells", row.cells},
                         {"kept_ms", row.kept_ms},
+                        {"sent_ms", row.sent_ms},
                         {"anew_ms", row.anew_ms},
                         {"alone_ms", row.alone_ms},
                         {"over_anew", row.over_anew},
@@ -184,8 +198,9 @@ void run_bench_change(const ChangeArguments& arguments) {
         for (unsigned i = 0; i < arguments.repeats; ++i)
             stay.push_back(share.stay);
     std::vector<ChangeRow> rows;
-    fmt::print("{:<28} {:<20} {:<6} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6}\n", "", "", "look",
-               "cells", "kept ms", "anew ms", "alone ms", "/anew", "/alone", "floor");
+    fmt::print("{:<28} {:<20} {:<6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6}\n", "", "",
+               "look", "cells", "kept ms", "sent ms", "anew ms", "alone ms", "/anew", "/alone",
+               "floor");
     for (const Changing changing : {Changing::together, Changing::scattered}) {
         ChangingSeries series(arguments.size, arguments.cells, stay, changing);
         ChangingSeries colors(arguments.size, arguments.cells, stay, changing);

@@ -209,6 +209,7 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     log.add(frame_with(Footprint::quad, QualityReason::moving));
     FrameReport trial = frame_with(Footprint::gaussian, QualityReason::trial);
     trial.missed = 2;
+    trial.reused = 1234;
     log.add(trial);
     FrameReport last = frame_with(Footprint::gaussian, QualityReason::over_budget);
     last.expected = Milliseconds(7.25);
@@ -234,6 +235,7 @@ TEST(FrameLog, TheReportTellsHowEveryFrameWasDrawnAndWhy) {
     EXPECT_TRUE(rows[0]["gpu_ms"].is_null());
     EXPECT_TRUE(rows[0]["expected_ms"].is_null());
     EXPECT_EQ(rows[1]["missed"], 2);
+    EXPECT_EQ(rows[1]["reused"], 1234);
     EXPECT_EQ(rows[2]["reason"], "over budget");
     EXPECT_EQ(rows[2]["budget_ms"], 11.1);
     EXPECT_EQ(rows[2]["expected_ms"], 7.25);

@@ -45,6 +45,22 @@ TEST_P(SessionTest, ShowsTheCellsThatWereAskedFor) {
     EXPECT_GT(drawn_pixels(session.outputs().display().read_window()), 1000u);
 }
 
+TEST_P(SessionTest, ReportsTheReusedCellsOfTheShownSet) {
+    const index::Extract real = index::extract_from(file_);
+    const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
+        auto found = std::make_shared<index::Extraction>(*real(query, stop));
+        found->surfaces.front().reused = 100 + query.step;
+        return found;
+    };
+    Session session(small_config(), file_, *context_, extract);
+    Commands commands;
+    for (const std::uint32_t step : {2u, 3u}) {
+        commands.step = step;
+        EXPECT_EQ(session.frame(head_at_rest(step), commands, Waiting::for_cells).reused,
+                  100 + step);
+    }
+}
+
 TEST_P(SessionTest, GoesOnWithAnIndexThatGrows) {
     Session session(small_config(), file_, *context_);
     const auto asked = [](std::uint32_t steps, std::uint32_t step) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace isochron::index {
@@ -80,6 +81,21 @@ void expect_change(const Extraction& before, const Extraction& after) {
     }
 }
 
+/// NaNs that come at some step and stay for some, where the type has them: cells beside them come and
+/// go though all their own values stay.
+void plant_nans(std::mt19937& random, TestField& field, ValueType type, std::size_t steps) {
+    const std::size_t vertices = field.view().grid.vertex_count();
+    for (int i = 0; i < 40 && (type == ValueType::f32 || type == ValueType::f64); ++i) {
+        const std::size_t vertex = random() % vertices, first = random() % steps,
+                          end = first + random() % (steps - first + 1);
+        for (std::size_t step = first; step < end; ++step)
+            if (type == ValueType::f32)
+                field.at<float>(step, vertex) = std::numeric_limits<float>::quiet_NaN();
+            else
+                field.at<double>(step, vertex) = kNaN;
+    }
+}
+
 /// A walk through steps and isovalues, with one to three surfaces.
 class Walk {
   public:
@@ -123,9 +139,9 @@ TEST(KeptExtraction, IsTheSameAsOneMadeAnewOnRandomWalksOfAllTypes) {
     for (const ValueType type : kAllTypes) {
         const TestFolder folder;
         const std::size_t steps = 12;
-        const TestField field(
-            {35, 21, 20}, steps, type,
-            scaled(staying_field(random, turbulence(random), 0.85, steps), 60, 3));
+        TestField field({35, 21, 20}, steps, type,
+                        scaled(staying_field(random, turbulence(random), 0.85, steps), 60, 3));
+        plant_nans(random, field, type, steps);
         const StepValues values = field.view();
         const auto all = indexed(folder, values);
         // There is no room for a step as a whole in the second one's cache, but for its chunks.
@@ -184,11 +200,14 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
     const TestField values = field(ValueType::f32, 0.9), flow = field(ValueType::u8, 0.9),
                     hue = field(ValueType::i16, 0.5);
     with_arrays(folder, values.view(), flow.view(), hue.view());
-    const auto file = IndexFile::open(folder.path() / "a.isochron", 1 << 20);
-    const auto newest = std::make_shared<NewestIndex>(file);
-    std::uint64_t reused = 0, coarse = 0;
-    for (const Shading shading : {Shading::none, Shading::cells}) {
-        const Extract kept = extract_from_newest(newest, shading);
+    std::uint64_t reused = 0, coarse = 0, colored = 0;
+    for (const auto& [shading, cache] :
+         {std::pair(Shading::none, 1 << 20), std::pair(Shading::cells, 1 << 20),
+          std::pair(Shading::cells, 1 << 30)}) {
+        const auto file =
+            IndexFile::open(folder.path() / "a.isochron", static_cast<std::uint64_t>(cache));
+        ASSERT_EQ(file->better_whole(0), cache > 1 << 20);
+        const Extract kept = extract_from_newest(std::make_shared<NewestIndex>(file), shading);
         Walk walk(random, values.view());
         for (int i = 0; i < 120; ++i) {
             walk.next();
@@ -206,10 +225,13 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
             ASSERT_NO_FATAL_FAILURE(expect_same(*found, *anew)) << i;
             reused += found->reused();
             coarse += found->coarse() ? 1 : 0;
+            colored +=
+                found->meshed() && query.coloring == CellColoring::value && found->reused() > 0;
         }
     }
     EXPECT_GT(reused, 10'000u);
     EXPECT_GT(coarse, 10u);
+    EXPECT_GT(colored, 5u);
 }
 
 TEST(KeptExtraction, DecodesAStepAsAWholeWhereItsIsovalueIsDragged) {

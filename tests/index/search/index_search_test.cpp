@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace isochron::index {
 namespace {
@@ -36,6 +37,7 @@ TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
             const StepValues values = field.view();
             const Search search = search_in(indexed(folder, values, kEveryMethod), method);
             const auto isovalues = quantiles(sorted_values(values), 9);
+            std::optional<Query> before;
             for (int i = 0; i < 60; ++i) {
                 // Mostly the same isovalue, as in playback: the incremental search is used.
                 const Query query{static_cast<std::uint32_t>(random() % values.steps),
@@ -48,7 +50,11 @@ TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
                     << name_of(type) << " step " << query.step << " isovalue " << query.isovalue;
                 EXPECT_EQ(set->points.size(), set->ids.size());
                 EXPECT_GE(set->candidates, set->ids.size());
-                EXPECT_LE(set->reused, set->candidates);
+                EXPECT_LE(set->reused, set->ids.size());
+                if (method != SearchMethod::tree || before == query) {
+                    EXPECT_EQ(set->reused, method == SearchMethod::tree ? set->ids.size() : 0);
+                }
+                before = query;
             }
         }
 }

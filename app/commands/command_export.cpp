@@ -179,8 +179,18 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
         throw UsageError("--compress: this build is without meshoptimizer (libmeshoptimizer-dev)");
 }
 
-void print(const ExportArguments& arguments, const std::vector<fs::path>& files,
-           const index::ExportRequest& request, const index::ExportCount& count, double moved) {
+/// `12 cells`, and what their mesh has, if the format holds meshes.
+std::string sizes_of(const index::ExportCount& count, const index::SurfaceFormat& format) {
+    std::string sizes = fmt::format("{} cells", grouped(count.cells));
+    if (!format.of_cells)
+        sizes += fmt::format(", {} vertices, {} triangles", grouped(count.vertices),
+                             grouped(count.triangles));
+    return sizes;
+}
+
+void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
+           const std::vector<fs::path>& files, const index::ExportRequest& request,
+           const index::ExportCount& count, double moved) {
     if (arguments.json) {
         nlohmann::ordered_json names = nlohmann::ordered_json::array();
         for (const fs::path& file : files)
@@ -198,11 +208,10 @@ void print(const ExportArguments& arguments, const std::vector<fs::path>& files,
         fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
     }
-    fmt::print("wrote {}{}: {} step{}, {} cells, {} vertices, {} triangles\n",
-               files.front().string(),
+    fmt::print("wrote {}{}: {} step{}, {}\n", files.front().string(),
                files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
                request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
-               grouped(count.cells), grouped(count.vertices), grouped(count.triangles));
+               sizes_of(count, format));
     if (arguments.cuts.simplify)
         fmt::print("simplified: the surface has moved by at most {}\n",
                    with_unit(moved, request.plan.length_unit));
@@ -245,7 +254,7 @@ void run_export(const ExportArguments& arguments) {
                                            bar.show(phase, fraction);
                                        });
     }
-    print(arguments, files, request, count, moved);
+    print(arguments, *target.format, files, request, count, moved);
 }
 
 } // namespace
@@ -337,9 +346,8 @@ void add_export(Command& program) {
         formats +
         "Each file appears whole or not at all. Triangles are counter-clockwise as seen "
         "from the side of\nlower values, to which normals point. JSON keys: files, steps, "
-        "fraction, isovalues, cells, vertices,\ntriangles, empty_steps, error (with --simplify: "
-        "the "
-        "distance moved at most).");
+        "fraction, isovalues, cells, vertices,\ntriangles (both 0 in csv), empty_steps, error "
+        "(with --simplify: the distance moved at most).");
     command.on_run([arguments] { run_export(*arguments); });
 }
 

@@ -90,6 +90,7 @@ index::ExportRequest shown_request(const ExplorerState& state,
                 number ? one_line(index::ColorSource(array, *number).array().array)
                        : "first crossing";
         request.values = {.array = number,
+                          .blended = state.blends(),
                           .color_of = [scale = *scale, colors = colors_of(*scale)](float value) {
                               return color_at(colors, share_on(scale, static_cast<double>(value)));
                           }};

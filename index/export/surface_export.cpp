@@ -72,15 +72,17 @@ class StepMaker {
                               const std::function<void()>& look) {
         const SurfaceWish& wish = request_.surfaces[number];
         ExportedMesh& mesh = made.meshes.emplace_back(name_);
-        CellSet* const wanted = of_cells_ ? &made.cells[number] : nullptr;
+        CellSet* const cells = of_cells_ ? &made.cells[number] : nullptr;
         const Query query{Instant(made.step.step, made.step.fraction), wish.isovalue};
         const bool by_crossing = request_.values && !request_.values->array;
         bool complete = false;
-        if (request_.reshape || by_crossing) {
-            CellSet cells;
-            CellSet* const all = wanted ? wanted : by_crossing ? &cells : nullptr;
-            auto whole = meshes_.make_packed(query, wishes_, request_.stop, all);
-            complete = whole && (!by_crossing || add_first_crossings(number, *all, *whole));
+        if (cells) {
+            complete = meshes_.find_cells(query, *cells, request_.stop);
+        } else if (request_.reshape || by_crossing) {
+            CellSet found;
+            auto whole =
+                meshes_.make_packed(query, wishes_, request_.stop, by_crossing ? &found : nullptr);
+            complete = whole && (!by_crossing || add_first_crossings(number, found, *whole));
             if (complete) {
                 if (request_.reshape)
                     request_.reshape(*whole);
@@ -91,7 +93,7 @@ class StepMaker {
                 look();
                 mesh.add(std::move(piece));
             };
-            complete = meshes_.make_pieces(query, wishes_, take, request_.stop, wanted);
+            complete = meshes_.make_pieces(query, wishes_, take, request_.stop);
         }
         if (!complete)
             throw Error("the export was canceled");
@@ -99,23 +101,26 @@ class StepMaker {
                                 .color = wish.color,
                                 .opacity = wish.opacity,
                                 .mesh = &mesh,
-                                .cells = wanted,
+                                .cells = cells,
                                 .isovalue = wish.isovalue};
         if (request_.values && request_.values->color_of)
             surface.color_of = &request_.values->color_of;
         count.vertices += mesh.vertices();
         count.triangles += mesh.triangles();
         made.step.surfaces.push_back(std::move(surface));
-        return mesh.cells();
+        return cells ? cells->points.size() : mesh.cells();
     }
 
     /// Makes the times of the cells' first crossings the values of their vertices.
     /// @return false when stopped
     bool add_first_crossings(std::size_t number, const CellSet& cells, CellMesh& mesh) {
         FirstCrossingsPtr& known = crossings_[number];
+        const double isovalue = cells.query.isovalue;
         if (!known)
-            known = first_crossings(info_, search_in(file_, std::nullopt, Shading::none),
-                                    cells.query.isovalue, request_.stop);
+            known = first_crossings(
+                info_, search_in(file_, std::nullopt, Shading::none), isovalue, request_.stop,
+                request_.values->blended ? crossings_between(file_, 0, isovalue, request_.stop)
+                                         : nullptr);
         if (!known)
             return false;
         std::vector<std::uint16_t> coordinates(cells.ids.size());

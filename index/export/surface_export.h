@@ -30,6 +30,9 @@ struct ValuesWish {
     /// To color by (ColorSource); none: the time at which the surface first passed through a cell,
     /// which its vertices get, and NaN where that is not known.
     std::optional<std::size_t> array;
+    /// Without an array: first crossings are those of blends between steps, as pictures show them
+    /// where steps are blended; else those of steps alone.
+    bool blended = false;
     /// sRGB of a value; empty: vertices have the color of their surface.
     std::function<std::array<std::uint8_t, 3>(float value)> color_of;
 };
@@ -46,8 +49,9 @@ struct ExportRequest {
 
 /// What was written.
 struct ExportCount {
-    std::uint64_t cells = 0, vertices = 0, triangles = 0;
-    std::vector<std::uint32_t> empty_steps; ///< in which no surface has a cell
+    std::uint64_t cells = 0;
+    std::uint64_t vertices = 0, triangles = 0; ///< 0 in formats of cells, for which no mesh is made
+    std::vector<std::uint32_t> empty_steps;    ///< in which no surface has a cell
 };
 
 /// Meshes are made and written in pieces, by layers of chunks: memory holds some megabytes of a mesh,

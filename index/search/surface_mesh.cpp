@@ -91,11 +91,18 @@ std::optional<CellMesh> SurfaceMeshes::make_packed(const Query& query, const Mes
 
 bool SurfaceMeshes::make_pieces(const Query& query, const MeshWishes& wishes,
                                 const std::function<void(CellMesh piece)>& take,
-                                const std::stop_token& stop, CellSet* cells) {
+                                const std::stop_token& stop) {
     const auto make = [&](const StepView& step, const CellSet& found, const ColorSource* source) {
         return work_->layers.make_mesh_pieces(step, found, take, stop, {source, true});
     };
-    return work_->search_and_make(query, wishes, stop, cells, make);
+    return work_->search_and_make(query, wishes, stop, nullptr, make);
+}
+
+bool SurfaceMeshes::find_cells(const Query& query, CellSet& cells, const std::stop_token& stop) {
+    const auto make_nothing = [](const StepView&, const CellSet&, const ColorSource*) {
+        return true;
+    };
+    return work_->search_and_make(query, {}, stop, &cells, make_nothing);
 }
 
 std::optional<SurfaceMesh> SurfaceMeshes::make(const Query& query, const MeshWishes& wishes,

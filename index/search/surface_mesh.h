@@ -70,7 +70,9 @@ class SurfaceMeshes {
     /// @param take called by one thread at a time @return false when stopped
     bool make_pieces(const Query& query, const MeshWishes& wishes,
                      const std::function<void(CellMesh piece)>& take,
-                     const std::stop_token& stop = {}, CellSet* cells = nullptr);
+                     const std::stop_token& stop = {});
+    /// The active cells alone, with points; no mesh is made. @return false when stopped
+    bool find_cells(const Query& query, CellSet& cells, const std::stop_token& stop = {});
 
   private:
     struct WorkSpace;

@@ -1,17 +1,20 @@
 // Surfaces that a session exports: in the background, under names that are free, and no part of a file.
 #include "app/output/export_request.h"
 #include "app/output/surface_maker.h"
+#include "index/surface/cell_colors.h"
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -129,34 +132,85 @@ TEST_F(SurfaceMakerTest, ColorsHaveTheRangeOfThePicture) {
     EXPECT_EQ(asked, 1) << "the range does not move while files are written";
 }
 
+/// What a PLY file says of its vertices, in their order.
+struct PlyColors {
+    std::vector<float> values;
+    std::vector<std::array<std::uint8_t, 3>> colors;
+};
+
+PlyColors ply_colors(const std::string& ply) {
+    const std::string end = "end_header\n";
+    std::size_t vertices = 0;
+    EXPECT_EQ(
+        std::sscanf(ply.c_str() + ply.find("element vertex"), "element vertex %zu", &vertices), 1);
+    PlyColors found;
+    constexpr std::size_t kPlace = 12, kNormal = 12, kValue = 4, kSurface = 1;
+    const char* at = ply.c_str() + ply.find(end) + end.size();
+    for (std::size_t i = 0; i < vertices; ++i) {
+        at += kPlace + kNormal;
+        auto& color = found.colors.emplace_back();
+        std::memcpy(color.data(), at, color.size());
+        at += color.size();
+        std::memcpy(&found.values.emplace_back(), at, kValue);
+        at += kValue + kSurface;
+    }
+    return found;
+}
+
 TEST_F(SurfaceMakerTest, VerticesHaveTheTimeOfFirstCrossing) {
     state_.coloring.by = interaction::ColorBy::first_crossing;
     state_.isosurfaces.resize(1);
     state_.step = 2;
     EXPECT_THAT(outcome(), HasSubstr("isochron_surface_0001.ply: "));
-    const std::string ply = folder_.read("out/isochron_surface_0001.ply");
-    const std::string end = "end_header\n";
-    std::size_t vertices = 0;
-    ASSERT_EQ(
-        std::sscanf(ply.c_str() + ply.find("element vertex"), "element vertex %zu", &vertices), 1);
-    std::map<float, std::size_t> found;
-    std::set<std::string> colors;
-    constexpr std::size_t kPlace = 12, kNormal = 12, kColor = 3, kLine = kPlace + kNormal + 3 + 5;
-    const char* at = ply.c_str() + ply.find(end) + end.size();
-    for (std::size_t i = 0; i < vertices; ++i, at += kLine) {
-        float value = 0;
-        std::memcpy(&value, at + kPlace + kNormal + kColor, sizeof(value));
-        ++found[value];
-        colors.emplace(at + kPlace + kNormal, kColor);
-    }
+    const PlyColors ply = ply_colors(folder_.read("out/isochron_surface_0001.ply"));
+    const std::set<float> values(ply.values.begin(), ply.values.end());
+    const std::set<std::array<std::uint8_t, 3>> colors(ply.colors.begin(), ply.colors.end());
     const auto& times = file_->info().times;
-    for (const auto& [value, count] : found)
+    for (const float value : values)
         EXPECT_TRUE(std::ranges::any_of(times, [&](double time) {
             return time <= times[2] && std::abs(time - value) < 1e-3;
         })) << value;
-    EXPECT_EQ(colors.size(), found.size()) << "a color for each time";
-    EXPECT_GT(found.rbegin()->first, times[1] + 1e-3) << "some cells are new";
-    EXPECT_GT(found.size(), 1u) << "others are not";
+    EXPECT_EQ(colors.size(), values.size()) << "a color for each time";
+    EXPECT_GT(*values.rbegin(), times[1] + 1e-3) << "some cells are new";
+    EXPECT_GT(values.size(), 1u) << "others are not";
+}
+
+TEST_F(SurfaceMakerTest, BetweenStepsFirstCrossingsAreThoseOfThePicture) {
+    state_.coloring.by = interaction::ColorBy::first_crossing;
+    state_.between = interaction::BetweenSteps::blend;
+    state_.isosurfaces.resize(1);
+    const auto& times = file_->info().times;
+    int number = 0;
+    for (const std::uint32_t fraction : {0u, 20'000u}) { // a step shows crossings of blends, too
+        state_.step = 2;
+        state_.fraction = fraction;
+        state_.exporting = {true, 0};
+        outcome();
+        const PlyColors ply =
+            ply_colors(folder_.read(fmt::format("out/isochron_surface_{:04}.ply", ++number)));
+
+        index::SurfacesQuery shown = state_.surfaces();
+        EXPECT_EQ(shown.step, index::Instant(2, fraction));
+        shown.mesh_room = std::uint64_t{1} << 30;
+        const index::ExtractionPtr picture =
+            index::extract_from(file_, std::nullopt, index::Shading::cells)(shown, {});
+        const index::CellMesh& mesh = *picture->surfaces.front().mesh;
+        PercentileRange none;
+        const ColorScale scale = *color_scale(state_, *file_, picture, none);
+        const auto map = colors_of(scale);
+        ASSERT_EQ(ply.values.size(), mesh.vertices.size());
+        ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+        std::size_t between = 0;
+        for (std::size_t i = 0; i < mesh.colors.size(); ++i) {
+            const double time = std::lerp(times.front(), times.back(),
+                                          mesh.colors[i] / double{index::kFineColorSteps});
+            ASSERT_NEAR(ply.values[i], time, 1e-6) << i;
+            ASSERT_EQ(ply.colors[i], color_at(map, share_on(scale, ply.values[i]))) << i;
+            if (std::ranges::none_of(times, [&](double of) { return std::abs(of - time) < 1e-3; }))
+                ++between;
+        }
+        EXPECT_GT(between, 20u) << "vertices whose time is that of no step";
+    }
 }
 
 } // namespace

@@ -53,6 +53,12 @@ std::string without_control(std::string_view text, std::string_view stay) {
 
 } // namespace
 
+std::string grid_words(const index::SeriesInfo& info) {
+    const auto& vertices = info.grid.vertices;
+    return fmt::format("{} x {} x {}, {} step{}", vertices[0], vertices[1], vertices[2],
+                       info.steps(), info.steps() == 1 ? "" : "s");
+}
+
 std::string human_bytes(double bytes) {
     constexpr std::array kUnits{"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
     std::size_t unit = 0;

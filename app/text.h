@@ -1,6 +1,8 @@
 // Formats numbers and text for people.
 #pragma once
 
+#include "index/volume/volume_series.h"
+
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -24,6 +26,9 @@ std::string human_number(double number);
 
 /// `12.5 ms`, `0.0341`, `1.2e+07`: a number with its unit, short enough for a label.
 std::string with_unit(double value, const std::string& unit);
+
+/// `64 x 64 x 64, 10 steps`: the vertices along each axis.
+std::string grid_words(const index::SeriesInfo& info);
 
 /// Text as one line that is safe for a terminal: line ends and other control characters, those of
 /// eight bits too, become `\n`, `\x1b`; of a very long text only beginning and end remain.

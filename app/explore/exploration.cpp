@@ -103,7 +103,9 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         before = now;
         before->report.reset(); // it is written
         before->resume = false;
-        now = with_data(std::move(now), *next);
+        before->array = exploration.array();
+        now = next->array.empty() ? with_data(std::move(now), next->data.string())
+                                  : with_other_array(std::move(now), next->array);
     }
 }
 
@@ -198,21 +200,24 @@ void Exploration::open_session() {
         open_outputs();
     const bool tell = tells();
     if (tell) {
-        const Waited end =
-            say_what_is_done(*windows_, short_name(), "preparing to draw", config_, early_);
-        canceled_ = end == Waited::canceled;
-        if (end != Waited::ready)
+        PreparingPage page(*windows_, short_name(), config_, early_);
+        const bool stays = page.look(0);
+        canceled_ = page.canceled();
+        if (!stays)
             return;
     }
     session_.emplace(config_, file_, std::move(*windows_), index::Extract(), std::move(headset_));
+    std::optional<PreparingPage> page; // anew: the windows are the session's
+    if (tell)
+        page.emplace(session_->outputs().windows(), short_name(), config_, early_);
+    const auto look = [&page](float share) { return !page || page->look(share); };
     set_start();
-    const auto leaves = [&] {
-        canceled_ = canceled_ || (tell && gives_up(session_->outputs().windows(), early_));
-        return canceled_;
-    };
-    if (!leaves() && job_.leads())
-        session_->warm_up([&] { return !leaves(); });
-    if (leaves()) {
+    if (look(0) && job_.leads())
+        session_->warm_up(look);
+    const bool stays = look(1);
+    canceled_ = page && page->canceled();
+    page.reset();
+    if (!stays) {
         session_.reset();
         return;
     }
@@ -241,7 +246,12 @@ void Exploration::set_start() {
     session_->set_state(start_from(session_->state(), options_, steps));
 }
 
-std::optional<std::string> Exploration::run() {
+std::optional<std::string> Exploration::array() const {
+    const std::string name = indexing_ ? indexing_->state().array : std::string();
+    return name.empty() ? std::nullopt : std::optional(name);
+}
+
+std::optional<NextData> Exploration::run() {
     if (!session_) {
         signals_.check();
         return std::nullopt;
@@ -260,7 +270,7 @@ std::optional<std::string> Exploration::run() {
     finish(live, memory);
     signals_.check();
     if (live.next_data())
-        return live.next_data()->string();
+        return live.next_data();
     if (indexing_)
         indexing_->check();
     return std::nullopt;
@@ -272,9 +282,7 @@ LiveOptions Exploration::live_options_with(UserMemory& memory, BackgroundWork& w
     how.early = std::exchange(early_, {});
     if (job_.size() > 1)
         return how;
-    how.why_not_open = [this](const std::filesystem::path& data) {
-        return why_not_open(options_, data);
-    };
+    how.why_not_open = [](const std::filesystem::path& data) { return why_not_open(data); };
     if (indexing_)
         how.standing = [this] {
             const Indexing::State now = indexing_->state();
@@ -297,6 +305,8 @@ void Exploration::lead(LiveLoop& live) {
             {fmt::format("{} arrays: Ctrl + A shows the next one", file_->arrays())});
     if (job_.size() == 1)
         live.offer_movies(movie_orders(options_, header));
+    if (indexing_)
+        session_->panel().offer_arrays(listed(indexing_->state().others));
     live.offer_surfaces(file_, options_.screenshots);
     live.watch(*options_.data, file_);
     if (control_)

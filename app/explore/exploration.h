@@ -34,7 +34,9 @@ class Exploration {
 
     /// Runs the session until its user leaves, at once if they left before there was anything to
     /// see. @return other data that they want to see
-    std::optional<std::string> run();
+    std::optional<NextData> run();
+    /// The array that the user has chosen of files with several shapes; empty: there was no choice.
+    std::optional<std::string> array() const;
     /// The user has given the data up by Escape before there was anything to see.
     bool canceled() const { return canceled_; }
     /// Shows a message in the session. @param message empty: none
@@ -70,8 +72,8 @@ class Exploration {
     std::unique_ptr<SessionControl> control_; ///< null: nobody steers from outside
     bool canceled_ = false;
     std::vector<interaction::WindowEvent> early_; ///< that came before the first frame
-    std::optional<SavedSession> earlier_; ///< which is resumed
-    std::optional<SessionClaim> claim_;   ///< on the file to which this one is saved
+    std::optional<SavedSession> earlier_;         ///< which is resumed
+    std::optional<SessionClaim> claim_;           ///< on the file to which this one is saved
 };
 
 } // namespace isochron::app

@@ -14,6 +14,8 @@ struct ExploreOptions {
     BuildArguments sources;          ///< what was given: an index, or files of values
     std::optional<std::string> data; ///< the index that is shown
     std::string data_name;           ///< what the user knows it by
+    /// The array of files with several shapes that was chosen; empty: the user is asked.
+    std::optional<std::string> array;
     std::string config = "desktop";
     std::optional<std::string> check_config, context, stereo, quality, footprint, shape;
     std::optional<std::string> record, report, between, control;

@@ -27,6 +27,28 @@ std::size_t awaited_steps(const ExploreOptions& options) {
     return std::size_t{options.step.value_or(0)} + 1;
 }
 
+/// What was meant for the data before, and does not go on to the next.
+ExploreOptions begun_anew(ExploreOptions options) {
+    options.data.reset();
+    options.array.reset();
+    options.isovalue.reset();
+    options.step.reset();
+    options.session.reset();
+    options.report.reset();
+    options.resume = false;
+    return options;
+}
+
+/// The number of an array; empty: it is not among them.
+std::optional<std::size_t> number_of(const std::vector<ArrayOffer>& offers,
+                                     const std::string& name) {
+    const auto at = std::ranges::find(offers, name, &ArrayOffer::name);
+    return at == offers.end() ? std::nullopt
+                              : std::optional(static_cast<std::size_t>(at - offers.begin()));
+}
+
+} // namespace
+
 std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers) {
     std::vector<ListedArray> lines;
     for (const ArrayOffer& offer : offers)
@@ -37,8 +59,6 @@ std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers) {
                          offer.fault});
     return lines;
 }
-
-} // namespace
 
 bool is_index_name(const std::vector<std::string>& files) {
     std::error_code ignored;
@@ -83,8 +103,19 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
 std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Windows& windows,
                                           const ExploreOptions& options, const Config& config,
                                           bool& canceled) {
+    UserMemory memory(user_state_folder());
+    const fs::path data(options.data_name);
+    const auto choose = [&](const std::vector<ArrayOffer>& offers, std::size_t chosen) {
+        if (chosen < offers.size())
+            memory.remember_array(data, offers[chosen].name);
+        indexing.choose(chosen);
+    };
     const auto progress = [&] {
-        const Indexing::State now = indexing.state();
+        Indexing::State now = indexing.state();
+        if (const auto chosen = number_of(now.offers, options.array.value_or(""))) {
+            choose(now.offers, *chosen);
+            now.offers.clear();
+        }
         const std::size_t wanted = awaited_steps(options);
         return DataProgress{.ready = now.done || (now.index && now.steps >= wanted) ||
                                      (now.of > 0 && now.index && wanted > now.of),
@@ -93,24 +124,10 @@ std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Wind
                             .arrays = listed(now.offers)};
     };
     // The array that the user has chosen of the same data before is chosen at the beginning.
-    UserMemory memory(user_state_folder());
-    const fs::path data(options.data_name);
     const auto offers = [&] { return indexing.state().offers; };
-    const ArrayChoice choice{.first =
-                                 [&] {
-                                     const auto all = offers();
-                                     const auto before = std::ranges::find(
-                                         all, memory.array_of(data), &ArrayOffer::name);
-                                     return before == all.end()
-                                                ? std::size_t{0}
-                                                : static_cast<std::size_t>(before - all.begin());
-                                 },
-                             .choose =
-                                 [&](std::size_t chosen) {
-                                     if (const auto all = offers(); chosen < all.size())
-                                         memory.remember_array(data, all[chosen].name);
-                                     indexing.choose(chosen);
-                                 }};
+    const ArrayChoice choice{
+        .first = [&] { return number_of(offers(), memory.array_of(data)).value_or(0); },
+        .choose = [&](std::size_t chosen) { choose(offers(), chosen); }};
     const Waited waited = wait_for_data(windows, fs::path(options.data_name).filename().string(),
                                         progress, page_options(config), choice);
     canceled = waited == Waited::canceled;
@@ -132,14 +149,15 @@ std::optional<std::string> name_to_remember(const ExploreOptions& options) {
 }
 
 ExploreOptions with_data(ExploreOptions options, const std::string& data) {
+    options = begun_anew(std::move(options));
     options.sources = {};
     options.sources.files = {data};
-    options.data.reset();
-    options.isovalue.reset();
-    options.step.reset();
-    options.session.reset();
-    options.report.reset();
-    options.resume = false;
+    return with_index(std::move(options));
+}
+
+ExploreOptions with_other_array(ExploreOptions options, const std::string& array) {
+    options = begun_anew(std::move(options));
+    options.array = array;
     return with_index(std::move(options));
 }
 

@@ -4,6 +4,7 @@
 #include "app/explore/cluster_job.h"
 #include "app/explore/explore_options.h"
 #include "app/indexing/indexing.h"
+#include "app/panel/panel_model.h"
 #include "stereo/windows.h"
 
 #include <memory>
@@ -40,8 +41,13 @@ std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Wind
 /// options, or several names.
 std::optional<std::string> name_to_remember(const ExploreOptions& options);
 
+/// Arrays as the panel lists them.
+std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers);
+
 /// The options for other data, without those that were meant for the first data only.
 /// @param data a file, a folder, or a pattern
 ExploreOptions with_data(ExploreOptions options, const std::string& data);
+/// The options for the same data with another array, likewise.
+ExploreOptions with_other_array(ExploreOptions options, const std::string& array);
 
 } // namespace isochron::app

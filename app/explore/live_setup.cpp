@@ -31,15 +31,13 @@ std::string why_not_open(const std::filesystem::path& data) {
     }
 }
 
-std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data) {
-    return options.record ? "other data cannot be opened while you record" : why_not_open(data);
-}
-
 LiveOptions live_options(const ExploreOptions& options) {
     LiveOptions live{.emulated = options.emulate,
                      .length = std::nullopt,
                      .ended = [] { return CancelOnSignal::received() != 0; },
                      .why_not_open = {}};
+    if (options.record)
+        live.stays = "other data cannot be opened while you record";
     if (options.seconds)
         live.length = interaction::Seconds(*options.seconds);
     return live;

@@ -15,8 +15,6 @@ namespace isochron::app {
 /// Why data cannot be shown at all, in one line; empty: they can. Files of values can be shown if
 /// they can be opened without options.
 std::string why_not_open(const std::filesystem::path& data);
-/// Why this session cannot show other data; empty: it can.
-std::string why_not_open(const ExploreOptions& options, const std::filesystem::path& data);
 
 /// The options of the live loop: when it ends, and whether it emulates an installation.
 LiveOptions live_options(const ExploreOptions& options);

@@ -4,6 +4,7 @@
 #include "app/command_line/cancel.h"
 #include "interaction/input/window_event.h"
 
+#include <cmath>
 #include <thread>
 #include <utility>
 
@@ -33,24 +34,37 @@ Waited wait_until(const std::function<bool()>& done, const stereo::Windows& wind
         page_options(config));
 }
 
-Waited say_what_is_done(const stereo::Windows& windows, const std::string& name,
-                        const std::string& line, const Config& config,
-                        std::vector<interaction::WindowEvent>& others) {
-    constexpr int kFrames = 3; // the layout of a new window takes some
+namespace {
+
+/// It never waits: the work goes on between its frames.
+PageWindowOptions without_pace(const Config& config,
+                               std::vector<interaction::WindowEvent>& others) {
     PageWindowOptions options = page_options(config);
+    options.frame_rate_limit = 1e6;
     options.others = &others;
-    return wait_for_data(
-        windows, name,
-        [&line, frames = 0]() mutable {
-            return DataProgress{.ready = frames++ == kFrames, .line = line};
-        },
-        std::move(options));
+    return options;
 }
 
-bool gives_up(const stereo::Windows& windows, std::vector<interaction::WindowEvent>& others) {
-    const auto events = windows.poll_events();
-    others.insert(others.end(), events.begin(), events.end());
-    return interaction::is_pressed(interaction::Key::escape, events);
+} // namespace
+
+PreparingPage::PreparingPage(const stereo::Windows& windows, std::string name, const Config& config,
+                             std::vector<interaction::WindowEvent>& others)
+    : windows_(windows), name_(std::move(name)), page_(windows, without_pace(config, others)) {
+    constexpr int kFrames = 3; // the layout of a new window takes some
+    for (int i = 0; i < kFrames; ++i)
+        look(0);
+}
+
+bool PreparingPage::look(float share) {
+    constexpr float kSteps = 10; // of the bar: each is presented, which may wait for the display
+    const float shown = std::floor(kSteps * share) / kSteps;
+    const auto events = page_.frame([&](glm::ivec2 size, interaction::Seconds time) {
+        page_.layer().lay_out_progress(size, name_, "preparing to draw", shown, time);
+    });
+    canceled_ = canceled_ || interaction::is_pressed(interaction::Key::escape, events);
+    left_ = left_ || !page_.goes_on();
+    windows_.drawing().make_current();
+    return !canceled_ && !left_;
 }
 
 } // namespace isochron::app

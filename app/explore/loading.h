@@ -4,6 +4,7 @@
 
 #include "app/config/config.h"
 #include "app/session/data_choice.h"
+#include "app/session/page_window.h"
 #include "index/file/index_file.h"
 #include "interaction/input/window_event.h"
 #include "stereo/windows.h"
@@ -42,13 +43,29 @@ PageWindowOptions page_options(const Config& config);
 /// @param name of the data @param line `opening`, for example
 Waited wait_until(const std::function<bool()>& done, const stereo::Windows& windows,
                   const std::string& name, const std::string& line, const Config& config);
-/// Says it, and goes on at once. @param others gets the events that have another meaning
-Waited say_what_is_done(const stereo::Windows& windows, const std::string& name,
-                        const std::string& line, const Config& config,
-                        std::vector<interaction::WindowEvent>& others);
 
-/// Whether the user has pressed Escape in one of the windows since they were looked at last.
-/// @param others likewise
-bool gives_up(const stereo::Windows& windows, std::vector<interaction::WindowEvent>& others);
+/// Says in the first window that data are being prepared, on the thread that prepares them: between
+/// two parts of the work it looks at the windows.
+class PreparingPage {
+  public:
+    /// Shows the page. @param windows outlive it
+    /// @param others gets the events that have another meaning; outlives it
+    PreparingPage(const stereo::Windows& windows, std::string name, const Config& config,
+                  std::vector<interaction::WindowEvent>& others);
+
+    /// Sees what the user has done, and shows the page again where the window has lost it or more
+    /// of the work is done. The context that draws is current afterwards.
+    /// @param share of the work that is done
+    /// @return whether to go on: false once the user has pressed Escape or closed the window
+    bool look(float share);
+    /// The user has pressed Escape.
+    bool canceled() const { return canceled_; }
+
+  private:
+    const stereo::Windows& windows_;
+    const std::string name_;
+    PageWindow page_;
+    bool canceled_ = false, left_ = false;
+};
 
 } // namespace isochron::app

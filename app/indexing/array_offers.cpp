@@ -4,8 +4,6 @@
 #include "app/text.h"
 #include "index/error.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -24,12 +22,6 @@ struct Shape {
     std::vector<double> times;
     bool operator==(const Shape&) const = default;
 };
-
-std::string shape_words(const index::SeriesInfo& info) {
-    const auto& vertices = info.grid.vertices;
-    return fmt::format("{} x {} x {}, {} step{}", vertices[0], vertices[1], vertices[2],
-                       info.steps(), info.steps() == 1 ? "" : "s");
-}
 
 /// Widens a range by stored values.
 template <class T>
@@ -56,7 +48,7 @@ std::vector<ArrayOffer> offered_arrays(const std::vector<std::filesystem::path>&
         try {
             const ArraySource source = open_array(files, arguments, name);
             const index::SeriesInfo& info = source.series->info();
-            offer.shape = shape_words(info);
+            offer.shape = grid_words(info);
             offer.unit = info.value_unit;
             const Shape shape{info.grid, info.times};
             const auto same = std::ranges::find(shapes, shape);

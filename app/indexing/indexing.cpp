@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <new>
 #include <utility>
 
@@ -93,6 +95,11 @@ std::size_t Indexing::chosen_of(const std::vector<ArrayOffer>& offers,
     std::unique_lock lock(mutex_);
     if (!changed_.wait(lock, stop, [&] { return chosen_.has_value(); }))
         throw IndexingStopped();
+    const ArrayOffer& one = state_.offers.at(*chosen_);
+    state_.array = one.name;
+    std::ranges::copy_if(state_.offers, std::back_inserter(state_.others), [&](const auto& each) {
+        return !each.fault.empty() || each.group != one.group;
+    });
     state_.offers.clear();
     return *chosen_;
 }

@@ -31,6 +31,8 @@ class Indexing {
         std::string failure;            ///< empty: none
         bool done = false;              ///< it is complete, or it has failed
         std::vector<ArrayOffer> offers; ///< the user is to choose one; empty: nothing to choose
+        std::string array;              ///< that was chosen; empty: there was no choice
+        std::vector<ArrayOffer> others; ///< that cannot be shown with it
         /// `indexing: 3 of 8 steps, 41 %`, or `opening`; empty when it is done.
         std::string line() const;
     };

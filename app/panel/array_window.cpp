@@ -1,4 +1,4 @@
-// The window for choosing one of the arrays that files have.
+// The window for choosing one of the arrays of the data.
 #include "app/panel/array_window.h"
 
 #include "app/panel/panel_words.h"
@@ -12,6 +12,9 @@
 namespace isochron::app {
 namespace {
 
+constexpr ImGuiWindowFlags kAlone =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+
 bool goes_down(ImGuiKey key) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key));
 }
@@ -21,10 +24,27 @@ void cell(const std::string& words, Ink ink) {
     fitted_text(words, ImGui::GetContentRegionAvail().x, color_of(ink));
 }
 
+/// An array in two lines, as a wide button. @return whether it was pressed
+bool pressed_in_room(const ListedArray& line, bool shown) {
+    const float height = 2 * ImGui::GetTextLineHeight() + 10.0f;
+    const ImVec2 corner = ImGui::GetCursorPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const bool pressed = ImGui::Selectable("##line", shown, 0, {0.0f, height});
+    const ImVec2 next = ImGui::GetCursorPos();
+    ImGui::SetCursorPos({corner.x + 4.0f, corner.y + 4.0f});
+    fitted_text(line.name, width - 8.0f, color_of(Ink::text));
+    ImGui::SetCursorPos({corner.x + 4.0f, corner.y + 4.0f + ImGui::GetTextLineHeight()});
+    fitted_text(line.values + (line.unit.empty() ? "" : " " + line.unit), width - 8.0f,
+                color_of(shown ? Ink::text : Ink::dim));
+    ImGui::SetCursorPos(next);
+    return pressed;
+}
+
 } // namespace
 
 /// @return whether a line was clicked twice
-bool ArrayWindow::draw_lines(const std::vector<ListedArray>& arrays, bool moved) {
+bool ArrayWindow::draw_lines(const std::vector<ListedArray>& arrays, const char* values,
+                             bool moved) {
     bool opened = false;
     constexpr ImGuiTableFlags kTable = ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp;
     const float height = std::min(ImGui::GetContentRegionAvail().y - 34.0f,
@@ -33,9 +53,9 @@ bool ArrayWindow::draw_lines(const std::vector<ListedArray>& arrays, bool moved)
     if (!ImGui::BeginTable("arrays", 4, kTable, {0.0f, height}))
         return false;
     ImGui::TableSetupColumn("array", 0, 2.2f);
-    ImGui::TableSetupColumn("grid", 0, 2.4f);
+    ImGui::TableSetupColumn(values, 0, 1.8f);
     ImGui::TableSetupColumn("unit", 0, 0.8f);
-    ImGui::TableSetupColumn("values, first step", 0, 1.8f);
+    ImGui::TableSetupColumn("grid", 0, 2.4f);
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableHeadersRow();
     for (std::size_t i = 0; i < arrays.size(); ++i) {
@@ -57,16 +77,17 @@ bool ArrayWindow::draw_lines(const std::vector<ListedArray>& arrays, bool moved)
         ImGui::SameLine(0.0f, 0.0f);
         fitted_text(line.name, ImGui::GetContentRegionAvail().x,
                     color_of(can ? Ink::text : Ink::dim));
-        cell(can ? line.grid : line.fault, i == chosen_ ? Ink::text : Ink::dim);
-        cell(line.unit, i == chosen_ ? Ink::text : Ink::dim);
-        cell(line.values, i == chosen_ ? Ink::text : Ink::dim);
+        const Ink ink = i == chosen_ ? Ink::text : Ink::dim;
+        cell(line.values, ink);
+        cell(line.unit, ink);
+        cell(can ? line.grid : line.fault, ink);
         ImGui::PopID();
     }
     ImGui::EndTable();
     return opened;
 }
 
-std::optional<std::size_t> ArrayWindow::draw(const std::string& file,
+std::optional<std::size_t> ArrayWindow::draw(const ArrayQuestion& words,
                                              const std::vector<ListedArray>& arrays,
                                              std::size_t first) {
     const auto last = static_cast<int>(arrays.size()) - 1;
@@ -80,21 +101,49 @@ std::optional<std::size_t> ArrayWindow::draw(const std::string& file,
         ImGui::GetTextLineHeightWithSpacing() * (static_cast<float>(arrays.size()) + 4);
     ImGui::SetNextWindowSize(
         {std::min(0.96f * picture.x, 640.0f), std::min(0.84f * picture.y, 30.0f + lines)});
-    ImGui::Begin("###choose", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
-    note("Which array of " + file + "? Those of its shape can be shown with it.",
-         color_of(Ink::text));
+    if (fresh)
+        ImGui::SetNextWindowFocus();
+    ImGui::Begin("###choose", nullptr, kAlone);
+    note(words.question, color_of(Ink::text));
     ImGui::CaptureKeyboardFromApp(); // so that a key that goes down and up in one frame is seen
-    const bool opened = draw_lines(arrays, fresh || way != 0);
+    const bool opened = draw_lines(arrays, words.values, fresh || way != 0);
     const bool can = arrays[*chosen_].fault.empty();
     ImGui::BeginDisabled(!can);
-    const bool asked = ImGui::Button("Open (Enter)");
+    const bool asked = ImGui::Button(words.button);
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::TextColored(color_of(Ink::dim), "Escape cancels");
     ImGui::End();
     return can && (opened || asked || goes_down(ImGuiKey_Enter)) ? chosen_ : std::nullopt;
+}
+
+std::optional<std::size_t> ArrayWindow::draw_in_room(const PanelBox& place,
+                                                     const std::vector<ListedArray>& arrays,
+                                                     std::size_t first, bool& left) {
+    constexpr float kClose = 80.0f;
+    ImGui::SetNextWindowPos({place.low.x, place.low.y});
+    ImGui::SetNextWindowSize({place.size().x, place.size().y});
+    if (!chosen_)
+        ImGui::SetNextWindowFocus();
+    chosen_ = first;
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::Begin("###choose", nullptr, kAlone);
+    ImGui::AlignTextToFramePadding();
+    text("arrays of these data");
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - kClose);
+    left = ImGui::Button("Close", {kClose, 0.0f});
+    std::optional<std::size_t> pressed;
+    ImGui::BeginChild("lines");
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        if (pressed_in_room(arrays[i], i == first))
+            pressed = i;
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+    ImGui::End();
+    ImGui::PopStyleVar();
+    return pressed;
 }
 
 } // namespace isochron::app

@@ -37,6 +37,13 @@ bool is_read(Key key) {
     return std::ranges::any_of(kKeys, [key](const auto& each) { return each.second == key; });
 }
 
+/// Keys that go through a list and choose of it.
+bool goes_through_list(Key key) {
+    using enum Key;
+    constexpr Key kAll[]{up, down, left, right, page_up, page_down, home, end, enter};
+    return std::ranges::find(kAll, key) != std::end(kAll);
+}
+
 } // namespace
 
 std::span<const std::pair<int, Key>> keys_of_imgui() {
@@ -50,8 +57,9 @@ glm::vec2 folded(glm::vec2 at, glm::ivec2 places) {
 
 bool EventTaker::must_wait(const WindowEvent& event) const {
     if (const auto* key = std::get_if<KeyEvent>(&event))
-        return clicked || ((io.WantTextInput || io.WantCaptureKeyboard) && is_read(key->key) &&
-                           (changed.contains(key->key) || (typed && key->down)));
+        return clicked ||
+               ((io.WantTextInput || io.WantCaptureKeyboard || lists) && is_read(key->key) &&
+                (changed.contains(key->key) || (typed && key->down)));
     if (const auto* button = std::get_if<MouseButtonEvent>(&event))
         return button->down &&
                ((pressed | released) & 1u << static_cast<std::size_t>(button->button)) != 0;
@@ -60,19 +68,24 @@ bool EventTaker::must_wait(const WindowEvent& event) const {
     return false;
 }
 
-bool EventTaker::captures_mouse() const {
+bool has_mouse_at(const PanelPlaces& panel, glm::vec2 at) {
     const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+    const ImGuiIO& io = imgui.IO;
     bool drags = false; // something of the panel
     for (std::size_t button = 0; button < std::size(io.MouseDown); ++button)
         drags = drags || (io.MouseDown[button] && io.MouseDownOwned[button]);
-    if (drags || imgui.OpenPopupStack.Size > 0 || panel.covers({io.MousePos.x, io.MousePos.y}))
+    if (drags || imgui.OpenPopupStack.Size > 0 || panel.covers(at))
         return true;
     return std::any_of(imgui.Windows.begin(), imgui.Windows.end(), [&](const ImGuiWindow* window) {
         return window->Active && !window->Hidden &&
                (window->Flags & (ImGuiWindowFlags_NoMouseInputs | ImGuiWindowFlags_ChildWindow)) ==
                    0 &&
-               window->OuterRectClipped.Contains(io.MousePos);
+               window->OuterRectClipped.Contains({at.x, at.y});
     });
+}
+
+bool EventTaker::captures_mouse() const {
+    return has_mouse_at(panel, {io.MousePos.x, io.MousePos.y});
 }
 
 bool EventTaker::operator()(const KeyEvent& event) {
@@ -90,7 +103,7 @@ bool EventTaker::operator()(const KeyEvent& event) {
         io.KeyShift = event.down;
     if (event.key == Key::escape && event.down && event.alone() && popups && !io.WantTextInput)
         return closes_popup = true;
-    return event.down && io.WantTextInput;
+    return event.down && (io.WantTextInput || (lists && goes_through_list(event.key)));
 }
 
 bool EventTaker::operator()(const TextEvent& event) {

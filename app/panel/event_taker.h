@@ -23,6 +23,10 @@ std::span<const std::pair<int, interaction::Key>> keys_of_imgui();
 /// stays outside.
 glm::vec2 folded(glm::vec2 at, glm::ivec2 places);
 
+/// Whether the mouse at a place would be the panel's, as its windows were laid out last, in the current
+/// Dear ImGui context. @param at panel pixels
+bool has_mouse_at(const PanelPlaces& panel, glm::vec2 at);
+
 /// Takes one event into ImGui's state. The call returns whether the panel uses the event.
 struct EventTaker {
     ImGuiIO& io;
@@ -30,7 +34,8 @@ struct EventTaker {
     std::uint32_t& late_releases;
     std::optional<glm::vec2>& cursor;
     glm::ivec2 places;   ///< number of panels in the window, see `repeat`
-    bool popups = false; ///< a popup or page is open, which Escape closes
+    bool popups = false; ///< a popup is open, which Escape closes
+    bool lists = false;  ///< a popup or a page with a list is open, through which arrow keys go
     bool& closes_popup;
     NumberEntry& numbers;
     std::uint32_t released = 0; ///< mouse buttons that went up for this frame

@@ -2,6 +2,7 @@
 #include "app/panel/open_pages.h"
 
 #include "app/panel/panel_help.h"
+#include "app/text.h"
 
 #include <imgui.h>
 
@@ -38,6 +39,10 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
         files_.close();
         return true;
     }
+    if (escapes && lists_arrays_) {
+        lists_arrays_ = false;
+        return true;
+    }
     if (escapes && help_ && !io.WantTextInput) {
         help_ = false;
         return true;
@@ -45,7 +50,12 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     const bool chord =
         key && key->down && (io.KeyCtrl || key->with(interaction::Modifier::control)) &&
         !key->with(interaction::Modifier::alt) && !key->with(interaction::Modifier::super);
-    if (chord && key->key == Key{'K'}) {
+    return chord && turn_with_control(key->key, io.KeyShift);
+}
+
+/// @return whether the combination with Ctrl opens or closes a page
+bool OpenPages::turn_with_control(Key key, bool shift) {
+    if (key == Key{'K'}) {
         if (search_.is_open())
             search_.close();
         else
@@ -53,10 +63,56 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
         begun_ = true;
         return true;
     }
-    if (!chord || key->key != Key{'O'} || !recent_)
+    if (key == Key{'A'} && shift && has_session_) {
+        if (!std::exchange(lists_arrays_, false))
+            open_arrays();
+        begun_ = true;
+        return true;
+    }
+    if (key != Key{'O'} || !recent_)
         return false;
     open_files();
     return true;
+}
+
+void OpenPages::open_arrays() {
+    lists_arrays_ = true;
+    arrays_.begin_anew();
+}
+
+/// Something that was found on the panel in the room.
+void OpenPages::run(const KeyCommand& found) {
+    if (found.action)
+        action_ = found.action;
+    else
+        open_arrays();
+}
+
+/// The arrays that can be shown as they are, and those for which the data are opened anew.
+interaction::Commands OpenPages::lay_out_arrays(const PanelModel& model, const PanelBox& picture) {
+    const PanelArrays& shown = model.arrays;
+    std::vector<ListedArray> lines(shown.lines.begin(), shown.lines.end());
+    if (lines.empty())
+        lines.push_back({model.info.array, grid_words(model.info), model.info.value_unit, {}, {}});
+    const std::size_t here = lines.size();
+    lines.insert(lines.end(), others_.begin(), others_.end());
+    bool left = false;
+    const auto chosen =
+        model.place == PanelPlace::in_room
+            ? arrays_.draw_in_room(picture, lines, shown.asked, left)
+            : arrays_.draw({.question = others_.empty()
+                                            ? "Which array should be shown?"
+                                            : "Which array should be shown? For one with another "
+                                              "grid or other steps the data are opened anew.",
+                            .values = "values",
+                            .button = "Show (Enter)"},
+                           lines, shown.asked);
+    if (chosen || left)
+        lists_arrays_ = false;
+    if (chosen && *chosen >= here)
+        chosen_array_ = lines[*chosen].name;
+    return chosen && *chosen < here && *chosen != shown.asked ? shown.way_to(*chosen)
+                                                              : interaction::Commands();
 }
 
 void OpenPages::lay_out_files() {
@@ -73,6 +129,7 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
                                          float top, Seconds time) {
     interaction::Commands commands;
     turned_ = false;
+    has_session_ = true;
     if (help_ && model.place != PanelPlace::in_room) {
         const HelpAnswer answer = help_window(model);
         help_ = answer.stays;
@@ -81,11 +138,13 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
     }
     lay_out_files();
     if (model.place == PanelPlace::in_room) {
-        if (const auto action = search_.draw_in_room(picture))
-            action_ = action;
+        if (const KeyCommand* const found = search_.draw_in_room(picture))
+            run(*found);
     } else if (auto presses = search_.draw(picture); !presses.empty()) {
         presses_ = std::move(presses);
     }
+    if (lists_arrays_)
+        commands = lay_out_arrays(model, picture);
     if (any() || model.place != PanelPlace::over)
         return commands;
     if (model.ways.undo) // the session has changed: going on now would take that back

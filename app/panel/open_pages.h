@@ -22,7 +22,7 @@ namespace isochron::app {
 
 class OpenPages {
   public:
-    /// Shows the four lines of introduction from now on, until the user begins.
+    /// Shows the lines of introduction from now on, until the user begins.
     void introduce() { newcomer_ = true; }
     /// Offers to go on with the session before, until the user answers or changes something.
     /// @param earlier sets all that it had
@@ -43,13 +43,24 @@ class OpenPages {
     /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
+    /// Lets the user open the data anew with an array that cannot be shown with these.
+    void offer_arrays(std::vector<ListedArray> others) { others_ = std::move(others); }
+    bool offers_arrays() const { return !others_.empty(); }
+    /// Opens the page with all arrays.
+    void open_arrays();
+    /// The one of `offer_arrays` that the user has chosen; returned once.
+    std::optional<std::string> take_chosen_array() { return std::exchange(chosen_array_, {}); }
+
     /// When those lines may go, as the user has begun; else a time that has passed.
     interaction::Seconds introduction_ends() const;
 
     void open_help() { help_ = true; }
     void open_search() { search_.open(); }
+    void close_search() { search_.close(); }
     /// A page with a field that takes what is typed.
     bool takes_text() const { return search_.is_open() || files_.is_open(); }
+    /// A page with a list, through which the arrow keys go.
+    bool has_list() const { return takes_text() || lists_arrays_; }
     /// What is to be pressed for the command that the user found; returned once.
     std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
     bool has_presses() const { return !presses_.empty(); }
@@ -61,9 +72,10 @@ class OpenPages {
     bool turned() const { return turned_; }
 
     /// A page lies over the picture, which Escape closes.
-    bool any() const { return help_ || files_.is_open() || search_.is_open(); }
+    bool any() const { return help_ || has_list(); }
 
-    /// Obeys F1, `?`, Ctrl + K and Ctrl + O, wherever the mouse is, and Escape, which closes a page.
+    /// Obeys F1, `?`, Ctrl + K, Ctrl + O and Ctrl + Shift + A, wherever the mouse is, and Escape,
+    /// which closes a page.
     /// @param popup a popup is open, which Escape closes before a page
     /// @return whether the event was one of them
     bool turn(const interaction::WindowEvent& event, bool popup);
@@ -80,10 +92,17 @@ class OpenPages {
 
   private:
     void introduce(const PanelBox& picture, interaction::Seconds time);
+    bool turn_with_control(interaction::Key key, bool shift);
+    void run(const KeyCommand& found);
+    interaction::Commands lay_out_arrays(const PanelModel& model, const PanelBox& picture);
 
     bool help_ = false; ///< the help page is open
     FileWindow files_;
     ArrayWindow arrays_;
+    bool lists_arrays_ = false; ///< the page with all of them is open
+    std::vector<ListedArray> others_;
+    std::optional<std::string> chosen_array_;
+    bool has_session_ = false; ///< there are data, whose arrays can be listed
     KeySearch search_;
     std::vector<interaction::WindowEvent> presses_;
     std::optional<interaction::Action> action_;

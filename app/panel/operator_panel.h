@@ -21,7 +21,7 @@ class OperatorPanel {
     /// @param font_scale size of the panel, times the desktop's scale
     OperatorPanel(const render::Gl& gl, const stereo::Windows& windows, float font_scale = 1);
 
-    /// Shows the four lines of introduction over the first window until the user begins.
+    /// Shows the lines of introduction over the first window until the user begins.
     void introduce() { over_.pages().introduce(); }
     bool introduced() {
         return over_.pages().introduced();
@@ -34,6 +34,10 @@ class OperatorPanel {
         over_.pages().offer_files(std::move(recent));
     }
     std::optional<std::filesystem::path> take_chosen() { return over_.pages().take_chosen(); }
+    void offer_arrays(std::vector<ListedArray> others) {
+        over_.pages().offer_arrays(std::move(others));
+    }
+    std::optional<std::string> take_chosen_array() { return over_.pages().take_chosen_array(); }
 
     std::optional<MovieWish> take_wanted_movie();
 

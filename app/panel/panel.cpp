@@ -51,15 +51,16 @@ void title_of(const PanelModel& model, const PanelPlaces& places) {
 /// The icons of a folded column; each opens its section over the picture, and closes it again.
 void section_icons(std::optional<std::size_t>& open) {
     for (std::size_t i = 0; i < kSections; ++i)
-        if (icon_button(sections()[i].name, sections()[i].icon, sections()[i].name, open == i))
+        if (icon_button(sections()[i].name, sections()[i].icon, // whose name stands beside it then
+                        open == i ? "" : sections()[i].name, open == i))
             open = open == i ? std::nullopt : std::optional(i);
 }
 
-void section_over_picture(const PanelModel& model, const PanelPlaces& places, std::size_t number,
+void section_over_picture(const PanelModel& model, const PanelView& view, PanelPages& pages,
                           Commands& commands) {
     constexpr float kWidth = 300.0f;
-    const Section& section = sections()[number];
-    const PanelBox& room = places.picture;
+    const Section& section = sections()[*view.section];
+    const PanelBox& room = view.places.picture;
     const float width = std::min(kWidth, room.size().x);
     ImGui::SetNextWindowPos({room.low.x, room.low.y});
     ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, room.size().y});
@@ -69,17 +70,17 @@ void section_over_picture(const PanelModel& model, const PanelPlaces& places, st
     text(section.name);
     ImGui::Separator();
     ImGui::PushID(section.name);
-    section.lay_out(model, commands);
+    section.lay_out(model, pages, commands);
     ImGui::PopID();
     ImGui::End();
     ImGui::PopStyleVar();
 }
 
 /// What lies over the picture while the panel is shown.
-void over_picture(const PanelModel& model, PanelView& view, Commands& commands) {
+void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, Commands& commands) {
     PanelBox free = view.places.picture;
     if (view.places.folded && view.section) {
-        section_over_picture(model, view.places, *view.section, commands);
+        section_over_picture(model, view, pages, commands);
         return;
     }
     const float right = state_chip(model, free, view.statistics);
@@ -118,9 +119,9 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     if (places.folded)
         section_icons(view.section);
     else if (model.place == PanelPlace::in_room)
-        section_pages(model, commands);
+        section_pages(model, pages, commands);
     else
-        section_column(model, commands);
+        section_column(model, pages, commands);
     if (model.place == PanelPlace::in_room && has_tool_strip(model))
         tool_strip(model, commands);
     end_part();
@@ -129,7 +130,7 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     time_bar(model, places.two_rows, commands);
     end_part();
     if (model.place == PanelPlace::over)
-        over_picture(model, view, commands);
+        over_picture(model, view, pages, commands);
     return commands;
 }
 

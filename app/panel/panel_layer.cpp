@@ -101,6 +101,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
                      .cursor = cursor_,
                      .places = places_,
                      .popups = has_popup(),
+                     .lists = has_popup() || pages_.has_list(),
                      .closes_popup = closes_popup_,
                      .numbers = numbers_,
                      .released = released};
@@ -203,7 +204,8 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (model.place == PanelPlace::in_room)
         room_keys_.use();
     Commands commands;
-    PanelPages asked{.offers_files = pages_.offers_files()};
+    PanelPages asked{.offers_files = pages_.offers_files(),
+                     .offers_arrays = pages_.offers_arrays()};
     // The panel in the room replaces the one over the picture.
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, view_, asked);
@@ -215,6 +217,8 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         pages_.open_help();
     if (asked.search)
         pages_.open_search();
+    if (asked.arrays)
+        pages_.open_arrays();
     if (asked.movie)
         wanted_movie_ = asked.movie;
     if (model.place != PanelPlace::in_room)
@@ -245,7 +249,11 @@ std::optional<std::size_t> PanelLayer::lay_out_arrays(glm::ivec2 picture, const 
                                                       const std::vector<ListedArray>& arrays,
                                                       std::size_t first, Seconds time) {
     begin_frame(picture, time);
-    const auto chosen = pages_.arrays().draw(name, arrays, first);
+    const auto chosen = pages_.arrays().draw(
+        {.question = "Which array of " + name + "? Those of its shape can be shown with it.",
+         .values = "values, first step",
+         .button = "Open (Enter)"},
+        arrays, first);
     end_frame();
     return chosen;
 }
@@ -255,10 +263,9 @@ bool PanelLayer::has_popup() const {
 }
 
 bool PanelLayer::covers(glm::vec2 at) const {
-    const ImGuiIO& io = imgui_->IO;
-    at = folded(at, places_);
-    return io.WantCaptureMouse ||
-           view_.places.covers({at.x * io.DisplaySize.x, at.y * io.DisplaySize.y});
+    ImGui::SetCurrentContext(imgui_);
+    const ImVec2 size = imgui_->IO.DisplaySize;
+    return has_mouse_at(view_.places, folded(at, places_) * glm::vec2(size.x, size.y));
 }
 
 std::uint32_t PanelLayer::hovered() const {

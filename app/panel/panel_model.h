@@ -40,10 +40,17 @@ struct MovieState {
     std::optional<float> progress{}; ///< of the one that is being made, 0 to 1
 };
 
+/// An array as it is listed.
+struct ListedArray {
+    std::string name, grid, unit, values;
+    std::string fault; ///< why it cannot be chosen; empty: it can
+};
+
 /// The arrays of the data.
 struct PanelArrays {
     std::span<const std::string> names = {}; ///< of those with surfaces
     std::span<const std::string> notes = {}; ///< range and unit of each, in words; may be empty
+    std::span<const ListedArray> lines = {}; ///< the same arrays; may be empty
     std::size_t asked = 0;                   ///< number of the one asked for
     std::function<interaction::Commands(std::size_t)> way_to; ///< shows an array, by number
     std::span<const std::string> color_names = {};            ///< of those to color by
@@ -91,6 +98,14 @@ struct PanelModel {
     interaction::Ways ways{};
     interaction::Pose head{};   ///< of the first viewer
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
+};
+
+/// What the user asks for that no command is for.
+struct PanelPages {
+    bool offers_files = false;  ///< the user can open other data
+    bool offers_arrays = false; ///< the files have arrays that cannot be shown with these
+    bool files = false, help = false, search = false, arrays = false; ///< opened in this frame
+    std::optional<MovieWish> movie{};                                 ///< likewise
 };
 
 } // namespace isochron::app

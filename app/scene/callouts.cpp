@@ -97,10 +97,18 @@ bool meet(const Areas& a, const Areas& b, std::span<const render::View> views, f
     return false;
 }
 
-bool are_inside(const Areas& areas, std::span<const render::View> views) {
+/// The upper right corner, where a panel over the picture has its cube. @param share 0: there is none
+Area corner_of(const render::View& view, float share) {
+    constexpr float kSide = 7.0f; // heights of the text
+    const glm::vec2 end(view.size);
+    return {end - (share > 0 ? kSide * text_height(view.size, share) : 0.0f), end};
+}
+
+bool are_inside(const Areas& areas, std::span<const render::View> views, float share) {
     for (std::size_t i = 0; i < views.size(); ++i)
         if (areas[i] && (glm::any(glm::lessThan(areas[i]->low, glm::vec2(0.0f))) ||
-                         glm::any(glm::greaterThan(areas[i]->high, glm::vec2(views[i].size)))))
+                         glm::any(glm::greaterThan(areas[i]->high, glm::vec2(views[i].size))) ||
+                         areas[i]->meets(corner_of(views[i], share), 0.0f)))
             return false;
     return true;
 }
@@ -170,7 +178,7 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                 continue;
             if (!free)
                 free = paper;
-            if (!inside && are_inside(areas, views))
+            if (!inside && are_inside(areas, views, share))
                 inside = paper;
         }
         const CalloutPaper usual{choices.front(), choices.front() + size};

@@ -42,8 +42,8 @@ struct CalloutPaper {
 };
 
 /// Where the words of each callout stand: the same in all views, so that both eyes see one callout;
-/// in none of them over the words or the sign of another callout, nor outside the picture, as long
-/// as there is room. @param share height of the words, see `text_height`
+/// in none of them over the words or the sign of another callout, outside the picture or under a
+/// panel's cube in its corner, as long as there is room. @param share height of the words, see `text_height`
 std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     const render::GlyphAtlas& atlas,
                                     std::span<const render::View> views, float share = 0.0f);

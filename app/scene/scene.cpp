@@ -228,29 +228,29 @@ void Scene::draw_in_few_pixels(const Picture& picture, std::span<const render::V
     enlarge_.end(views, around_cells(placement));
 }
 
-void Scene::warm_up(const Picture& picture, std::span<const render::View> views,
-                    const std::function<bool()>& goes_on) {
-    draw(picture, views);
-    std::vector<render::Footprint> footprints{render::Footprint::quad, render::Footprint::gaussian};
-    if (cells_.may_have_meshes())
-        footprints.push_back(render::Footprint::mesh);
-    footprints.push_back(render::Footprint::surface);
+float Scene::warm_up(const Picture& picture, std::span<const render::View> views,
+                     std::size_t part) {
     render::CellAppearance appearance = appearance_of(picture);
     if (appearance.near_fade && !views.empty())
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
-    enlarge_.begin(views, kCellResolutions.back(), appearance.linear_light);
-    const glm::mat4 box = around_cells(placement_of(picture));
-    enlarge_.end(views, box);
-    render::RenderTarget small(gl_, {1, 1});
-    small.clear(glm::vec4(0));
-    const render::View pixel{.size = glm::ivec2(1)};
-    for (const render::View& view : views)
-        reproject_.draw(view, {small.color_texture(), small.depth_texture(), pixel}, box);
-    for (const render::Footprint footprint : footprints)
-        if (goes_on())
-            draw_small_surface(gl_, cell_pass_, views, info_.grid,
-                               matrix(picture.room_from_physical), std::span(&footprint, 1),
-                               appearance);
+    if (part == 0) {
+        small_.emplace(gl_, info_.grid, matrix(picture.room_from_physical),
+                       cells_.may_have_meshes());
+        enlarge_.begin(views, kCellResolutions.back(), appearance.linear_light);
+        const glm::mat4 box = around_cells(placement_of(picture));
+        enlarge_.end(views, box);
+        render::RenderTarget small(gl_, {1, 1});
+        small.clear(glm::vec4(0));
+        const render::View pixel{.size = glm::ivec2(1)};
+        for (const render::View& view : views)
+            reproject_.draw(view, {small.color_texture(), small.depth_texture(), pixel}, box);
+    } else {
+        small_->draw(part - 1, cell_pass_, views, appearance);
+    }
+    const std::size_t ways = small_->ways();
+    if (part == ways)
+        small_.reset();
+    return static_cast<float>(part + 1) / static_cast<float>(ways + 1);
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {

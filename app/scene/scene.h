@@ -10,6 +10,7 @@
 #include "app/scene/cell_sets.h"
 #include "app/scene/kept_cells.h"
 #include "app/scene/picture.h"
+#include "app/scene/small_surface.h"
 #include "index/volume/volume_series.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/view.h"
@@ -21,7 +22,6 @@
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -56,10 +56,10 @@ class Scene {
     /// `render::CellPass::draw`
     std::size_t draw(const Picture& picture, std::span<const render::View> views,
                      const ScenePart& part = {});
-    /// Draws a cell in each way in which cells are drawn, and what stands beside them.
-    /// @param goes_on asked between its parts: false ends it
-    void warm_up(const Picture& picture, std::span<const render::View> views,
-                 const std::function<bool()>& goes_on);
+    /// Draws a cell in one of the ways in which cells are drawn, part by part in all of them. What
+    /// stands beside cells is drawn by `draw`.
+    /// @param part number of the part, from 0 @return the share that is done; 1: that was the last
+    float warm_up(const Picture& picture, std::span<const render::View> views, std::size_t part);
     /// Work of drawing the cells into so many views, in the units of `ScenePart::cells`.
     std::size_t work(const Picture& picture, std::size_t views);
     /// Does some of the work that comes before the parts of a picture.
@@ -112,6 +112,7 @@ class Scene {
     std::optional<render::Texture> map_;
     KeptCells kept_;
     render::CellPass cell_pass_;
+    std::optional<SmallSurface> small_; ///< while it warms up
     render::LinePass line_pass_;
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;

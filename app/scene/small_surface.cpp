@@ -52,45 +52,51 @@ index::ExtractionPtr small_surface(const index::Grid& grid) {
     return result;
 }
 
-void draw_small_surface(const render::Gl& gl, render::CellPass& pass,
-                        std::span<const render::View> views, const index::Grid& volume,
-                        const glm::dmat4& room_from_physical,
-                        std::span<const render::Footprint> footprints,
-                        const render::CellAppearance& configured) {
+SmallSurface::SmallSurface(const render::Gl& gl, const index::Grid& volume,
+                           const glm::dmat4& room_from_physical, bool meshes)
+    : cells_(gl, small_grid(volume.rectilinear()), 2 * render::StagingRing::kUnit),
+      map_(render::color_map_texture(gl, {glm::vec3(1.0f)})),
+      far_(render::Placement::of(small_grid(volume.rectilinear()), room_from_physical)) {
     constexpr std::size_t kBytes = 1 << 20; // more than it has
-    const index::Grid grid = small_grid(volume.rectilinear());
-    render::CellBuffers cells(gl, grid, 2 * render::StagingRing::kUnit);
-    const index::ExtractionPtr surface = small_surface(grid);
-    while (cells.shown() != surface || cells.wants_volume())
-        cells.upload(surface, kBytes);
-    cells.compute_corners();
-    const render::Texture map = render::color_map_texture(gl, {glm::vec3(1.0f)});
+    const index::ExtractionPtr surface = small_surface(small_grid(volume.rectilinear()));
+    while (cells_.shown() != surface || cells_.wants_volume())
+        cells_.upload(surface, kBytes);
+    cells_.compute_corners();
     const auto whole = render::Placement::of(volume, room_from_physical);
-    const glm::vec3 middle = glm::floor(0.5f * whole.extent);
-    render::Placement far = render::Placement::of(grid, room_from_physical);
-    far.room_from_index = whole.room_from_index;
+    middle_ = glm::floor(0.5f * whole.extent);
+    far_.room_from_index = whole.room_from_index;
     constexpr float kManyPixels = 0.045f; // [m] a voxel in the middle
+    std::vector<render::Footprint> footprints{render::Footprint::quad, render::Footprint::gaussian};
+    if (meshes)
+        footprints.push_back(render::Footprint::mesh);
+    footprints.push_back(render::Footprint::surface);
     for (const float size : {1.0f, std::max(kManyPixels / whole.spacing().x, 1.0f),
-                             std::max(0.7f * whole.extent.x, 1.0f)}) {
-        render::Placement placement = far;
-        placement.room_from_index = glm::translate(far.room_from_index, middle) *
-                                    glm::scale(glm::mat4(1.0f), glm::vec3(size)) *
-                                    glm::translate(glm::mat4(1.0f), -0.5f * far.extent);
+                             std::max(0.7f * whole.extent.x, 1.0f)})
         for (const render::Footprint footprint : footprints)
             for (const float opacity : {1.0f, 0.5f}) {
                 if ((opacity < 1 && !render::has_layers(footprint)) ||
                     (size > 1 && footprint == render::Footprint::surface)) // the same at any size
                     continue;
-                render::CellAppearance appearance = configured;
-                appearance.surfaces[0].opacity = opacity;
-                appearance.values.reset();
-                pass.draw(views, placement, cells, footprint, appearance);
-                if (!render::has_layers(footprint)) // which have other shaders for colors by value
-                    continue;
-                appearance.values = {.map = map.name()};
-                pass.draw(views, placement, cells, footprint, appearance);
+                ways_.push_back({footprint, size, opacity, false});
+                if (render::has_layers(footprint)) // which have other shaders for colors by value
+                    ways_.push_back({footprint, size, opacity, true});
             }
-    }
+}
+
+void SmallSurface::draw(std::size_t way, render::CellPass& pass,
+                        std::span<const render::View> views,
+                        const render::CellAppearance& configured) const {
+    const Way& how = ways_.at(way);
+    render::Placement placement = far_;
+    placement.room_from_index = glm::translate(far_.room_from_index, middle_) *
+                                glm::scale(glm::mat4(1.0f), glm::vec3(how.size)) *
+                                glm::translate(glm::mat4(1.0f), -0.5f * far_.extent);
+    render::CellAppearance appearance = configured;
+    appearance.surfaces[0].opacity = how.opacity;
+    appearance.values.reset();
+    if (how.by_value)
+        appearance.values = {.map = map_.name()};
+    pass.draw(views, placement, cells_, how.footprint, appearance);
 }
 
 } // namespace isochron::app

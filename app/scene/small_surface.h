@@ -3,11 +3,18 @@
 
 #include "index/extraction/extraction.h"
 #include "index/volume/grid.h"
+#include "render/cells/cell_buffers.h"
 #include "render/cells/placement.h"
 #include "render/drawing/cell_pass.h"
+#include "render/gl/gl_objects.h"
 #include "render/gl/view.h"
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
 #include <span>
+#include <vector>
 
 namespace isochron::app {
 
@@ -18,13 +25,34 @@ index::Grid small_grid(bool rectilinear);
 /// mesh and the volume around it.
 index::ExtractionPtr small_surface(const index::Grid& grid);
 
-/// Draws such a surface with each of these footprints, opaque and translucent, in three sizes: as
-/// small as voxels in the middle of a volume, many pixels large, and as large as for a viewer
-/// inside the volume.
-void draw_small_surface(const render::Gl& gl, render::CellPass& pass,
-                        std::span<const render::View> views, const index::Grid& volume,
-                        const glm::dmat4& room_from_physical,
-                        std::span<const render::Footprint> footprints,
-                        const render::CellAppearance& configured);
+/// Such a surface on the GPU, with which cells are drawn once in every way: with each
+/// footprint, opaque and translucent, and in three sizes: as small as voxels in the middle of a
+/// volume, many pixels large, and as large as for a viewer inside the volume.
+class SmallSurface {
+  public:
+    /// @param volume of which it stands in the middle @param gl outlives it
+    /// @param meshes whether surfaces may have meshes
+    SmallSurface(const render::Gl& gl, const index::Grid& volume,
+                 const glm::dmat4& room_from_physical, bool meshes);
+
+    std::size_t ways() const { return ways_.size(); }
+    /// @param way number of one, from 0
+    void draw(std::size_t way, render::CellPass& pass, std::span<const render::View> views,
+              const render::CellAppearance& configured) const;
+
+  private:
+    struct Way {
+        render::Footprint footprint;
+        float size; ///< times that of a voxel
+        float opacity;
+        bool by_value; ///< colored by a map
+    };
+
+    render::CellBuffers cells_;
+    render::Texture map_;
+    render::Placement far_;
+    glm::vec3 middle_; ///< of the volume
+    std::vector<Way> ways_;
+};
 
 } // namespace isochron::app

@@ -32,7 +32,7 @@ std::function<void()> LiveLoop::waker() const {
 
 void LiveLoop::record(const std::filesystem::path& path,
                       const interaction::RecordingHeader& header) {
-    recorder_ = std::make_shared<interaction::RecordingWriter>(path, header);
+    recording_.begin(path, header);
     recording_.set_wake(waker());
 }
 
@@ -72,12 +72,8 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
 /// The panel's button: a recording from now on, in the folder of the movies; or the end of the one
 /// that goes on.
 void LiveLoop::begin_or_end_recording(Session& session) {
-    if (recorder_) {
-        recording_.post([recorder = recorder_] {
-            recorder->finish();
-            return std::string("the recording is saved");
-        });
-        recorder_.reset();
+    if (recording_.is_open()) {
+        recording_.end();
     } else {
         try {
             interaction::RecordingHeader header = movies_->orders().header;
@@ -89,7 +85,7 @@ void LiveLoop::begin_or_end_recording(Session& session) {
             session.show_messages({error.what()});
         }
     }
-    session.set_recording(recorder_ != nullptr);
+    session.set_recording(recording_.is_open());
 }
 
 /// Where pictures, movies and recordings are written.
@@ -122,17 +118,16 @@ void LiveLoop::make_movies(Session& session) {
         begin_or_end_recording(session);
     else if (wish == MovieWish::give_up)
         movies_->give_up();
-    else if (wish == MovieWish::recording && recorder_)
-        movies_->make([recorder = recorder_](const auto& path) { recorder->copy_to(path); },
-                      recording_, manner);
+    else if (wish == MovieWish::recording && recording_.is_open())
+        movies_->make(recording_.copy(), recording_.work(), manner);
     else if (wish == MovieWish::series)
         movies_->make([series = series_seen(sized(movies_->orders().header, how), session.note(),
                                             session.times(), how.rate)](
                           const auto& path) { write_recording(path, series); },
-                      recording_, manner);
+                      recording_.work(), manner);
     movies_->update();
     session.show_messages(movies_->messages());
-    session.set_movies({true, recorder_ != nullptr, movies_->progress()});
+    session.set_movies({true, recording_.is_open(), movies_->progress()});
 }
 
 /// Begins or cancels an export as the state asks for. @return how far it is, if that is new
@@ -143,12 +138,18 @@ std::optional<interaction::ExportWork> LiveLoop::export_surfaces(Session& sessio
     return surfaces_->update(session.state(), [&] { return session.scale(); });
 }
 
-/// Begins to open other data, unless a movie of these is being made.
+/// Why these data cannot give way to others now; empty: they can.
+std::string LiveLoop::why_data_stay() const {
+    return movies_ && movies_->busy()
+               ? "a movie is being made: open other data when it is finished, or cancel it"
+               : options_.stays;
+}
+
+/// Begins to open other data.
 void LiveLoop::open(const std::filesystem::path& data, Session& session) {
-    const std::string said =
-        movies_ && movies_->busy()
-            ? "a movie is being made: open other data when it is finished, or cancel it"
-            : opening_.open(data);
+    std::string said = why_data_stay();
+    if (said.empty())
+        said = opening_.open(data);
     if (!said.empty())
         session.show_messages({said});
 }
@@ -157,6 +158,12 @@ void LiveLoop::open(const std::filesystem::path& data, Session& session) {
 void LiveLoop::take_next_data(Session& session) {
     if (const auto chosen = session.panel().take_chosen())
         open(*chosen, session);
+    if (const auto array = session.panel().take_chosen_array()) {
+        if (const std::string why = why_data_stay(); !why.empty())
+            session.show_messages({why});
+        else
+            next_data_ = NextData{{}, *array};
+    }
     const auto dropped = session.outputs().windows().first().take_dropped();
     if (const auto name = one_name_of(dropped))
         open(*name, session);
@@ -165,7 +172,7 @@ void LiveLoop::take_next_data(Session& session) {
     if (const std::string said = opening_.update(); !said.empty())
         session.show_messages({said});
     if (auto ready = opening_.take_ready())
-        next_data_ = std::move(ready);
+        next_data_ = NextData{std::move(*ready)};
 }
 
 /// What goes on for longer, in the picture.
@@ -199,18 +206,6 @@ InputState LiveLoop::poll(std::span<const interaction::WindowEvent> events) {
 bool LiveLoop::goes_on(const Commands& commands, const InputState& input) const {
     return !commands.quit && !options_.ended() && !headset_.ended() &&
            !(options_.length && input.time >= *options_.length);
-}
-
-void LiveLoop::record(interaction::RecordedFrame frame) {
-    recording_.post([recorder = recorder_, lost = recording_lost_, frame = std::move(frame)] {
-        try {
-            recorder->append(frame);
-        } catch (...) {
-            *lost = true;
-            throw;
-        }
-        return std::string();
-    });
 }
 
 /// Whether a closed window ends the loop. If the user has made changes, asks first; closing a
@@ -292,6 +287,7 @@ bool LiveLoop::wait(const FrameOutlook& next, const stereo::Windows& windows) {
     const auto longest = idle_.after(next, clock_());
     if (!longest || waited_)
         return false;
+    recording_.rest();
     const Seconds end = clock_() + *longest;
     windows.wait(*wake_, *longest);
     if (clock_() < end)
@@ -338,7 +334,8 @@ void LiveLoop::run(Session& session) {
             control_->tell(session, drawn);
         session.set_recording(records());
         if (records())
-            record({input, commands, from_panel, name_of(drawn.footprint), session.latched()});
+            recording_.append(
+                {input, commands, from_panel, name_of(drawn.footprint), session.latched()});
         session.show_messages(recording_.messages());
         keep(session, commands, input.time);
         place_pictures(session);
@@ -382,8 +379,6 @@ void LiveLoop::finish(const Session& session) {
         last_words_.insert(last_words_.end(), words.begin(), words.end());
     }
     recording_.finish();
-    if (recorder_)
-        recorder_->finish();
     if (keeper_)
         keeper_->finish(session.state(), emulation_.standing(), session.left_arrays());
 }

@@ -8,13 +8,13 @@
 #pragma once
 
 #include "app/config/config.h"
-#include "app/frame/background_work.h"
 #include "app/frame/idle_wait.h"
 #include "app/frame/late_latch.h"
 #include "app/output/room_camera.h"
 #include "app/output/surface_maker.h"
 #include "app/session/data_opening.h"
 #include "app/session/headset_loop.h"
+#include "app/session/kept/live_recording.h"
 #include "app/session/kept/session_keeper.h"
 #include "app/session/movie_maker.h"
 #include "app/session/pattern_show.h"
@@ -23,9 +23,7 @@
 #include "index/file/index_watch.h"
 #include "interaction/controls/desktop_emulation.h"
 #include "interaction/input/composite_input.h"
-#include "interaction/recording/recording.h"
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -47,6 +45,7 @@ struct LiveOptions {
     /// and the loop ends. A null function: the user cannot open other data.
     /// Called on a thread of its own.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
+    std::string stays = {}; ///< why these data cannot give way to others; empty: they can
     /// Called in each frame: the picture shows the note that it returns. May be null.
     std::function<std::string()> standing = {};
     std::vector<interaction::WindowEvent> early = {}; ///< that came before the first frame
@@ -58,6 +57,12 @@ struct LiveOptions {
     }
     /// Returns the session time, for tests; null: the time since the loop was constructed.
     std::function<interaction::Seconds()> clock = {};
+};
+
+/// What the user wants to see next.
+struct NextData {
+    std::filesystem::path data;
+    std::string array = {}; ///< of the same files, instead of `data`; empty: other data
 };
 
 /// Session time starts at 0 when the loop is constructed.
@@ -79,7 +84,7 @@ class LiveLoop {
     void record(const std::filesystem::path& path, const interaction::RecordingHeader& header);
 
     /// Whether frames are recorded: no longer once one could not be written.
-    bool records() const { return recorder_ && !recording_lost_->load(); }
+    bool records() const { return recording_.records(); }
 
     /// Shows new steps of the index when they come. @param path of the open index
     void watch(const std::filesystem::path& path, std::shared_ptr<const index::IndexFile> file);
@@ -106,7 +111,7 @@ class LiveLoop {
     void stand(const interaction::StandingPlace& place) { emulation_.stand(place); }
 
     /// Other data that the user wants to see; empty: the user leaves.
-    const std::optional<std::filesystem::path>& next_data() const { return next_data_; }
+    const std::optional<NextData>& next_data() const { return next_data_; }
 
     /// Runs until the user closes a window, leaves by a device or through the headset's runtime, or
     /// the time is over; then leaves the headset.
@@ -122,9 +127,9 @@ class LiveLoop {
   private:
     interaction::InputState poll(std::span<const interaction::WindowEvent> events);
     bool goes_on(const interaction::Commands& commands, const interaction::InputState& input) const;
-    void record(interaction::RecordedFrame frame);
     void take_next_data(Session& session);
     void keep(Session& session, const interaction::Commands& commands, interaction::Seconds now);
+    std::string why_data_stay() const;
     void open(const std::filesystem::path& data, Session& session);
     void note_work(Session& session) const;
     void make_movies(Session& session);
@@ -155,13 +160,9 @@ class LiveLoop {
     std::string not_kept_ = "this session is not saved"; ///< why, where it is not kept
     std::string picture_folder_;                         ///< that the user has chosen; empty: none
     std::optional<index::IndexWatch> watch_;
-    std::optional<std::filesystem::path> next_data_;
+    std::optional<NextData> next_data_;
     DataOpening opening_; ///< of data that the user has chosen
-    BackgroundWork recording_;
-    /// Used only on the thread of `recording_`.
-    std::shared_ptr<interaction::RecordingWriter> recorder_;
-    const std::shared_ptr<std::atomic<bool>> recording_lost_ =
-        std::make_shared<std::atomic<bool>>(false);
+    LiveRecording recording_;
     std::optional<MovieMaker> movies_;
     std::optional<SurfaceMaker> surfaces_;
     SessionControl* control_ = nullptr;   ///< null: nobody steers from outside

@@ -143,12 +143,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .data = data_frame(arrays_.file()->info()),
             .asked = state_,
             .frame = report,
-            .arrays = {.names = arrays_.names(),
-                       .notes = arrays_.notes(),
-                       .asked = arrays_.number(state_),
-                       .way_to = [this](std::size_t number) { return way_to_array(number); },
-                       .color_names = arrays_.color_names(),
-                       .color = color_array(state_, *arrays_.file())},
+            .arrays = arrays_.in_panel(state_),
             .colors = {.range = scale ? scale->range : std::array{0.0, 0.0},
                        .own_maps = config_.color_maps},
             .work = {.frames = log_.speed(),
@@ -164,19 +159,24 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
 }
 
-void Session::warm_up(const std::function<bool()>& goes_on) {
+void Session::warm_up(const std::function<bool(float)>& goes_on) {
     if (outputs_.headset())
         return;
     const Picture picture = pictures_.first(state_);
     outputs_.draw(picture.audience,
                   [&, picture](const ScenePlace&, std::span<const render::View> views) {
-                      scene_.warm_up(picture, views, goes_on);
+                      scene_.draw(picture, views);
                   },
                   {});
-    Outputs::PartPlace place; // what is drawn over several frames has a place of its own
-    const auto nothing = [](const ScenePlace&, std::span<const render::View>) { return true; };
-    for (bool whole = false; !whole;)
-        whole = outputs_.draw_part(picture.audience, place, nothing);
+    Outputs::PartPlace place;
+    std::size_t part = 0;
+    float share = 0; // of the window that is drawn
+    for (bool whole = false; !whole && goes_on(share);)
+        whole = outputs_.draw_part(
+            picture.audience, place, [&](const ScenePlace&, std::span<const render::View> views) {
+                share = scene_.warm_up(picture, views, part = place.begins ? 0 : part + 1);
+                return share >= 1;
+            });
 }
 
 void Session::draw_eyes(const Frame& frame, const Picture& now,

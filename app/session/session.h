@@ -63,7 +63,7 @@ class Session {
     interaction::Commands way_to_array(std::size_t number) const {
         return arrays_.way_to(number, state_);
     }
-    /// For `SavedSession`: how arrays that are not shown were left; `recall_arrays` sets it again.
+    /// How arrays that are not shown were left, for `SavedSession`; `recall_arrays` sets it again.
     std::vector<interaction::Commands> left_arrays() const { return arrays_.left(state_); }
     void recall_arrays(const std::vector<interaction::Commands>& left) { arrays_.recall(left); }
     /// @param name of an array of the surfaces; empty: the first
@@ -100,9 +100,9 @@ class Session {
         return panel_.feed(events, state_);
     }
 
-    /// Draws everything once off screen, before the first frame: drivers compile shaders when these
-    /// are first used, and that takes longer than a frame may.
-    void warm_up(const std::function<bool()>& goes_on = [] { return true; });
+    /// Draws everything once off screen, in small parts: drivers compile shaders when they are first
+    /// used. @param goes_on asked before each part, with the share that is done: false ends it
+    void warm_up(const std::function<bool(float)>& goes_on = [](float) { return true; });
     /// Makes one frame, from commands to the presented picture.
     /// @param latch returns where the heads are when the views are made; empty: as in `input`
     const FrameReport& frame(const interaction::InputState& input,

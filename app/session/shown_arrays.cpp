@@ -23,9 +23,24 @@ ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::Inde
         names_.push_back(array.info().array);
         notes_.push_back(fmt::format("{:.4g} to {}", array.stats().low,
                                      with_unit(array.stats().high, array.info().value_unit)));
+        lines_.push_back({array.info().array,
+                          grid_words(array.info()),
+                          array.info().value_unit,
+                          fmt::format("{:.4g} to {:.4g}", array.stats().low, array.stats().high),
+                          {}});
         if (number > 0)
             first_surfaces_.push_back(first_surfaces(config, array_of(file_, number), home.step));
     }
+}
+
+PanelArrays ShownArrays::in_panel(const ExplorerState& state) const {
+    return {.names = names_,
+            .notes = notes_,
+            .lines = lines_,
+            .asked = number(state),
+            .way_to = [this, &state](std::size_t number) { return way_to(number, state); },
+            .color_names = color_names_,
+            .color = color_array(state, *file_)};
 }
 
 std::shared_ptr<const index::IndexFile> ShownArrays::held(const ExplorerState& state) const {

@@ -3,6 +3,7 @@
 
 #include "app/config/config.h"
 #include "app/frame/explorer_state.h"
+#include "app/panel/panel_model.h"
 #include "index/file/index_file.h"
 
 #include <cstddef>
@@ -25,9 +26,9 @@ class ShownArrays {
     /// Continues with the same data that have more steps.
     void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
     std::span<const std::string> names() const { return names_; }
-    /// Range and unit of each array, in words: `0.02 to 40.3 1/s`.
-    std::span<const std::string> notes() const { return notes_; }
     const std::vector<std::string>& color_names() const { return color_names_; }
+    /// What a panel shows of them. @param state lives as long as what is returned
+    PanelArrays in_panel(const ExplorerState& state) const;
 
     /// The array whose surfaces are asked for, as `index::IndexFile::array` takes it.
     std::size_t number(const ExplorerState& state) const {
@@ -55,7 +56,9 @@ class ShownArrays {
 
   private:
     std::shared_ptr<const index::IndexFile> file_;
-    std::vector<std::string> names_, notes_, color_names_;
+    std::vector<std::string> names_, color_names_;
+    std::vector<std::string> notes_; ///< range and unit of each array: `0.02 to 40.3 1/s`
+    std::vector<ListedArray> lines_;
     /// The surfaces at the first look at each array.
     std::vector<std::vector<interaction::Isosurface>> first_surfaces_;
     /// How arrays that were shown before were left, by number.

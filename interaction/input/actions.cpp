@@ -143,7 +143,7 @@ std::span<const KeyLine> key_lines() {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 36> kLines{{
+    static constexpr std::array<ControlLine, 37> kLines{{
         {mouse, "Click", "pick the surface there, or what the tool does (4 5 6)"},
         {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},
@@ -155,6 +155,7 @@ std::span<const ControlLine> control_lines() {
         {keyboard, "F1 or ?", "help: keys, mouse and devices"},
         {keyboard, "F11", "full screen on, off"},
         {keyboard, "Ctrl + O", "open other data"},
+        {keyboard, "Ctrl + Shift + A", "all arrays: names, values, units and grids"},
         {hands, "Wand button 1 (hold)", "grab: the volume follows the wand"},
         {hands, "Wand button 2 (hold)", "fly where the wand points"},
         {hands, "Wand valuator 1", "isovalue, the whole range in 4 s"},

@@ -170,8 +170,12 @@ void RecordingWriter::append(const RecordedFrame& frame) {
     s.before = frame;
 }
 
-void RecordingWriter::copy_to(const std::filesystem::path& path) {
+void RecordingWriter::flush() {
     state_->flush();
+}
+
+void RecordingWriter::copy_to(const std::filesystem::path& path) {
+    flush();
     const std::filesystem::path part = path.string() + ".part";
     std::error_code error;
     std::filesystem::copy_file(state_->temporary, part, error);

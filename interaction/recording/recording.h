@@ -42,6 +42,8 @@ class RecordingWriter {
     ~RecordingWriter(); ///< calls `finish` if it was not called; ignores its errors
     /// @throws Error when the disk is full, time goes back or a number is not finite
     void append(const RecordedFrame& frame);
+    /// Hands everything appended so far to the operating system. @throws Error when the disk is full
+    void flush();
     /// Writes everything appended so far to `path`, as a complete recording.
     /// @throws Error when that cannot be written
     void copy_to(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 // The panel's section on color: what colors the surfaces, and the color map.
 #include "app/panel/parts/color_section.h"
 
+#include "app/panel/keyed_list.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
@@ -77,8 +78,12 @@ void map_row(const PanelModel& model, Coloring& coloring) {
         tip(fmt::format("color map, from the lowest to the highest value: {}", coloring.map)
                 .c_str());
     if (open) {
-        for (const OfferedMap& map : offered_maps(model)) {
-            if (ImGui::Selectable(map.words.c_str(), map.name == coloring.map)) {
+        const std::vector<OfferedMap> maps = offered_maps(model);
+        const auto here = std::ranges::find(maps, coloring.map, &OfferedMap::name) - maps.begin();
+        const KeyedList keys(static_cast<std::size_t>(here), maps.size());
+        for (std::size_t i = 0; i < maps.size(); ++i) {
+            const OfferedMap& map = maps[i];
+            if (keys.line(i, ImGui::Selectable(map.words.c_str(), keys.at(i)))) {
                 coloring.map = map.name;
                 coloring.colors = map.colors;
             }

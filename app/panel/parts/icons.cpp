@@ -125,7 +125,8 @@ bool icon_button(const char* id, Icon icon, const char* tip_words, bool on, floa
     const Ink ink = !usable ? Ink::dim : on ? Ink::accent : Ink::text;
     draw_icon(list, icon, {corner.x + side / 2, corner.y + side / 2}, 0.64f * side,
               ImGui::GetColorU32(color_of(ink)));
-    tip(tip_words);
+    if (*tip_words != '\0')
+        tip(tip_words);
     return pressed;
 }
 

@@ -53,7 +53,7 @@ void draw_icon(ImDrawList& list, Icon icon, const ImVec2& middle, float size, Im
 
 inline constexpr float kIconButton = 28.0f; ///< side of a button with an icon, panel pixels
 
-/// A button with an icon and a tip. @param on drawn as switched on
+/// A button with an icon and a tip. @param tip_words empty: none @param on drawn as switched on
 /// @return whether it was pressed
 bool icon_button(const char* id, Icon icon, const char* tip_words, bool on = false,
                  float side = kIconButton);

@@ -106,9 +106,12 @@ KeyCommand command_of(const interaction::KeyLine& line, const interaction::KeyBi
 }
 
 std::vector<KeyCommand> all_key_commands() {
-    std::vector<KeyCommand> all{{"open other data", "Ctrl + O", Key{'O'}, Chord::control},
-                                {"help: keys, mouse and devices", "F1", Key::f1},
-                                {"full screen on, off", "F11", Key::f11}};
+    std::vector<KeyCommand> all{
+        {"open other data", "Ctrl + O", Key{'O'}, Chord::control, {}, false},
+        {"arrays: choose by name, values, unit and grid", "Ctrl + Shift + A", Key{'A'},
+         Chord::control_shift},
+        {"help: keys, mouse and devices", "F1", Key::f1, Chord::none, {}, false},
+        {"full screen on, off", "F11", Key::f11, Chord::none, {}, false}};
     std::vector<Action> listed(kHeld.begin(), kHeld.end());
     for (const interaction::KeyLine& line : interaction::key_lines())
         for (const interaction::KeyBinding& binding : line.bindings) {
@@ -230,7 +233,7 @@ const KeyCommand* KeySearch::lines_in_room() {
     const KeyCommand* wanted = nullptr;
     bool any = false;
     for (const KeyCommand* line : found(text_)) {
-        if (!line->action)
+        if (!line->in_room)
             continue;
         any = true;
         ImGui::PushID(line);
@@ -252,9 +255,9 @@ const KeyCommand* KeySearch::lines_in_room() {
     return wanted;
 }
 
-std::optional<interaction::Action> KeySearch::draw_in_room(const PanelBox& place) {
+const KeyCommand* KeySearch::draw_in_room(const PanelBox& place) {
     if (!shown_)
-        return std::nullopt;
+        return nullptr;
     ImGui::SetNextWindowPos({place.low.x, place.low.y});
     ImGui::SetNextWindowSize({place.size().x, place.size().y});
     if (std::exchange(fresh_, false))
@@ -276,7 +279,7 @@ std::optional<interaction::Action> KeySearch::draw_in_room(const PanelBox& place
     ImGui::PopStyleVar();
     if (wanted || left)
         shown_ = false;
-    return wanted ? wanted->action : std::nullopt;
+    return wanted;
 }
 
 } // namespace isochron::app

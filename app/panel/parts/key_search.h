@@ -20,6 +20,7 @@ struct KeyCommand {
     interaction::Chord chord = interaction::Chord::none;
     /// What the key leads to; empty: something that a window does itself.
     std::optional<interaction::Action> action{};
+    bool in_room = true; ///< a hand in the room can have it, too
 };
 /// The events of someone who presses its key and lets it go.
 std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command);
@@ -42,8 +43,8 @@ class KeySearch {
     std::vector<interaction::WindowEvent> draw(const PanelBox& picture);
     /// The same on a panel in the room, which it covers: the text is typed on keys of the panel.
     /// @param place that it covers
-    /// @return the command that the user chose; then it closes
-    std::optional<interaction::Action> draw_in_room(const PanelBox& place);
+    /// @return the command that the user chose, and then it closes; null: none
+    const KeyCommand* draw_in_room(const PanelBox& place);
 
   private:
     const KeyCommand* lines_in_room();

@@ -1,6 +1,7 @@
 // Rows of the panel's sections: the label in a column at the left, the control beside it.
 #include "app/panel/parts/rows.h"
 
+#include "app/panel/keyed_list.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/room_keys.h"
 #include "app/panel/parts/theme.h"
@@ -153,8 +154,10 @@ std::optional<std::size_t> choice_field(const char* id, const std::string& curre
     float widest = 0.0f;
     for (const std::string& each : words)
         widest = std::max(widest, ImGui::CalcTextSize(each.c_str()).x);
+    const auto here = std::ranges::find(words, current) - words.begin();
+    const KeyedList keys(static_cast<std::size_t>(here), words.size());
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (ImGui::Selectable(words[i].c_str(), words[i] == current))
+        if (keys.line(i, ImGui::Selectable(words[i].c_str(), keys.at(i))))
             chosen = i;
         if (i >= notes.size())
             continue;

@@ -32,27 +32,35 @@ namespace {
 
 using interaction::Commands;
 
-void data_section(const PanelModel& model, Commands& commands) {
+/// The array that is shown, and the others to choose from.
+void array_row(const PanelModel& model, PanelPages& pages, Commands& commands) {
+    std::vector<std::string> words(model.arrays.names.begin(), model.arrays.names.end());
+    if (words.size() < 2 && !pages.offers_arrays)
+        return text_row("array", model.info.array);
+    if (words.empty())
+        words.push_back(model.info.array);
+    const std::size_t count = words.size();
+    words.emplace_back("all arrays ...");
+    row("array");
+    const auto chosen = choice_field("##array", words[model.arrays.asked], words,
+                                     "array whose isosurfaces are shown (Ctrl + A: the next one, "
+                                     "Ctrl + Shift + A: all of them)",
+                                     model.arrays.notes);
+    if (chosen == count)
+        pages.arrays = true;
+    else if (chosen && *chosen != model.arrays.asked)
+        interaction::merge(commands, model.arrays.way_to(*chosen));
+}
+
+void data_section(const PanelModel& model, PanelPages& pages, Commands& commands) {
     const index::SeriesInfo& info = model.info;
-    if (model.arrays.names.size() > 1) {
-        row("array");
-        const std::vector<std::string> names(model.arrays.names.begin(), model.arrays.names.end());
-        const auto chosen =
-            choice_field("##array", names[model.arrays.asked], names,
-                         "array whose isosurfaces are shown (Ctrl + A)", model.arrays.notes);
-        if (chosen && *chosen != model.arrays.asked)
-            interaction::merge(commands, model.arrays.way_to(*chosen));
-    } else {
-        text_row("array", info.array);
-    }
+    array_row(model, pages, commands);
     text_row("values", fmt::format("{:.4g} to {}", model.stats.low,
                                    with_unit(model.stats.high, info.value_unit)));
     const glm::dvec3 size = physical_size(info.grid);
     text_row("size", fmt::format("{:.3g} x {:.3g} x {:.3g}{}", size.x, size.y, size.z,
                                  with_space(info.length_unit)));
-    text_row("grid",
-             fmt::format("{} x {} x {}, {} step{}", info.grid.vertices[0], info.grid.vertices[1],
-                         info.grid.vertices[2], info.steps(), info.steps() == 1 ? "" : "s"));
+    text_row("grid", grid_words(info));
 }
 
 /// A row with the names of an enumeration.
@@ -205,7 +213,7 @@ void hand_rows(const PanelModel& model, Commands& commands) {
         commands.tools = tools;
 }
 
-void view_section(const PanelModel& model, Commands& commands) {
+void view_section(const PanelModel& model, PanelPages&, Commands& commands) {
     interaction::QualityMode quality = model.asked.quality;
     named_row("quality", quality,
               "auto (1): the best that keeps up while something moves, then the exact surface\n"
@@ -218,6 +226,12 @@ void view_section(const PanelModel& model, Commands& commands) {
     viewpoint_row(model, commands);
     stereo_rows(model, commands);
     hand_rows(model, commands);
+}
+
+/// A section that opens nothing beside the panel.
+template <void (*lay_out)(const PanelModel&, Commands&)>
+void alone(const PanelModel& model, PanelPages&, Commands& commands) {
+    lay_out(model, commands);
 }
 
 /// A line with the section's name, which folds it. @return whether it is open
@@ -250,17 +264,17 @@ bool section_line(const Section& section) {
 const std::array<Section, kSections>& sections() {
     static constexpr std::array<Section, kSections> kAll{
         {{"Data", Icon::data, data_section},
-         {"Surfaces", Icon::surfaces, surfaces_section},
-         {"Color", Icon::color, color_section},
+         {"Surfaces", Icon::surfaces, alone<surfaces_section>},
+         {"Color", Icon::color, alone<color_section>},
          {"View", Icon::view, view_section}}};
     return kAll;
 }
 
-void section_column(const PanelModel& model, Commands& commands) {
+void section_column(const PanelModel& model, PanelPages& pages, Commands& commands) {
     for (const Section& section : sections()) {
         if (section_line(section)) {
             ImGui::PushID(section.name);
-            section.lay_out(model, commands);
+            section.lay_out(model, pages, commands);
             ImGui::PopID();
             ImGui::Dummy({0.0f, 2.0f});
         }
@@ -270,7 +284,7 @@ void section_column(const PanelModel& model, Commands& commands) {
     complaints(model);
 }
 
-void section_pages(const PanelModel& model, Commands& commands) {
+void section_pages(const PanelModel& model, PanelPages& pages, Commands& commands) {
     constexpr int kFirst = 1; // the surfaces
     int* const page = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("page"), kFirst);
     const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -289,7 +303,7 @@ void section_pages(const PanelModel& model, Commands& commands) {
     ImGui::Dummy({0.0f, 1.0f});
     const Section& section = sections()[static_cast<std::size_t>(*page)];
     ImGui::PushID(section.name);
-    section.lay_out(model, commands);
+    section.lay_out(model, pages, commands);
     ImGui::PopID();
     if (model.place == PanelPlace::in_room && section.lay_out == view_section &&
         ImGui::CollapsingHeader("hands"))

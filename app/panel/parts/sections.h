@@ -14,14 +14,14 @@ namespace isochron::app {
 struct Section {
     const char* name;
     Icon icon;
-    void (*lay_out)(const PanelModel& model, interaction::Commands& commands);
+    void (*lay_out)(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 };
 inline constexpr std::size_t kSections = 4;
 const std::array<Section, kSections>& sections();
 
 /// All of them in the current window, each under a line that folds it.
-void section_column(const PanelModel& model, interaction::Commands& commands);
+void section_column(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 /// One of them, which the user chooses from a line of names: for panels without room for all.
-void section_pages(const PanelModel& model, interaction::Commands& commands);
+void section_pages(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 
 } // namespace isochron::app

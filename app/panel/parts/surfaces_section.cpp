@@ -79,7 +79,8 @@ void surface_row(const PanelModel& model, std::uint32_t i, Isosurface& surface,
         ImGui::GetWindowDrawList()->AddRectFilled({corner.x - 7.0f, corner.y},
                                                   {corner.x - 4.0f, corner.y + kSmallIcon},
                                                   packed(Ink::accent), 1.5f);
-    ImGui::ColorEdit3("##color", &surface.color.x, ImGuiColorEditFlags_NoInputs);
+    ImGui::ColorEdit3("##color", &surface.color.x,
+                      ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoTooltip);
     tip("its color");
     ImGui::SameLine();
     eye_button(surface);
@@ -125,8 +126,8 @@ void line_on_isovalues(const PanelModel& model) {
         return text(" ");
     const bool through =
         std::ranges::any_of(surfaces, [](const Isosurface& each) { return each.opacity < 1.0f; });
-    fitted_text(through ? "lower isovalues lie outside, translucent"
-                        : "lower isovalues lie outside and hide others",
+    fitted_text(through ? "lower values: outside, translucent"
+                        : "lower values: outside, hiding others",
                 width, color_of(Ink::dim));
 }
 

@@ -4,16 +4,7 @@
 #include "app/panel/panel_model.h"
 #include "interaction/commands.h"
 
-#include <optional>
-
 namespace isochron::app {
-
-/// What the user asks for from a bar that no command is for.
-struct PanelPages {
-    bool offers_files = false;                        ///< the user can open other data
-    bool files = false, help = false, search = false; ///< opened in this frame
-    std::optional<MovieWish> movie{};                 ///< likewise
-};
 
 /// Lays it out in the current window.
 void top_bar(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);

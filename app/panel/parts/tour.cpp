@@ -31,9 +31,9 @@ constexpr std::array<TourStep, Tour::kSteps> kTour{{
      "click on the track.",
      [](const ExplorerState& before, const ExplorerState& now) { return before.step != now.step; }},
     {"Turn",
-     "Drag in the picture with the left button to turn the data, with the right one to move them; "
-     "the wheel scales them. The cube at the upper right shows how they lie: click on a face of "
-     "it.",
+     "Drag in the picture with the left button to turn the data, with the middle one, or Shift and "
+     "the left, to move them; the wheel scales them. The cube at the upper right shows how they "
+     "lie: click on a face of it.",
      [](const ExplorerState& before, const ExplorerState& now) {
          return before.room_from_physical != now.room_from_physical;
      }},
@@ -85,11 +85,15 @@ constexpr float kAboveScaleBar = 62.0f; ///< the scale bar, and the words below 
 
 Answer hint_card(const PanelBox& picture, bool& held) {
     begin_card("###first use", picture, 500.0f, picture.high.y - kAboveScaleBar, 1.0f);
-    for (const char* line : {"Drag with the left button to turn the data; the wheel scales them.",
-                             "Up and Down change the isovalue, or drag its line in the histogram.",
-                             "Space plays the steps; Left and Right go through them.",
-                             "Ctrl + K finds every command, F1 lists all keys."})
-        note(line, color_of(Ink::text));
+    constexpr std::array<const char*, 4> kLines{
+        "Drag with the left button to turn the data; the wheel scales them.",
+        "Up and Down change the isovalue, or drag its line in the histogram.",
+        "Space plays the steps; Left and Right go through them.",
+        "Ctrl + K finds every command, F1 lists all keys."};
+    constexpr float kLow = 420.0f; // picture, of which all of them would hide a third
+    for (const char* line : kLines)
+        if (picture.size().y >= kLow || line == kLines.front() || line == kLines.back())
+            note(line, color_of(Ink::text));
     const Answer answer = answer_of("Take the tour: six steps", "No, thanks");
     held = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     end_card();

@@ -7,9 +7,11 @@
 #include "app/session/kept/user_memory.h"
 #include "stereo/image_file.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -133,6 +135,45 @@ TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {
         EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
     }
     EXPECT_EQ(size_of(), (std::array{700, 500}));
+}
+
+TEST_F(ExploreWindow, OpensTheSameFilesWithAnotherArrayFromTheListOfAll) {
+    std::filesystem::create_directory(file("run.zarr"));
+    folder_.write("run.zarr/.zgroup", R"({"zarr_format":2})");
+    for (const auto& [name, size] : {std::pair("heat", 6), std::pair("speed", 4)}) {
+        std::filesystem::create_directory(file(std::string("run.zarr/") + name));
+        folder_.write(fmt::format("run.zarr/{}/.zarray", name),
+                      fmt::format(R"({{"zarr_format":2,"shape":[{0},{0},{0}],"chunks":[{0},{0},{0}],
+            "dtype":"|u1","compressor":null,"fill_value":0,"order":"C","filters":null}})",
+                                  size));
+        std::string values;
+        for (int i = 0; i < size * size * size; ++i)
+            values += static_cast<char>(i % 100);
+        folder_.write(fmt::format("run.zarr/{}/0.0.0", name), values);
+    }
+    const Program program({"explore", file("run.zarr"), "--size", "640", "480"});
+    wait_for_window("Isochron");
+    screen_.xdotool({"search", "--name", "Isochron", "windowfocus"});
+    const UserMemory memory(state_.path() / "isochron");
+    const auto is_chosen_by = [&](const std::string& array, const std::vector<std::string>& keys) {
+        return test_support::eventually([&] {
+            for (const std::string& key : keys) {
+                screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "key", key});
+                await_frame();
+            }
+            return memory.array_of(file("run.zarr")) == array;
+        });
+    };
+    EXPECT_TRUE(is_chosen_by("heat", {"Return"})) << "the window asks";
+    EXPECT_TRUE(is_chosen_by("speed", {"ctrl+shift+a", "Down", "Return"}));
+    EXPECT_TRUE(test_support::eventually([&] {
+        const std::filesystem::directory_iterator kept(state_.path() / "isochron");
+        return std::ranges::count_if(kept, [](const auto& entry) {
+                   return entry.path().extension() == ".isochron";
+               }) == 2;
+    })) << "an index of each shape";
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
 }
 
 TEST_F(ExploreWindow, OpensOtherDataFromTheListOfThoseThatWereOpenLately) {

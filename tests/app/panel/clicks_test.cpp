@@ -205,6 +205,7 @@ TEST_F(Clicks, APressThatComesWithAJumpIntoThePictureBelongsToThePicture) {
             const auto* button = std::get_if<MouseButtonEvent>(&event);
             return button && button->down;
         });
+        EXPECT_EQ(layer_.covers(to / glm::vec2(kSize)), !left) << "the ray through the cursor, too";
         frame({MouseButtonEvent{MouseButton::left, false}});
         return left;
     };

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,7 @@ class LayerTest : public testing::Test {
                                .stats = stats_,
                                .asked = asked_,
                                .frame = report_,
+                               .arrays = arrays_,
                                .movies = {.offered = true},
                                .controls = controls_},
                               time_);
@@ -60,6 +62,22 @@ class LayerTest : public testing::Test {
             frame({interaction::TextEvent{static_cast<char32_t>(character)}});
     }
 
+    /// From now on the data have three arrays.
+    void offer_three_arrays() {
+        static const std::vector<std::string> names{"heat", "rho", "speed"};
+        static const std::vector<ListedArray> lines{
+            {"heat", "6 x 6 x 6, 1 step", "K", "0 to 3", ""},
+            {"rho", "6 x 6 x 6, 1 step", "kg", "0 to 4", ""},
+            {"speed", "6 x 6 x 6, 1 step", "", "0 to 5", ""}};
+        arrays_.names = names;
+        arrays_.lines = lines;
+        arrays_.way_to = [](std::size_t number) {
+            interaction::Commands way;
+            way.array = names[number];
+            return way;
+        };
+    }
+
     static constexpr glm::ivec2 kSize{1280, 800};
     std::unique_ptr<stereo::GlContext> context_ =
         stereo::make_context(stereo::ContextKind::egl, {.size = {64, 64}});
@@ -69,6 +87,7 @@ class LayerTest : public testing::Test {
     index::IndexStats stats_;
     ExplorerState asked_;
     FrameReport report_;
+    PanelArrays arrays_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

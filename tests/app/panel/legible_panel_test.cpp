@@ -66,7 +66,7 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
                 .stats = stats_,
                 .asked = asked_,
                 .frame = report_,
-                .arrays = {.names = arrays_, .color_names = arrays_},
+                .arrays = {.names = arrays_, .lines = lines_, .color_names = arrays_},
                 .colors = {.range = {0.0, 40.0}},
                 .work = {.at_hand_steps = {3, 4, 5, 6, 20}},
                 .notes = notes_,
@@ -136,6 +136,10 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
     PanelNotes notes_;
     bool recording_ = false;
     std::vector<std::string> arrays_{"vorticity"};
+    std::vector<ListedArray> lines_{
+        {"vorticity", "64 x 64 x 64, 64 steps", "1/s", "0.017 to 40.25", ""},
+        {"a rather long name of an array, as files have them", "64 x 64 x 64, 64 steps",
+         "kg m-1 s-2", "-1.234e+05 to 9.876e+05", ""}};
     std::vector<interaction::ControlGroup> controls_ = interaction::Controls::documentation();
     interaction::Seconds time_{0};
 };
@@ -191,8 +195,17 @@ TEST_P(LegiblePanel, WithItsPages) {
     if (GetParam().place == PanelPlace::in_room) {
         frame();
         layer_.pages().open_search();
-        return expect_legible("with the search", true);
+        expect_legible("with the search", true);
+        layer_.pages().close_search();
+        layer_.pages().open_arrays();
+        return expect_legible("with the arrays", true);
     }
+    layer_.pages().offer_arrays({{"velocity.magnitude", "128 x 128 x 64, 20 steps", "m/s", "", ""},
+                                 {"phase", "", "", "", "complex values cannot be shown"}});
+    frame();
+    layer_.pages().open_arrays();
+    expect_legible("with the arrays", true);
+    frame({KeyEvent{Key::escape, true}, KeyEvent{Key::escape, false}});
     constexpr auto kControl = static_cast<std::uint8_t>(interaction::Modifier::control);
     frame({KeyEvent{Key{'K'}, true, kControl}, KeyEvent{Key{'K'}, false, kControl}});
     expect_legible("with the search", true);

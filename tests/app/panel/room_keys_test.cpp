@@ -30,6 +30,7 @@ class RoomKeysTest : public LayerTest {
                                .stats = stats_,
                                .asked = asked_,
                                .frame = report_,
+                               .arrays = arrays_,
                                .controls = controls_},
                               time_);
     }
@@ -135,6 +136,24 @@ TEST_F(RoomKeysTest, ACommandIsFoundAndRunByARayAlone) {
     press_word("parallel (orthographic) projection on, off");
     EXPECT_EQ(layer_.pages().take_action(), interaction::Action::orthographic);
     EXPECT_FALSE(layer_.pages().take_action()) << "once";
+    EXPECT_FALSE(layer_.pages().any());
+}
+
+TEST_F(RoomKeysTest, AnArrayIsChosenOfAllByARayAlone) {
+    offer_three_arrays();
+    press_word("Data");
+    press_word("heat");
+    press_word("all arrays ...");
+    EXPECT_TRUE(layer_.pages().any());
+    EXPECT_EQ(press_word("0 to 5").array, "speed");
+    EXPECT_FALSE(layer_.pages().any());
+    ray(std::nullopt, false);
+    const PanelBox top = layer_.places().top;
+    press_at({top.high.x - 24, (top.low.y + top.high.y) / 2});
+    press_word("arrays: choose by name, values, unit and grid");
+    EXPECT_TRUE(layer_.pages().any()) << "the search leads there, too";
+    EXPECT_FALSE(layer_.pages().take_action());
+    press_word("Close");
     EXPECT_FALSE(layer_.pages().any());
 }
 

@@ -32,10 +32,11 @@ std::vector<render::View> both_eyes() {
 
 using Box = std::array<float, 4>;
 
-Box box_of(const Callout& callout, const CalloutPaper& paper, const render::View& view) {
+Box box_of(const Callout& callout, const CalloutPaper& paper, const render::View& view,
+           float share = 0.0f) {
     const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(callout.at, 1.0f);
     const glm::vec2 at = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(view.size);
-    const float height = text_height(view.size);
+    const float height = text_height(view.size, share);
     return {at.x + height * paper.low.x, at.y + height * paper.low.y, at.x + height * paper.high.x,
             at.y + height * paper.high.y};
 }
@@ -125,6 +126,24 @@ double contrast(const glm::dvec3& a, const glm::dvec3& b) {
     };
     const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
     return (light + 0.05) / (dark + 0.05);
+}
+
+TEST(Callouts, LeaveTheCornerToTheCubeOfThePanelWhereThereIsOne) {
+    constexpr float kShare = 15.0f / 960;
+    const render::GlyphAtlas atlas = room_font(32);
+    const auto views = both_eyes();
+    const Box cube{1280 - 102, 960 - 102, 1280, 960};
+    int reached = 0;
+    for (float x = 0.7f; x < 1.1f; x += 0.01f) {
+        const auto one = std::vector{pointed_at({x, 0.8f, -2})};
+        const auto place = [&](float share) {
+            return box_of(one.front(), papers_of(one, atlas, views, share).front(), views.front(),
+                          kShare);
+        };
+        reached += overlap(place(0), cube) ? 1 : 0;
+        EXPECT_FALSE(overlap(place(kShare), cube)) << x;
+    }
+    EXPECT_GT(reached, 10) << "where there is no panel";
 }
 
 TEST(Callouts, CanBeReadOnEveryBackgroundWhateverColorTheirSurfaceHas) {

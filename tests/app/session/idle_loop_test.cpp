@@ -12,8 +12,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <csignal>
 #include <sys/resource.h>
+#include <thread>
 #include <utility>
 
 namespace isochron::app {
@@ -155,6 +157,28 @@ TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
     EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
     std::signal(SIGXFSZ, SIG_DFL);
     EXPECT_TRUE(stopped);
+}
+
+TEST_F(IdleLoop, AStillWindowHasGivenAllOfItsRecordingToTheSystem) {
+    prepare_ = [&](LiveLoop& live) { live.record(folder_.path() / "walk.jsonl", {}); };
+    const auto lines = [&] {
+        const std::string text = folder_.read("walk.jsonl.part");
+        return std::ranges::count(text, '\n') - 1; // of the header
+    };
+    const auto wait_for_all = [&](auto&, Seconds longest) {
+        EXPECT_EQ(longest, FrameOutlook::kNever) << "nothing wakes it for that";
+        while (lines() < frames_) // the test's limit ends a hang
+            std::this_thread::yield();
+    };
+    run({wait_for_all,
+         [&](auto& wake, Seconds longest) {
+             wait_for_all(wake, longest);
+             press(Key{'H'});
+         },
+         [&](auto& wake, Seconds longest) {
+             wait_for_all(wake, longest);
+             EXPECT_THAT(folder_.read("walk.jsonl.part"), testing::HasSubstr("\"grid\":true"));
+         }});
 }
 
 TEST_F(IdleLoop, AKeyBringsFramesUntilTheNewPictureIsFinal) {

@@ -4,8 +4,11 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
+#include <algorithm>
 #include <set>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -76,6 +79,27 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
     expect_warm(render::Footprint::mesh, 0.4f);
     expect_warm(render::Footprint::surface, 1.0f);
     expect_warm(render::Footprint::surface, 0.4f);
+}
+
+TEST_P(WarmUp, LooksAtTheUserAfterEveryFewDrawsAndEndsWhenAsked) {
+    Session session(small_config(), file_, noting_);
+    std::vector<float> shares;
+    std::vector<std::size_t> begun; // programs whose first use falls between two looks
+    programs.used.clear();
+    std::size_t before = 0;
+    session.warm_up([&](float share) {
+        shares.push_back(share);
+        begun.push_back(programs.used.size() - std::exchange(before, programs.used.size()));
+        return true;
+    });
+    EXPECT_GE(shares.size(), 15u);
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_EQ(shares.front(), 0);
+    begun.erase(begun.begin()); // what stands beside the cells, once
+    EXPECT_LE(std::ranges::max(begun), 4u);
+    std::size_t looks = 0;
+    session.warm_up([&](float) { return ++looks < 3; });
+    EXPECT_EQ(looks, 3u);
 }
 
 TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {

@@ -1,0 +1,150 @@
+// Lists that lie over the picture: their keys, and the arrays that they offer.
+#include "tests/app/panel/drawn_text.h"
+#include "tests/app/panel/layer_fixture.h"
+
+#include <gmock/gmock.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <variant>
+
+namespace isochron::app {
+namespace {
+
+using interaction::Commands;
+using interaction::Key;
+using interaction::KeyEvent;
+using interaction::Modifier;
+
+constexpr auto kControl = static_cast<std::uint8_t>(Modifier::control);
+
+class Lists : public LayerTest {
+  protected:
+    Lists() {
+        offer_three_arrays();
+        frame();
+    }
+    /// Clicks a word of the panel, wherever it stands. @return the commands that it led to
+    Commands click_word(const std::string& word) {
+        for (int i = 0; i < 3; ++i) // a popup takes some to know its size
+            frame();
+        const auto at =
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+        EXPECT_TRUE(at) << word;
+        return at ? click({at->x, at->y}) : Commands();
+    }
+    /// Presses a key and lets it go. @return the commands that it led to
+    Commands strike(Key key, std::uint8_t modifiers = 0) {
+        Commands all = frame({KeyEvent{key, true, modifiers}, KeyEvent{key, false, modifiers}});
+        reached_picture_ = has_press(key);
+        for (int i = 0; i < 2; ++i) {
+            merge(all, frame());
+            reached_picture_ = reached_picture_ || has_press(key);
+        }
+        return all;
+    }
+    void open_arrays() {
+        frame({KeyEvent{Key::left_shift, true}, KeyEvent{Key{'A'}, true, kControl},
+               KeyEvent{Key{'A'}, false, kControl}, KeyEvent{Key::left_shift, false}});
+        frame();
+    }
+    bool has_press(Key key) const {
+        return std::ranges::any_of(left_, [key](const interaction::WindowEvent& event) {
+            const auto* change = std::get_if<KeyEvent>(&event);
+            return change && change->key == key && change->down;
+        });
+    }
+
+    bool reached_picture_ = false; ///< the last key did something beside the panel
+};
+
+TEST_F(Lists, HaveTheArrowKeysForThemselvesAsLongAsTheyAreOpen) {
+    using enum Key;
+    const auto expect_all = [&](bool reach_picture, const char* where) {
+        for (const Key key : {Key::up, Key::down, Key::left, Key::right}) {
+            strike(key);
+            EXPECT_EQ(reached_picture_, reach_picture) << where << " " << static_cast<int>(key);
+        }
+    };
+    expect_all(true, "the picture");
+    click_word("heat");
+    expect_all(false, "a list in the column");
+    strike(Key::escape);
+    expect_all(true, "the picture again");
+    strike(Key{'K'}, kControl);
+    expect_all(false, "the search");
+    strike(Key::escape);
+    layer_.pages().offer_files([] { return std::vector<std::filesystem::path>(); });
+    strike(Key{'O'}, kControl);
+    expect_all(false, "the choice of data");
+    strike(Key::escape);
+    open_arrays();
+    expect_all(false, "the arrays");
+    strike(Key::escape);
+    expect_all(true, "the picture at the end");
+}
+
+TEST_F(Lists, AreGoneThroughByKeysAlone) {
+    click_word("heat");
+    EXPECT_FALSE(strike(Key::down).array);
+    EXPECT_FALSE(strike(Key::down).array) << "not yet chosen";
+    strike(Key::up);
+    EXPECT_EQ(strike(Key::enter).array, "rho");
+    EXPECT_FALSE(reached_picture_) << "where Enter picks a place";
+    strike(Key::down);
+    EXPECT_TRUE(reached_picture_) << "the list is closed";
+}
+
+TEST_F(Lists, OfArraysComesFromTheDataFromItsKeyAndFromTheSearch) {
+    click_word("heat");
+    click_word("all arrays ...");
+    EXPECT_TRUE(layer_.pages().any());
+    for (const char* const words : {"0 to 4", "kg", "6 x 6 x 6, 1 step"})
+        EXPECT_TRUE(
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), words))
+            << words;
+    strike(Key::escape);
+    EXPECT_FALSE(layer_.pages().any());
+    open_arrays();
+    EXPECT_TRUE(layer_.pages().any());
+    open_arrays();
+    EXPECT_FALSE(layer_.pages().any()) << "the same key closes it";
+    strike(Key{'K'}, kControl);
+    type("arrays");
+    strike(Key::enter);
+    for (int i = 0; i < 4; ++i)
+        frame();
+    strike(Key::down);
+    EXPECT_EQ(strike(Key::enter).array, "rho");
+    EXPECT_FALSE(layer_.pages().any());
+}
+
+TEST_F(Lists, OfArraysLeadToTheOneThatIsChosen) {
+    open_arrays();
+    strike(Key::down);
+    strike(Key::down);
+    EXPECT_EQ(strike(Key::enter).array, "speed");
+    EXPECT_FALSE(layer_.pages().any());
+    EXPECT_FALSE(layer_.pages().take_chosen_array());
+    open_arrays();
+    EXPECT_EQ(strike(Key::enter), Commands()) << "it is shown already";
+}
+
+TEST_F(Lists, OfArraysHasThoseOfOtherShapesToo) {
+    arrays_ = {};
+    layer_.pages().offer_arrays({{"worse", "", "", "", "complex values"},
+                                 {"fine", "64 x 64 x 64, 1 step", "m", "0 to 1", ""}});
+    info_.array = "heat";
+    click_word("heat");
+    click_word("all arrays ...");
+    strike(Key::down);
+    EXPECT_EQ(strike(Key::enter), Commands());
+    EXPECT_TRUE(layer_.pages().any()) << "one cannot be shown";
+    strike(Key::down);
+    EXPECT_EQ(strike(Key::enter), Commands()) << "no command: other data are opened";
+    EXPECT_EQ(layer_.pages().take_chosen_array(), "fine");
+    EXPECT_FALSE(layer_.pages().take_chosen_array()) << "once";
+}
+
+} // namespace
+} // namespace isochron::app

@@ -15,6 +15,10 @@ constexpr double kLeastKept = 0.25;
 /// Where such a share of the chunks stays, enough of their cells do: they need not be counted.
 constexpr double kPlenty = 0.75;
 
+/// Where less than this share of the cells stays with all around them, the mesh of a step that lies in
+/// memory as a whole, without colors, is made anew: that takes no longer.
+constexpr double kLeastInner = 0.5;
+
 /// After so many looks at a step with other isovalues it is decoded as a whole, where it may be: by
 /// chunks, a look takes about a millisecond more, and decoding takes some tens of them.
 constexpr unsigned kManyLooks = 16;
@@ -45,7 +49,7 @@ bool ExtractionAtHand::may_keep(const SurfacesQuery& query) const {
 
 void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
     query_ = query;
-    by_cells_ = by_cells && shading_ == Shading::none;
+    finds_anew_ = by_cells && shading_ == Shading::none;
     staying_.reset();
     step_.reset();
     mesh_.reset();
@@ -62,8 +66,12 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
                              : staying_share(*step_, from_->query.step, query.isovalues);
     if (share < kLeastKept)
         return;
+    // Ids alone are found in a step in memory sooner than they are joined with those that stay.
+    if (shading_ == Shading::none && query.coloring != CellColoring::value &&
+        !step_->by_chunks() && share < kPlenty)
+        finds_anew_ = true;
     staying_.emplace(*step_, from_->query.step, shading_ != Shading::none);
-    if (enough_stays(share))
+    if (finds_anew_ || enough_stays(share))
         look_at_colors();
     else
         staying_.reset();
@@ -94,7 +102,7 @@ bool ExtractionAtHand::enough_stays(double chunks) const {
 }
 
 bool ExtractionAtHand::keeps_cells(std::size_t surface) const {
-    return staying_ && !by_cells_ && surface < from_->surfaces.size() &&
+    return staying_ && !finds_anew_ && surface < from_->surfaces.size() &&
            same(from_->query.isovalues[surface], query_.isovalues[surface]);
 }
 
@@ -119,10 +127,20 @@ bool ExtractionAtHand::find(std::size_t surface, bool meshed, const std::stop_to
                         mesh_ ? &inner_ : nullptr);
     if (staying_colors_)
         keep_colors(surface, set);
+    if (mesh_ && !pays(set.ids.size()))
+        mesh_.reset();
     if (mesh_)
         cells_ = cells_of(*mesh_);
     set.search_time = std::chrono::steady_clock::now() - started;
     return !stop.stop_requested();
+}
+
+/// Whether the mesh at hand saves time. @param cells of the surface that was found
+bool ExtractionAtHand::pays(std::size_t cells) const {
+    if (step_->by_chunks() || staying_colors_)
+        return true;
+    const auto inner = static_cast<std::size_t>(std::ranges::count(inner_, 1));
+    return static_cast<double>(inner) >= kLeastInner * static_cast<double>(cells);
 }
 
 /// Of a surface's cells that stay: notes those whose colors stay, too.

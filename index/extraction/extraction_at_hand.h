@@ -66,6 +66,7 @@ class ExtractionAtHand {
   private:
     bool may_keep(const SurfacesQuery& query) const;
     bool enough_stays(double chunks) const;
+    bool pays(std::size_t cells) const;
     void look_at_colors();
     void keep_colors(std::size_t surface, const CellSet& set);
 
@@ -77,8 +78,8 @@ class ExtractionAtHand {
     bool same_colors_ = true;
     // For the query that is being answered:
     SurfacesQuery query_;
-    bool by_cells_ = false;
-    unsigned looks_ = 0; ///< at the same step, one after the other
+    bool finds_anew_ = false; ///< all cells, as that takes less time
+    unsigned looks_ = 0;      ///< at the same step, one after the other
     std::optional<StepView> step_;
     std::optional<StayingCells> staying_; ///< none if nothing is taken over
     /// Of the array to color by; none if no colors are taken over.

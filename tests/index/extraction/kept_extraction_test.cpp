@@ -209,7 +209,7 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
         ASSERT_EQ(file->better_whole(0), cache > 1 << 20);
         const Extract kept = extract_from_newest(std::make_shared<NewestIndex>(file), shading);
         Walk walk(random, values.view());
-        for (int i = 0; i < 120; ++i) {
+        for (int i = 0; i < 80; ++i) {
             walk.next();
             SurfacesQuery& query = walk.query();
             query.mesh_room = shading == Shading::cells && walk.chance(3) > 0 ? 1 << 28 : 0;

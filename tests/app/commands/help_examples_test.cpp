@@ -171,14 +171,12 @@ TEST_F(HelpExamples, OfThePageAboutSteeringWorkInASession) {
 
 class GuideCommands : public HelpExamples, public testing::WithParamInterface<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(Pages, GuideCommands,
-                         testing::Values("README", "docs/guide/data", "docs/guide/tutorial",
-                                         "docs/guide/recordings", "docs/guide/cells",
-                                         "docs/guide/export", "docs/guide/walls",
-                                         "docs/guide/clusters", "docs/guide/trackers"),
-                         [](const auto& page) {
-                             return page.param.substr(page.param.rfind('/') + 1);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Pages, GuideCommands,
+    testing::Values("README", "docs/guide/data", "docs/guide/tutorial", "docs/guide/recordings",
+                    "docs/guide/cells", "docs/guide/export", "docs/guide/programs",
+                    "docs/guide/walls", "docs/guide/clusters", "docs/guide/trackers"),
+    [](const auto& page) { return page.param.substr(page.param.rfind('/') + 1); });
 
 TEST_P(GuideCommands, WorkAsTheyAreWritten) {
     const std::string page = GetParam();

@@ -5,6 +5,7 @@ import io
 import os
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import types
@@ -17,7 +18,7 @@ GUIDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../docs/
 
 
 def pyvista_of_vtk():
-    """PyVista's from_regular_faces by the calls of VTK behind it."""
+    """PyVista's from_regular_faces and read by the calls of VTK behind them."""
     import numpy as np
     import vtk
     from vtk.util import numpy_support
@@ -34,8 +35,15 @@ def pyvista_of_vtk():
             surface.SetPolys(cells)
             return surface
 
+    def read(name):
+        reader = vtk.vtkXMLPolyDataReader()
+        reader.SetFileName(name)
+        reader.Update()
+        return reader.GetOutput()
+
     module = types.ModuleType("pyvista")
     module.PolyData = PolyData
+    module.read = read
     return module
 
 
@@ -95,6 +103,27 @@ class Guide(unittest.TestCase):
             self.assertGreater(names["area"], 0)
             self.assertEqual(names["line"].shape, names["run"].shape[3:])
             self.assertEqual(names["pixels"].shape, (360, 640, 3))
+
+    def test_other_programs_get_what_their_page_says(self):
+        page = os.path.join(os.path.dirname(GUIDE), "programs.md")
+        with open(page) as text:
+            commands = [line for line in text if line.startswith("isochron export") and " vtp " in line]
+        (block,) = blocks_of(page)
+        self.assertEqual(len(commands), 1)
+        sys.modules.setdefault("pyvista", pyvista_of_vtk())
+        program = os.environ["ISOCHRON_PROGRAM"]
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            for command in ("generate sphere --steps 9 -o run42", "build run42 -o run42.isochron",
+                            commands[0].removeprefix("isochron ")):
+                subprocess.run([program, *command.split()], check=True, stdout=subprocess.DEVNULL)
+            names = {}
+            with contextlib.redirect_stdout(io.StringIO()):
+                exec(compile(block, page, "exec"), names)
+            surface = names["surface"].GetPointData()
+            self.assertGreater(names["surface"].GetNumberOfPolys(), 1000)
+            self.assertEqual(surface.GetArray("color").GetNumberOfComponents(), 3)
+            self.assertEqual(surface.GetArray("surface").GetRange(), (0, 1))
+            self.assertTrue(os.path.exists("paraview/run42.pvd"))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""Compiles the module and the program for `pip install .`: CMake, a compiler and the libraries that the README
-names have to be there. A folder in which CMake has built before is named by ISOCHRON_BUILD."""
+"""Compiles the module and the program for `pip install .`, in build/wheel: CMake, Ninja, a compiler and the libraries
+that the README names have to be there. ISOCHRON_BUILD names a folder in which CMake has built before, to build less."""
 
 import os
 import pathlib
@@ -12,23 +12,36 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 SOURCE = pathlib.Path(__file__).parent.resolve()
-WORK = SOURCE / "build" / "wheel"  # git ignores it
+BUILT = SOURCE / "build" / "wheel"  # as deep as ./run build's folder, so that ccache finds what that compiled
+WORK = BUILT / "setuptools"
+
+
+def cmake(*words, **options):
+    """Runs CMake. What it says stands above the line with which a failure ends."""
+    try:
+        subprocess.run(["cmake", *words], check=True, **options)
+    except FileNotFoundError:
+        raise SystemExit("isochron: there is no cmake, which compiles it: apt install cmake ninja-build")
+    except subprocess.CalledProcessError as error:
+        raise SystemExit(f"isochron: cmake ended with {error.returncode}, as it says above: `./run build` once installs "
+                         "what compiling needs on Debian, or says what is missing")
 
 
 class Build(build_ext):
     def build_extension(self, extension):
-        folder = pathlib.Path(os.environ.get("ISOCHRON_BUILD", WORK / "cmake")).resolve()
+        folder = pathlib.Path(os.environ.get("ISOCHRON_BUILD", BUILT)).resolve()
         package = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve().parent
         native = folder / "python" / "isochron"
-        if not (folder / "CMakeCache.txt").exists():
-            subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                            f"-DPython_EXECUTABLE={sys.executable}"], check=True)
-        subprocess.run(["cmake", "--build", folder, "--target", "isochron_program", "isochron_python"], check=True)
+        # Its own folder is configured each time: the interpreter may be another, and the last time may have failed.
+        if "ISOCHRON_BUILD" not in os.environ:
+            cmake("-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                  f"-DPython_EXECUTABLE={sys.executable}")
+        cmake("--build", folder, "--target", "isochron_program", "isochron_python")
         package.mkdir(parents=True, exist_ok=True)
         for module in native.glob("_native*.so"):
             shutil.copy(module, package)
-        subprocess.run(["cmake", "--install", folder, "--component", "program", "--prefix",
-                        package / "_program"], check=True, stdout=subprocess.DEVNULL)
+        cmake("--install", folder, "--component", "program", "--prefix", package / "_program",
+              stdout=subprocess.DEVNULL)
         shutil.rmtree(package / "_program" / "share" / "doc")  # the guide is read elsewhere
 
 

@@ -222,6 +222,17 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                    count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
 }
 
+/// Steps are visited in turn, once. Of small ones, which are read as a whole, few are kept, so that a step
+/// gets the memory of an earlier one: new memory is cleared first, which takes longer than decoding.
+void keep_few_steps(const index::IndexFile& file) {
+    constexpr std::uint64_t kFew = 8; // two steps of two arrays, each with the one before
+    constexpr std::uint64_t kLeastKept = std::uint64_t{4} << 20; // [byte]
+    std::uint64_t bytes = 0;
+    for (std::size_t array = 0; array < file.arrays(); ++array)
+        bytes = std::max<std::uint64_t>(bytes, file.array(array).info().step_bytes());
+    file.kept().limit(std::min(file.cache().budget, std::max(kFew * bytes, kLeastKept)));
+}
+
 void run_export(const ExportArguments& arguments) {
     if (arguments.isovalues.size() > index::kMostSurfaces)
         throw UsageError(fmt::format("--isovalue: expected at most {} of them, got {}",
@@ -232,6 +243,7 @@ void run_export(const ExportArguments& arguments) {
     constexpr std::uint64_t kMostKept = std::uint64_t{128} << 20; // [byte]
     const std::uint64_t kept = std::min(kMostKept, index::memory_limit() / 4);
     const auto file = array_called(open_index(arguments.file, kept), arguments.array);
+    keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
     double moved = 0;
     request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan.unit_factor, moved);

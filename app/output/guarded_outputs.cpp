@@ -14,9 +14,11 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace isochron::app {
@@ -51,6 +53,21 @@ bool lies_within(const fs::path& file, const fs::path& folder) {
     const fs::path inner = whole(file), outer = whole(folder);
     return std::ranges::mismatch(outer, inner).in1 == outer.end();
 }
+
+/// Where outputs lie, most of which share their folder: it is looked up once.
+class Places {
+  public:
+    fs::path of(const fs::path& file) {
+        const fs::path folder = file.parent_path();
+        const auto [known, is_new] = folders_.try_emplace(folder.native());
+        if (is_new)
+            known->second = whole(folder.empty() ? fs::path(".") : folder);
+        return known->second / file.filename();
+    }
+
+  private:
+    std::map<std::string, fs::path> folders_;
+};
 
 /// The folder that is read with the file that describes it (Zarr, OpenFOAM, AMReX); empty: none.
 fs::path folder_described_by(const fs::path& file) {
@@ -211,9 +228,10 @@ void guard(const Output& output, const Reads& reads, bool force) {
 } // namespace
 
 void guard_outputs(const std::vector<Output>& outputs, const Reads& reads, bool force) {
-    std::set<fs::path> places;
+    Places places;
+    std::set<std::string> taken;
     for (const Output& output : outputs) {
-        if (!places.insert(whole(index::end_of_links(output.path))).second)
+        if (!taken.insert(places.of(index::end_of_links(output.path)).native()).second)
             throw index::Error(fmt::format("{}: two outputs have this name, expected two names",
                                            output.path.string()));
         guard(output, reads, force);

@@ -2,6 +2,7 @@
 #include "index/export/buffered_sink.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace isochron::index {
 
@@ -12,8 +13,11 @@ void BufferedSink::bytes(std::span<const std::byte> added) {
         at_ += added.size();
         return;
     }
-    bytes_.insert(bytes_.end(), added.begin(), added.end());
-    if (bytes_.size() >= kAtOnce)
+    if (waiting_ + added.size() > kAtOnce + kMost)
+        flush();
+    std::ranges::copy(added, &bytes_[waiting_]);
+    waiting_ += added.size();
+    if (waiting_ >= kAtOnce)
         flush();
 }
 
@@ -29,13 +33,13 @@ void BufferedSink::copy(const ScratchFile& file, std::uint64_t count) {
 
 void BufferedSink::align(std::size_t alignment) {
     while (size() % alignment != 0)
-        bytes_.push_back(std::byte{0});
+        put(std::byte{0});
 }
 
 void BufferedSink::flush() {
-    sink_.write_at(at_, bytes_);
-    at_ += bytes_.size();
-    bytes_.clear();
+    sink_.write_at(at_, {bytes_.get(), waiting_});
+    at_ += waiting_;
+    waiting_ = 0;
 }
 
 } // namespace isochron::index

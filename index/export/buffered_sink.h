@@ -7,10 +7,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 namespace isochron::index {
 
@@ -18,7 +19,8 @@ namespace isochron::index {
 class BufferedSink {
   public:
     /// @param sink outlives this, is written from byte 0 on
-    explicit BufferedSink(ByteSink& sink) : sink_(sink) { bytes_.reserve(kAtOnce + kMost); }
+    explicit BufferedSink(ByteSink& sink)
+        : sink_(sink), bytes_(std::make_unique_for_overwrite<std::byte[]>(kAtOnce + kMost)) {}
 
     void text(std::string_view text) { bytes(std::as_bytes(std::span(text))); }
     /// Numbers are little-endian.
@@ -26,9 +28,9 @@ class BufferedSink {
     requires std::is_trivially_copyable_v<T>
     void put(const T& value) {
         static_assert(std::endian::native == std::endian::little && sizeof(T) <= kMost);
-        const auto added = std::as_bytes(std::span(&value, 1));
-        bytes_.insert(bytes_.end(), added.begin(), added.end());
-        if (bytes_.size() >= kAtOnce)
+        std::memcpy(&bytes_[waiting_], &value, sizeof value);
+        waiting_ += sizeof value;
+        if (waiting_ >= kAtOnce)
             flush();
     }
     void bytes(std::span<const std::byte> added);
@@ -38,13 +40,14 @@ class BufferedSink {
     void align(std::size_t alignment);
     /// What was written so far gets to the sink.
     void flush();
-    std::uint64_t size() const { return at_ + bytes_.size(); }
+    std::uint64_t size() const { return at_ + waiting_; }
 
   private:
     static constexpr std::size_t kAtOnce = std::size_t{1} << 20, kMost = 256;
     ByteSink& sink_;
     std::uint64_t at_ = 0;
-    std::vector<std::byte> bytes_;
+    std::unique_ptr<std::byte[]> bytes_;
+    std::size_t waiting_ = 0; ///< bytes that the sink does not have yet
 };
 
 } // namespace isochron::index

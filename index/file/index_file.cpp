@@ -258,7 +258,7 @@ void IndexFile::set_cells() {
     const std::uint64_t of_cells = cache_bytes_ / 2;
     cells_.emplace(Stretches(grid), held, cells, deltas, &units_,
                    of_cells / (first().metadata_.further.size() + 1));
-    cache_->limit(cache_bytes_ - of_cells);
+    cache_->limit(std::min(cache_->use().budget, cache_bytes_ - of_cells));
 }
 
 std::span<const std::uint64_t> IndexFile::color_checksums() const {

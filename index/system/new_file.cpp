@@ -87,11 +87,15 @@ fs::path temporary_name_of(const fs::path& file) {
 
 void remove_remains_in(const fs::path& folder) {
     static std::mutex mutex;
-    static std::set<fs::path> done;
+    static std::set<std::string> done; // as they were named, and as they are at the end of links
     {
         std::error_code ignored;
+        const fs::path named = fs::absolute(folder, ignored);
         const std::lock_guard lock(mutex);
-        if (!done.insert(fs::weakly_canonical(fs::absolute(folder, ignored), ignored)).second)
+        if (!done.insert(named.native()).second)
+            return;
+        const fs::path whole = fs::weakly_canonical(named, ignored);
+        if (whole != named && !done.insert(whole.native()).second)
             return;
     }
     remove_abandoned(folder, [](std::string_view name) {

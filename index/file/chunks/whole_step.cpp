@@ -9,12 +9,18 @@
 #include <cstring>
 #include <numeric>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace isochron::index {
 namespace {
 
 /// Starting threads takes longer than decoding a step up to this size.
 constexpr std::size_t kByOneThread = 2 << 20;
+
+/// Memory of the small step that this thread has read last. In new memory each page is cleared before
+/// it is read into, which takes longer than reading.
+thread_local std::vector<std::byte> spare_bytes;
 
 struct WholeStep {
     LargeMemory values; ///< their padding is zero
@@ -59,7 +65,8 @@ void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint
 /// Reads all of a small step in one request, and keeps its tables and the levels of its bricks.
 std::vector<std::byte> ChunkStore::read_at_once(std::uint32_t step) const {
     const StepEntry& entry = array_.steps[step];
-    std::vector<std::byte> bytes(entry.bytes);
+    std::vector<std::byte> bytes = std::exchange(spare_bytes, {});
+    bytes.resize(entry.bytes);
     source_.read(entry.offset, bytes);
     const std::uint32_t count = grid_.chunks_of_layer();
     const std::uint64_t size = layer_table_bytes(count, array_.has_since);
@@ -194,6 +201,7 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         };
         parallel_for(grid_.layers(), stride <= kByOneThread ? 1 : thread_count(0), take, {});
         cache_.add(key(whole_kept, step), all, stride + all->bricks.size());
+        spare_bytes = std::move(at_once);
         held = all;
     }
     return {.values = {.grid = info.grid,

@@ -17,6 +17,7 @@
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "interaction/recording/recording.h"
+#include "render/gl/link_watch.h"
 #include "stereo/context/display_loss.h"
 #include "stereo/context/wake.h"
 #include "stereo/loading_picture.h"
@@ -25,24 +26,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace isochron::app {
 namespace {
-
-std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
-                                             const index::IndexFile& file) {
-    if (options.session)
-        return index::end_of_links(*options.session);
-    return session_path(*options.data, data_hash_of(file));
-}
-
-/// Where the earlier session lies. If the data have grown since, its name has their earlier hash.
-std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
-                                                     const index::IndexFile& file) {
-    const auto path = kept_in(options, file);
-    return options.session || !path ? path : kept_on_fewer_steps(*path, file);
-}
 
 /// What the user chooses in a window of its own, where the command line names no data.
 /// @param display gets the window's connection to the display
@@ -67,6 +56,9 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
 }
+
+/// Ends the making of a session.
+struct UserLeft {};
 
 } // namespace
 
@@ -191,6 +183,49 @@ void Exploration::open_index_file() {
     file_ = opening.take();
 }
 
+/// Makes the session, and draws everything once. Meanwhile the window says so, and the user is seen
+/// between the parts. @return false: the user has left, and there is no session
+bool Exploration::prepare_session() {
+    std::optional<stereo::Windows> first; // which stays where it is while the others move
+    std::unique_ptr<PreparingPage> page;
+    if (tells()) {
+        first.emplace(windows_->first());
+        page = std::make_unique<PreparingPage>(*first, short_name(), config_, early_);
+    }
+    const auto look = [&](float share) {
+        const bool stays = !page || page->look(share);
+        canceled_ = page && page->canceled();
+        return stays;
+    };
+    if (!look(0))
+        return false;
+    try {
+        std::optional<render::LinkWatch> watch;
+        // Of several windows, another one's context may be current while something is linked.
+        if (page && windows_->count() == 1 && !windows_->console())
+            watch.emplace([&] {
+                if (!look(0))
+                    throw UserLeft();
+            });
+        session_.emplace(config_, file_, std::move(*windows_), index::Extract(),
+                         std::move(headset_));
+    } catch (const UserLeft&) {
+        static_cast<void>(page.release()); // its context is gone with the windows
+        return false;
+    } catch (...) {
+        static_cast<void>(page.release());
+        throw;
+    }
+    set_start();
+    if (look(0) && job_.leads())
+        session_->warm_up(look);
+    const bool stays = look(1);
+    page.reset(); // before its context
+    if (!stays)
+        session_.reset();
+    return stays;
+}
+
 void Exploration::open_session() {
     if (job_.size() == 1)
         earlier_ = earlier_session(earlier_kept_in(options_, *file_), options_.resume);
@@ -198,29 +233,8 @@ void Exploration::open_session() {
         throw UsageError("--resume is for one process, without mpirun");
     if (!windows_)
         open_outputs();
-    const bool tell = tells();
-    if (tell) {
-        PreparingPage page(*windows_, short_name(), config_, early_);
-        const bool stays = page.look(0);
-        canceled_ = page.canceled();
-        if (!stays)
-            return;
-    }
-    session_.emplace(config_, file_, std::move(*windows_), index::Extract(), std::move(headset_));
-    std::optional<PreparingPage> page; // anew: the windows are the session's
-    if (tell)
-        page.emplace(session_->outputs().windows(), short_name(), config_, early_);
-    const auto look = [&page](float share) { return !page || page->look(share); };
-    set_start();
-    if (look(0) && job_.leads())
-        session_->warm_up(look);
-    const bool stays = look(1);
-    canceled_ = page && page->canceled();
-    page.reset();
-    if (!stays) {
-        session_.reset();
+    if (!prepare_session())
         return;
-    }
     if (job_.leads())
         control_ = opened_control(options_.control, *session_, file_);
     if (options_.report)

@@ -48,6 +48,7 @@ class Exploration {
     void open_outputs();
     std::string short_name() const;
     bool tells() const;
+    bool prepare_session();
     void open_session();
     void set_start();
 

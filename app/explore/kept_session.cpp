@@ -3,6 +3,7 @@
 
 #include "app/version.h"
 #include "index/file/index_states.h"
+#include "index/system/new_file.h"
 #include "interaction/error.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,19 @@ std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
         }
     }
     return newest;
+}
+
+std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
+                                             const index::IndexFile& file) {
+    if (options.session)
+        return index::end_of_links(*options.session);
+    return session_path(*options.data, data_hash_of(file));
+}
+
+std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
+                                                     const index::IndexFile& file) {
+    const auto path = kept_in(options, file);
+    return options.session || !path ? path : kept_on_fewer_steps(*path, file);
 }
 
 std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,

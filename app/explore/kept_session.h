@@ -1,6 +1,7 @@
 // Saving and resuming of the session of `explore`.
 #pragma once
 
+#include "app/explore/explore_options.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
 
@@ -20,6 +21,13 @@ std::string held_hash(const index::IndexFile& file, const std::string& hash);
 /// @param path of the session on the data as they are now, see `session_path`
 std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
                                           const index::IndexFile& file);
+
+/// Where the session on the data of the options is saved; empty: there is no place for it.
+std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
+                                             const index::IndexFile& file);
+/// Where the earlier session lies. If the data have grown since, its name has their earlier hash.
+std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
+                                                     const index::IndexFile& file);
 
 /// The session to resume. Without `resume` it is empty, and stderr tells of an existing session.
 /// @param path of the saved session; empty if there is no place for it

@@ -23,8 +23,8 @@ std::span<const std::pair<int, interaction::Key>> keys_of_imgui();
 /// stays outside.
 glm::vec2 folded(glm::vec2 at, glm::ivec2 places);
 
-/// Whether the mouse at a place would be the panel's, as its windows were laid out last, in the current
-/// Dear ImGui context. @param at panel pixels
+/// Whether the mouse at a place would be the panel's, as its windows were laid out last, in the
+/// current Dear ImGui context. @param at panel pixels
 bool has_mouse_at(const PanelPlaces& panel, glm::vec2 at);
 
 /// Takes one event into ImGui's state. The call returns whether the panel uses the event.

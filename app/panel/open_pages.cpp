@@ -100,10 +100,9 @@ interaction::Commands OpenPages::lay_out_arrays(const PanelModel& model, const P
     const auto chosen =
         model.place == PanelPlace::in_room
             ? arrays_.draw_in_room(picture, lines, shown.asked, left)
-            : arrays_.draw({.question = others_.empty()
-                                            ? "Which array should be shown?"
-                                            : "Which array should be shown? For one with another "
-                                              "grid or other steps the data are opened anew.",
+            : arrays_.draw({.question = others_.empty() ? "Which array should be shown?"
+                                                        : "Which array should be shown? With "
+                                                          "another grid, the data are opened anew.",
                             .values = "values",
                             .button = "Show (Enter)"},
                            lines, shown.asked);

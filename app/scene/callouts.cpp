@@ -97,18 +97,22 @@ bool meet(const Areas& a, const Areas& b, std::span<const render::View> views, f
     return false;
 }
 
-/// The upper right corner, where a panel over the picture has its cube. @param share 0: there is none
-Area corner_of(const render::View& view, float share) {
-    constexpr float kSide = 7.0f; // heights of the text
-    const glm::vec2 end(view.size);
-    return {end - (share > 0 ? kSide * text_height(view.size, share) : 0.0f), end};
+/// Whether an area lies in the picture, and where a panel over it leaves it free: below the line of
+/// its chip and its tools, and beside its cube in the upper right corner.
+/// @param height of the text
+bool is_free(const Area& area, const glm::vec2& picture, bool panel, float height) {
+    constexpr float kLine = 3.3f, kCube = 7.0f; // heights of the text
+    if (glm::any(glm::lessThan(area.low, glm::vec2(0.0f))) ||
+        glm::any(glm::greaterThan(area.high, picture)))
+        return false;
+    return !panel || (area.high.y <= picture.y - kLine * height &&
+                      !area.meets({picture - kCube * height, picture}, 0.0f));
 }
 
-bool are_inside(const Areas& areas, std::span<const render::View> views, float share) {
+bool are_free(const Areas& areas, std::span<const render::View> views, float share, bool panel) {
     for (std::size_t i = 0; i < views.size(); ++i)
-        if (areas[i] && (glm::any(glm::lessThan(areas[i]->low, glm::vec2(0.0f))) ||
-                         glm::any(glm::greaterThan(areas[i]->high, glm::vec2(views[i].size))) ||
-                         areas[i]->meets(corner_of(views[i], share), 0.0f)))
+        if (areas[i] &&
+            !is_free(*areas[i], glm::vec2(views[i].size), panel, text_height(views[i].size, share)))
             return false;
     return true;
 }
@@ -155,7 +159,7 @@ std::vector<Callout> callouts_of(const Picture& picture,
 
 std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     const render::GlyphAtlas& atlas,
-                                    std::span<const render::View> views, float share) {
+                                    std::span<const render::View> views, float share, bool panel) {
     std::vector<Areas> signs, taken;
     for (const Callout& callout : callouts) {
         const glm::vec2 reach(reach_of(callout.sign));
@@ -178,7 +182,7 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                 continue;
             if (!free)
                 free = paper;
-            if (!inside && are_inside(areas, views, share))
+            if (!inside && are_free(areas, views, share, panel))
                 inside = paper;
         }
         const CalloutPaper usual{choices.front(), choices.front() + size};

@@ -43,10 +43,12 @@ struct CalloutPaper {
 
 /// Where the words of each callout stand: the same in all views, so that both eyes see one callout;
 /// in none of them over the words or the sign of another callout, outside the picture or under a
-/// panel's cube in its corner, as long as there is room. @param share height of the words, see `text_height`
+/// panel's tools and cube at its top, as long as there is room.
+/// @param share height of the words, see `text_height` @param panel there is one over the picture
 std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     const render::GlyphAtlas& atlas,
-                                    std::span<const render::View> views, float share = 0.0f);
+                                    std::span<const render::View> views, float share = 0.0f,
+                                    bool panel = false);
 
 /// To be drawn over the surface on which the place lies, at the place's depth.
 /// @param ink of the background behind the data @param share height of the words, see `text_height`

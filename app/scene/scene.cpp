@@ -200,7 +200,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
         draw_among_cells(views, picture, placement);
     draw_before_cells(views, picture, placement);
     const auto callouts = callouts_of(picture, picture.pointed, info_);
-    const auto papers = papers_of(callouts, text_pass_.atlas(), views, picture.layout.text);
+    const auto papers = papers_of(callouts, text_pass_.atlas(), views, picture.layout.text,
+                                  picture.layout.free.top > 0);
     for (const render::View& view : views)
         draw_over_cells(view, picture, {callouts, papers});
     return done;
@@ -388,10 +389,10 @@ void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::Vi
     draw_ray(view, picture, aids);
     const auto callouts = callouts_of(picture, aids.pointed, info_);
     if (aids.pointed && !callouts.empty()) // the others are part of the picture
-        draw_callout(
-            view, picture, callouts.back(),
-            papers_of(callouts, text_pass_.atlas(), std::span(&view, 1), picture.layout.text)
-                .back());
+        draw_callout(view, picture, callouts.back(),
+                     papers_of(callouts, text_pass_.atlas(), std::span(&view, 1),
+                               picture.layout.text, picture.layout.free.top > 0)
+                         .back());
     gl_.Disable(GL_SCISSOR_TEST);
 }
 

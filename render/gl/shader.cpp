@@ -2,6 +2,7 @@
 #include "render/gl/shader.h"
 
 #include "index/volume/query.h"
+#include "render/gl/link_watch.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace isochron::render {
 
@@ -149,7 +151,28 @@ Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
         throw Error(
             fmt::format("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str()));
     }
+    LinkWatch::tell();
     return program;
+}
+
+namespace {
+
+/// The watch of this thread; null: none.
+thread_local const LinkWatch* watching = nullptr;
+
+} // namespace
+
+LinkWatch::LinkWatch(std::function<void()> linked) : linked_(std::move(linked)) {
+    watching = this;
+}
+
+LinkWatch::~LinkWatch() {
+    watching = nullptr;
+}
+
+void LinkWatch::tell() {
+    if (watching)
+        watching->linked_();
 }
 
 } // namespace isochron::render

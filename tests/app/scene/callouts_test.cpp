@@ -136,12 +136,13 @@ TEST(Callouts, LeaveTheCornerToTheCubeOfThePanelWhereThereIsOne) {
     int reached = 0;
     for (float x = 0.7f; x < 1.1f; x += 0.01f) {
         const auto one = std::vector{pointed_at({x, 0.8f, -2})};
-        const auto place = [&](float share) {
-            return box_of(one.front(), papers_of(one, atlas, views, share).front(), views.front(),
-                          kShare);
+        const auto place = [&](bool panel) {
+            return box_of(one.front(), papers_of(one, atlas, views, kShare, panel).front(),
+                          views.front(), kShare);
         };
-        reached += overlap(place(0), cube) ? 1 : 0;
-        EXPECT_FALSE(overlap(place(kShare), cube)) << x;
+        reached += overlap(place(false), cube) ? 1 : 0;
+        EXPECT_FALSE(overlap(place(true), cube)) << x;
+        EXPECT_LE(place(true)[3], 960 - 49) << x << ": below the line of the tools";
     }
     EXPECT_GT(reached, 10) << "where there is no panel";
 }

@@ -4,8 +4,12 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
+#include "render/gl/link_watch.h"
+
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -82,7 +86,18 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
 }
 
 TEST_P(WarmUp, LooksAtTheUserAfterEveryFewDrawsAndEndsWhenAsked) {
-    Session session(small_config(), file_, noting_);
+    int links = 0;
+    std::optional<Session> made;
+    {
+        const render::LinkWatch watch([&] { ++links; });
+        made.emplace(small_config(), file_, noting_);
+    }
+    EXPECT_GE(links, 20) << "looks while the session is made";
+    {
+        const render::LinkWatch watch([&] { throw std::runtime_error("the user leaves"); });
+        EXPECT_THROW(Session(small_config(), file_, noting_), std::runtime_error);
+    }
+    Session& session = *made;
     std::vector<float> shares;
     std::vector<std::size_t> begun; // programs whose first use falls between two looks
     programs.used.clear();

@@ -49,6 +49,7 @@ void Display::draw(std::span<const ViewerPose> viewers, StereoMode mode, const S
     if (size.x < 1 || size.y < 1)
         return;
     mode_ = mode;
+    margins_ = next_margins_;
     composed_.resize(size);
     if (upright(mode) != StereoMode::quadbuffer)
         right_buffer_.reset();
@@ -84,8 +85,10 @@ bool Display::draw_part(std::span<const ViewerPose> viewers, std::size_t viewpor
                         const DrawPart& scene) {
     if (!targets_[viewport])
         return true; // the window is minimized
+    std::swap(margins_, next_margins_);
     const std::vector<render::View> views =
         views_in_target(viewport, viewers[window_.viewports[viewport].viewer]);
+    std::swap(margins_, next_margins_);
     return draw_views_on(*gl_, next_[viewport], views.back().corner + views.back().size, options_,
                          views, begins, scene);
 }
@@ -94,6 +97,7 @@ void Display::show_parts(const Overlay& overlay) {
     for (std::size_t i = 0; i < targets_.size(); ++i)
         if (next_[i])
             std::swap(targets_[i], next_[i]);
+    margins_ = next_margins_;
     draw_overlay_again(overlay);
 }
 

@@ -200,9 +200,11 @@ void Display::compose(const Overlay& overlay) {
 }
 
 void Display::compose_into(const render::RenderTarget& target, Eye buffer) const {
+    // Where a panel has left, the picture still lies beside its place for a moment.
+    const bool moves = margins_ != next_margins_;
     // In software GL a clear costs as much as a copy, so skip it if nothing of it would show.
     if (!fills_window())
-        target.clear(kBlack);
+        target.clear(moves ? glm::vec4(options_.background, 1.0f) : kBlack);
     gl_->Disable(GL_SCISSOR_TEST);
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         const Viewport& viewport = window_.viewports[i];

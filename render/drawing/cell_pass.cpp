@@ -22,7 +22,6 @@
 #include <numbers>
 
 namespace isochron::render {
-
 namespace {
 
 constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl

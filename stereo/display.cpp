@@ -49,6 +49,7 @@ void Display::draw(std::span<const ViewerPose> viewers, StereoMode mode, const S
     if (size.x < 1 || size.y < 1)
         return;
     mode_ = mode;
+    margins_ = next_margins_;
     composed_.resize(size);
     if (upright(mode) != StereoMode::quadbuffer)
         right_buffer_.reset();
@@ -84,8 +85,10 @@ bool Display::draw_part(std::span<const ViewerPose> viewers, std::size_t viewpor
                         const DrawPart& scene) {
     if (!targets_[viewport])
         return true; // the window is minimized
+    std::swap(margins_, next_margins_);
     const std::vector<render::View> views =
         views_in_target(viewport, viewers[window_.viewports[viewport].viewer]);
+    std::swap(margins_, next_margins_);
     return draw_views_on(*gl_, next_[viewport], views.back().corner + views.back().size, options_,
                          views, begins, scene);
 }
@@ -94,6 +97,7 @@ void Display::show_parts(const Overlay& overlay) {
     for (std::size_t i = 0; i < targets_.size(); ++i)
         if (next_[i])
             std::swap(targets_[i], next_[i]);
+    margins_ = next_margins_;
     draw_overlay_again(overlay);
 }
 
@@ -196,9 +200,11 @@ void Display::compose(const Overlay& overlay) {
 }
 
 void Display::compose_into(const render::RenderTarget& target, Eye buffer) const {
+    // Where a panel has left, the picture still lies beside its place for a moment.
+    const bool moves = margins_ != next_margins_;
     // In software GL a clear costs as much as a copy, so skip it if nothing of it would show.
     if (!fills_window())
-        target.clear(kBlack);
+        target.clear(moves ? glm::vec4(options_.background, 1.0f) : kBlack);
     gl_->Disable(GL_SCISSOR_TEST);
     for (std::size_t i = 0; i < targets_.size(); ++i) {
         const Viewport& viewport = window_.viewports[i];

@@ -99,8 +99,9 @@ class Display {
     std::optional<interaction::Pose> ray_at(std::span<const ViewerPose> viewers,
                                             glm::vec2 at) const;
 
-    /// Leaves the edges of each eye's part free, for a panel, from the next drawn frame on.
-    void leave_free(const Margins& margins) { margins_ = margins; }
+    /// Leaves the edges of each eye's part free, for a panel, from the next drawn frame on, or from
+    /// the next parts that are shown.
+    void leave_free(const Margins& margins) { next_margins_ = margins; }
     /// From the next drawn frame on, the left `share` of each eye's part shows what is to the left
     /// of the screen: for a panel that stands there.
     void show_aside(float share) {
@@ -132,7 +133,7 @@ class Display {
         glm::ivec2 corner, size;
     };
 
-    Margins margins_; ///< that stay free
+    Margins margins_, next_margins_; ///< that stay free: in what is shown, in what is drawn next
     Region region_of(const Viewport& viewport, Eye place) const;
     render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
     std::vector<render::View> views_in_target(std::size_t number, const ViewerPose& viewer) const;

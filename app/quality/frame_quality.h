@@ -84,6 +84,11 @@ class FrameQuality {
     /// @param meshes at hand; budget and expected times are added
     std::optional<std::size_t> choose_mesh(MeshesAtHand meshes);
     bool moves_as_mesh() const { return mesh_levels_.level().has_value(); } ///< by the last choice
+    /// Expected time of drawing so many cells as quads; 0: not known.
+    Milliseconds expected_quads(double cells) const {
+        return steady_.expected(render::Footprint::quad, {cells * charged_.cells, charged_.pixels})
+            .value_or(Milliseconds(0));
+    }
     /// Expected time of drawing a mesh; as long as no mesh was measured, of quads that take about as
     /// long. Empty: not known.
     std::optional<Milliseconds> expected_mesh(std::size_t triangles) const;
@@ -111,6 +116,8 @@ class FrameQuality {
     /// Time that a frame may spend on a picture for later frames; 0: none.
     /// @param taken by the frame itself
     Milliseconds left_of_frame(Milliseconds taken) const;
+    /// Time that a frame may wait for something to draw before it draws.
+    Milliseconds patience() const;
     /// Time that a frame may spend on parts.
     Milliseconds part_budget() const;
     /// Learns from a picture that was made in parts, of the views that were charged.

@@ -5,9 +5,12 @@ namespace isochron::app {
 
 std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) const {
     constexpr double kFinerFits = 0.75, kSameFits = 0.9; // of the budget
+    constexpr double kHardlyLonger = 1.3;                // than quads
     /// By level: the share of the cells as quads that is as much like the surface.
     constexpr std::array<double, index::kMeshLevels> kLikeQuads{2, 2, 0.5, 1.0 / 6};
-    const bool scraps = meshes.translucent && meshes.quads < 1;
+    const bool scraps = meshes.translucent;
+    const Milliseconds instead =
+        meshes.quads_take > meshes.budget ? kHardlyLonger * meshes.quads_take : Milliseconds(0);
     std::optional<std::size_t> coarsest;
     for (std::size_t level = 0; level < meshes.triangles.size(); ++level) {
         if (!scraps && meshes.quads > kLikeQuads[level])
@@ -16,7 +19,7 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
             continue;
         const auto time = meshes.expected(meshes.triangles[level]);
         const bool finer = !level_ || level < *level_;
-        if (time && *time <= (finer ? kFinerFits : kSameFits) * meshes.budget)
+        if (time && (*time <= (finer ? kFinerFits : kSameFits) * meshes.budget || *time <= instead))
             return level;
         if (scraps && time && *time <= meshes.longest)
             coarsest = level;

@@ -16,9 +16,11 @@ namespace isochron::app {
 struct MeshesAtHand {
     /// By mesh level; 0 where there is no mesh.
     std::array<std::size_t, index::kMeshLevels> triangles{};
-    double quads = 1; ///< share of all cells that is drawn as quads where no mesh is
-    /// Surfaces that let light through: quads of some cells lie over each other in several layers with
-    /// gaps and look like scraps, so any mesh is more like them.
+    double quads = 1;           ///< share of all cells that is drawn as quads where no mesh is
+    Milliseconds quads_take{0}; ///< expected; 0: not known
+    /// Surfaces that let light through: quads of some cells lie over each other in several layers
+    /// with gaps, and of all cells a share is left out for the light; both look like scraps, so any
+    /// mesh is more like them.
     bool translucent = false;
     Milliseconds budget{0};
     Milliseconds longest{0}; ///< that a picture may take before scraps are preferred
@@ -27,7 +29,8 @@ struct MeshesAtHand {
     interaction::Seconds now{0}; ///< session time
 };
 
-/// The finest mesh that is expected to fit. A finer one than before has to fit with room to
+/// The finest mesh that is expected to fit or, where quads do not fit either, to take hardly longer
+/// than they do. A finer one than before has to fit with room to
 /// spare. Of translucent surfaces the coarsest is taken before quads, as long as it takes no longer than
 /// any picture may. Half a second passes between two changes, so that the choice does not go to and fro.
 class MeshLevelChoice {

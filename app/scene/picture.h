@@ -37,6 +37,11 @@ struct PictureLayout {
     bool operator==(const PictureLayout&) const = default;
 };
 
+/// Whether the panel over the first window comes or goes, and nothing else is new.
+inline bool only_panel_differs(const PictureLayout& a, const PictureLayout& b) {
+    return a != b && a.windows == b.windows && a.aside == b.aside;
+}
+
 /// Everything that the eyes' pictures depend on.
 struct Picture {
     Audience audience;

@@ -1,7 +1,6 @@
 // Draws what the eyes see: the cells, the volume's box, the legend, the wand and the floor.
 #include "app/scene/scene.h"
 
-#include "app/frame/cell_resolutions.h"
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
@@ -9,7 +8,7 @@
 #include "app/scene/legend.h"
 #include "app/scene/look.h"
 #include "app/scene/orientation.h"
-#include "app/scene/small_surface.h"
+#include "app/scene/warm_up/small_surface.h"
 #include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
 #include "render/gl/shader.h"
@@ -89,14 +88,6 @@ render::Line wand_ray(const Picture& picture, const Aids& aids) {
     return {wand.position, end, kWandColor};
 }
 
-/// A box that holds all cells, which may reach a little out of the volume.
-glm::mat4 around_cells(const render::Placement& placement) {
-    constexpr float kBeyond = 0.03f; // of the volume
-    const glm::mat4 larger = glm::translate(glm::mat4(1.0f), -kBeyond * placement.extent);
-    return placement.room_from_index *
-           glm::scale(larger, (1.0f + 2.0f * kBeyond) * placement.extent);
-}
-
 /// Whether the cells write depth, so that they hide things behind them that are drawn later.
 bool writes_depth(render::Footprint footprint, const render::CellAppearance& appearance) {
     return footprint == render::Footprint::quad ||
@@ -122,7 +113,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       kept_(gl),
       cell_pass_(gl, {.shape = config.rendering.cell_shape}, render::prelude_for(info.grid)),
       line_pass_(gl), text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
-      enlarge_(gl), reproject_(gl), veil_pass_(gl) {
+      moving_(gl, info.grid), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (config.comfort.near_whole > 0)
@@ -178,7 +169,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     // Lines have soft edges, which blend with the pixels below, so lines come after the cells. Only
     // splats write no depth: lines that splats may hide are drawn before the splats.
     render::CellAppearance appearance = appearance_of(picture);
-    const bool moved = picture.moved && is_whole && !again && draw_moved(picture, views);
+    const bool moved =
+        picture.moved && is_whole && !again && moving_.draw_moved(kept_, picture, views);
     const bool depth = moved || writes_depth(footprint, appearance);
     if (!depth && part.begins)
         draw_among_cells(views, picture, placement);
@@ -187,14 +179,17 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     if (appearance.near_fade && !views.empty()) // all views are of one viewer
         appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
     std::size_t done = 0;
-    if (picture.resolution > 0 && footprint == render::Footprint::quad && is_whole && !again &&
-        !moved)
-        draw_in_few_pixels(picture, views, placement, appearance);
-    else if (!again && !moved)
+    const MovingCells::Cells cells{cell_pass_, cells_.drawn(), appearance};
+    const bool anew = !again && !moved;
+    if (anew && is_whole && picture.resolution > 0 && footprint == render::Footprint::quad)
+        moving_.draw_in_few_pixels(cells, picture, views);
+    else if (anew && is_whole && moves_in_layers(picture, footprint))
+        moving_.draw_in_layers(cells, picture, views);
+    else if (anew)
         done = cell_pass_.draw(views, placement, cells_.drawn(), footprint, appearance, part.cells);
     if (!part.ends)
         return done;
-    if (depth && part.keeps && !again && !moved && footprint == picture.footprint)
+    if (depth && part.keeps && anew && footprint == picture.footprint)
         kept_.keep(picture, views);
     if (depth)
         draw_among_cells(views, picture, placement);
@@ -207,28 +202,6 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     return done;
 }
 
-/// @return false: there is no picture for these screens
-bool Scene::draw_moved(const Picture& picture, std::span<const render::View> views) {
-    const Picture* kept = kept_.movable(1);
-    std::vector<render::PictureWithDepth> pictures =
-        kept ? kept_.for_screens_of(views) : std::vector<render::PictureWithDepth>();
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        pictures[i].room_from_box = around_cells(placement_of(*kept));
-        reproject_.draw(views[i], pictures[i], around_cells(placement_of(picture)));
-    }
-    for (std::size_t i = 0; i < views.size(); ++i)
-        render::set_viewport(gl_, views[i], static_cast<GLuint>(i));
-    return !pictures.empty();
-}
-
-void Scene::draw_in_few_pixels(const Picture& picture, std::span<const render::View> views,
-                               const render::Placement& placement,
-                               const render::CellAppearance& appearance) {
-    enlarge_.begin(views, kCellResolutions[picture.resolution], appearance.linear_light);
-    cell_pass_.draw(enlarge_.few(), placement, cells_.drawn(), render::Footprint::quad, appearance);
-    enlarge_.end(views, around_cells(placement));
-}
-
 float Scene::warm_up(const Picture& picture, std::span<const render::View> views,
                      std::size_t part) {
     render::CellAppearance appearance = appearance_of(picture);
@@ -237,14 +210,7 @@ float Scene::warm_up(const Picture& picture, std::span<const render::View> views
     if (part == 0) {
         small_.emplace(gl_, info_.grid, matrix(picture.room_from_physical),
                        cells_.may_have_meshes());
-        enlarge_.begin(views, kCellResolutions.back(), appearance.linear_light);
-        const glm::mat4 box = around_cells(placement_of(picture));
-        enlarge_.end(views, box);
-        render::RenderTarget small(gl_, {1, 1});
-        small.clear(glm::vec4(0));
-        const render::View pixel{.size = glm::ivec2(1)};
-        for (const render::View& view : views)
-            reproject_.draw(view, {small.color_texture(), small.depth_texture(), pixel}, box);
+        moving_.warm_up(picture, views, appearance.linear_light);
     } else {
         small_->draw(part - 1, cell_pass_, views, appearance);
     }

@@ -9,16 +9,15 @@
 #include "app/scene/callouts.h"
 #include "app/scene/cell_sets.h"
 #include "app/scene/kept_cells.h"
+#include "app/scene/moving_cells.h"
 #include "app/scene/picture.h"
-#include "app/scene/small_surface.h"
+#include "app/scene/warm_up/small_surface.h"
 #include "index/volume/volume_series.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/view.h"
 #include "render/passes/background_pass.h"
-#include "render/passes/enlarge_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
-#include "render/passes/reproject_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
 
@@ -83,10 +82,6 @@ class Scene {
   private:
     render::CellAppearance appearance_of(const Picture& picture);
     render::Placement placement_of(const Picture& picture) const;
-    bool draw_moved(const Picture& picture, std::span<const render::View> views);
-    void draw_in_few_pixels(const Picture& picture, std::span<const render::View> views,
-                            const render::Placement& placement,
-                            const render::CellAppearance& appearance);
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);
     void draw_before_cells(std::span<const render::View> views, const Picture& picture,
@@ -117,8 +112,7 @@ class Scene {
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;
     render::BackgroundPass background_pass_;
-    render::EnlargePass enlarge_;
-    render::ReprojectPass reproject_;
+    MovingCells moving_;
     render::VeilPass veil_pass_;
 };
 

@@ -1,8 +1,8 @@
 // Which cells a session asks for, and how they come to the GPU.
 #include "app/session/cell_supply.h"
 
+#include "app/frame/steps_ahead.h"
 #include "app/frame/stop_watch.h"
-#include "interaction/step_track.h"
 
 #include <algorithm>
 #include <bit>
@@ -21,28 +21,6 @@ constexpr double kNearly = 0.6;
 /// Whether a set shows the cells that this frame asks for.
 bool shows(const index::ExtractionPtr& set, const Frame& frame) {
     return set && set->query.of_cells() == frame.report.asked;
-}
-
-/// What playing shows after a step; nothing if it shows only one.
-std::optional<index::StepsAhead> ahead_of(index::Instant step, const Frame& frame) {
-    const interaction::PlaybackState& playback = frame.state.playback;
-    if (step.between()) { // both of its steps are at hand: the next one is read meanwhile
-        const std::uint32_t after = playback.reverse ? step - 1 : step + 2; // wraps below 0
-        return after < frame.steps ? std::optional(index::StepsAhead{.next = after}) : std::nullopt;
-    }
-    const interaction::StepTrack track(std::span(frame.file.info().times).first(frame.steps),
-                                       frame.state.play_range, playback);
-    if (track.places() < 2)
-        return std::nullopt;
-    const std::uint32_t place = track.place_of(step, playback.reverse), last = track.last();
-    const bool turns = playback.ping_pong && place == (playback.reverse ? 0 : last);
-    const bool reverse = playback.reverse != turns;
-    return index::StepsAhead{.next = (place + (reverse ? last : 1)) % track.places(),
-                             .steps = track.places(),
-                             .reverse = reverse,
-                             .to_and_fro = playback.ping_pong,
-                             .first = track.step(0),
-                             .every = track.step(1) - track.step(0)};
 }
 
 } // namespace
@@ -87,8 +65,10 @@ void CellSupply::request(const Frame& frame) {
         request.later_room = config_.memory.mesh_room();
     }
     if (frame.state.playback.playing)
-        request.ahead = ahead_of(request.query.step, frame);
+        request.ahead = steps_ahead(request.query.step, frame.state,
+                                    std::span(frame.file.info().times).first(frame.steps));
     extractor_.request(request);
+    frame.report.extracting = extractor_.busy();
 }
 
 /// Whether what is asked for is there already: then its mesh comes later, and the set stays.
@@ -101,13 +81,22 @@ bool CellSupply::is_there(const index::SurfacesQuery& query) const {
     return same == query;
 }
 
-void CellSupply::take_newest(const Frame& frame) {
+/// Whether what was found last is on the GPU, or will never be.
+bool CellSupply::has_taken_newest() const {
+    const index::ExtractionPtr newest = extractor_.newest();
+    return !newest || newest == refused_ || newest == sets_.held(use_of(newest));
+}
+
+void CellSupply::take_newest(const Frame& frame, Milliseconds patience) {
     FrameReport& report = frame.report;
     const render::UploadCount before = sets_.uploaded();
     StopWatch watch;
     if (!frame.is_live()) {
         sets_.send_whole();
         extractor_.wait();
+        report.wait = watch.lap();
+    } else if (patience.count() > 0 && has_taken_newest()) {
+        extractor_.wait_for_newer(patience);
         report.wait = watch.lap();
     }
     CellsInFrame cells = frame.sharing.cells(extractor_, sets_.shown(), frame.waiting);
@@ -186,10 +175,7 @@ bool CellSupply::comes_too_late(const index::ExtractionPtr& set, const Frame& fr
 }
 
 bool CellSupply::set_comes() const {
-    if (extractor_.busy())
-        return true;
-    const index::ExtractionPtr newest = extractor_.newest();
-    return newest && newest != refused_ && newest != sets_.held(use_of(newest));
+    return extractor_.busy() || !has_taken_newest();
 }
 
 /// Asks for fewer cells from now on, as the cells of this set could not be shown.
@@ -236,6 +222,8 @@ bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
         same.resolution = frame.drawn->resolution;
         same.mesh_level = frame.drawn->mesh_level;
         same.scale = frame.drawn->scale;
+        if (only_panel_differs(now.layout, frame.drawn->layout))
+            same.layout = frame.drawn->layout;
     }
     const bool stays = frame.drawn && same_cells(same, *frame.drawn);
     if (!stays) {

@@ -39,7 +39,8 @@ class CellSupply {
 
     void request(const Frame& frame);
     /// Uploads what has been found, and chooses the set to draw.
-    void take_newest(const Frame& frame);
+    /// @param patience longest time to wait for what is being found, where nothing new is there
+    void take_newest(const Frame& frame, Milliseconds patience = {});
     /// Why sets are not shown, each once; taken by the call.
     std::vector<std::string> take_messages();
 
@@ -82,6 +83,7 @@ class CellSupply {
 
   private:
     bool is_there(const index::SurfacesQuery& query) const;
+    bool has_taken_newest() const;
     void report_cells(FrameReport& report) const;
     static bool moves_finest(const Frame& frame);
     static bool wants_all(const Frame& frame);

@@ -25,6 +25,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
     wanted.moved = false;
     if (!parts_ || !same_cells(parts_->picture, wanted))
         parts_.emplace(wanted);
+    outputs_.leave_free(now.layout.free);
     // What lies over the cells is drawn last. Where it is drawn already, the next frame draws it anew.
     if (parts_->place.window == 0 && parts_->place.viewport == 0)
         parts_->picture = wanted;

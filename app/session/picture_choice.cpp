@@ -15,6 +15,17 @@ bool is_translucent(const ExplorerState& state) {
     });
 }
 
+/// A picture with the cells of another one, drawn as these are.
+Picture drawn_as(Picture picture, const Picture& drawn) {
+    picture.cells = drawn.cells;
+    picture.footprint = drawn.footprint;
+    picture.resolution = drawn.resolution;
+    picture.mesh_level = drawn.mesh_level;
+    picture.moved = drawn.moved;
+    picture.scale = drawn.scale; // whose range may be percentiles of the cells
+    return picture;
+}
+
 } // namespace
 
 PictureChoice::PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log,
@@ -37,13 +48,19 @@ bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) cons
     if (!supply_.rests() || !frame.drawn || frame.choosing() != Choosing::with_parts ||
         now.cells == frame.drawn->cells || now.cells != sets_.held(CellSets::Use::at_rest))
         return false;
-    Picture same = now;
-    same.cells = frame.drawn->cells;
-    same.footprint = frame.drawn->footprint;
-    same.resolution = frame.drawn->resolution;
-    same.mesh_level = frame.drawn->mesh_level;
-    same.scale = frame.drawn->scale; // whose range may be percentiles of the cells
-    return same == frame.drawn;
+    return drawn_as(now, *frame.drawn) == frame.drawn;
+}
+
+/// Whether an exact picture only gets another size, as the panel beside it comes or goes.
+bool PictureChoice::is_only_laid_out(const Frame& frame, const Picture& now) const {
+    const std::optional<Picture>& drawn = frame.drawn;
+    if (!drawn || !frame.sharing.alone() || !supply_.may_be_partial(frame) ||
+        (drawn->footprint != render::Footprint::surface && !drawn->moved) ||
+        now.cells != drawn->cells || !only_panel_differs(now.layout, drawn->layout))
+        return false;
+    Picture same = drawn_as(now, *drawn);
+    same.layout = drawn->layout;
+    return same == drawn;
 }
 
 PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) const {
@@ -82,7 +99,11 @@ void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
     meshes.now = frame.report.time;
     if (use) {
         meshes.triangles = sets_.triangles(*use);
+        if (meshes.translucent) // all triangles are sorted, which takes far longer than layers do
+            meshes.triangles[0] = 0;
         meshes.quads = supply_.share_of_quads(frame, *use, quality_);
+        meshes.quads_take =
+            quality_.expected_quads(meshes.quads * static_cast<double>(sets_.held(*use)->cells()));
     }
     const auto level = quality_.choose_mesh(meshes);
     const bool passes = frame.report.pace == interaction::Pace::moving || plan.holds_finer;
@@ -107,7 +128,9 @@ bool PictureChoice::moves_exact(const Frame& frame, const Picture& now,
                                ? plan.mesh_level <= 1
                                : frame.report.coarsest == 0 && plan.resolution <= 1;
     const bool as_good = all_triangles || (all_cells && supply_.cells_look_small());
-    return exact && supply_.may_be_partial(frame) && !as_good &&
+    // Where a panel comes or goes, the picture is only shown in another size: nothing is as good.
+    const bool stays = exact && stand_as(*exact, now);
+    return exact && supply_.may_be_partial(frame) && (stays || !as_good) &&
            plan.footprint < render::Footprint::surface && now.audience.eyes.empty() &&
            may_be_moved(*exact, now, frame.report.asked);
 }
@@ -134,6 +157,44 @@ bool PictureChoice::shows_layer_again(const Frame& frame, const Picture& now) {
     else if (!again_since_)
         again_since_ = frame.report.time;
     return may && frame.report.time - *again_since_ <= kLongest;
+}
+
+/// Whether nothing is new but isovalues whose cells are still to come: until then the last picture
+/// says by its legend what it shows.
+bool PictureChoice::only_awaits_cells(const Frame& frame, const Picture& now) const {
+    const std::optional<Picture>& drawn = frame.drawn;
+    if (!frame.is_live() || frame.is_kept || !frame.sharing.alone() || !drawn || !drawn->cells ||
+        !now.cells || !supply_.set_comes() || frame.report.shown == frame.report.asked ||
+        now.cells->query.of_cells() != drawn->cells->query.of_cells() ||
+        now.isosurfaces.size() != drawn->isosurfaces.size())
+        return false;
+    Picture same = drawn_as(now, *drawn);
+    for (std::size_t i = 0; i < same.isosurfaces.size(); ++i)
+        same.isosurfaces[i].isovalue = drawn->isosurfaces[i].isovalue;
+    return same != now && same == drawn;
+}
+
+/// What is drawn stays, and the report says how it was drawn.
+void PictureChoice::show_last(const Frame& frame) const {
+    FrameReport& report = frame.report;
+    frame.plan.holds_finer = true;
+    frame.plan.in_parts.reset();
+    report.footprint = frame.drawn->footprint;
+    report.resolution = frame.drawn->resolution;
+    report.mesh_level = frame.drawn->mesh_level;
+    report.moved = frame.drawn->moved;
+    report.in_parts.reset();
+    report.final = false;
+}
+
+Milliseconds PictureChoice::patience(const Frame& frame,
+                                     const interaction::InputState& input) const {
+    const std::optional<Picture>& drawn = frame.drawn;
+    const bool stands = frame.is_live() && !frame.is_kept && frame.sharing.alone() &&
+                        !outputs_.headset() && drawn && drawn->cells &&
+                        drawn->room_from_physical == frame.state.room_from_physical &&
+                        drawn->audience.viewers == pictures_.viewers(input, frame.state);
+    return stands ? quality_.patience() : Milliseconds(0);
 }
 
 /// Takes over rank 0's plan.
@@ -170,7 +231,8 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
         report.missed = quality_.missed(report.time - log_.frames().back().time);
     const bool finer = only_gets_finer(frame, now);
     const bool changed = !frame.drawn || !same_cells(now, *frame.drawn);
-    const Options options = this->options(frame, changed && !finer);
+    const bool laid_out = is_only_laid_out(frame, now);
+    const Options options = this->options(frame, changed && !finer && !laid_out);
     const bool had_mesh = frame.plan.mesh;
     const index::DetailQuery had_detail = frame.plan.detail;
     FramePlan plan = wanted(frame, options);
@@ -181,7 +243,8 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     plan.moved = (changed || now.moved) && moves_exact(frame, now, plan);
     if (plan.moved) // what it stands for is not measured before it is needed
         plan.measure = plan.final = false;
-    plan.ahead = !supply_.rests() && (plan.ahead || (plan.moved && grows_old(now)));
+    plan.ahead = !supply_.rests() && report.shown == report.asked &&
+                 (plan.ahead || (plan.moved && grows_old(now)));
     agree(frame, plan);
     // A replay's picture is as good as it gets at once.
     if (!frame.is_live() && ((frame.plan.mesh && !had_mesh) || frame.plan.detail != had_detail)) {
@@ -199,6 +262,9 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     now.moved = report.moved;
     rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
+    frame.plan.holds_finer |= laid_out && report.in_parts && !report.moved;
+    if (only_awaits_cells(frame, now))
+        show_last(frame);
     if (shows_layer_again(frame, now)) {
         frame.plan.holds_finer = report.moved = true;
         report.final = false;

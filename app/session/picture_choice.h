@@ -17,6 +17,10 @@ class PictureChoice {
     PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log, const Scene& scene,
                   CellSupply& supply, const PictureMaker& pictures);
 
+    /// Longest time that a frame waits for cells that are being found. A picture that nothing else
+    /// changes would only be shown again meanwhile.
+    Milliseconds patience(const Frame& frame, const interaction::InputState& input) const;
+
     FrameQuality& quality() { return quality_; }
     const FrameQuality& quality() const { return quality_; }
 
@@ -33,12 +37,15 @@ class PictureChoice {
 
     void learn_costs(const Frame& frame);
     bool only_gets_finer(const Frame& frame, const Picture& now) const;
+    bool is_only_laid_out(const Frame& frame, const Picture& now) const;
     Options options(const Frame& frame, bool changed) const;
     FramePlan wanted(const Frame& frame, const Options& options);
     void choose_mesh(const Frame& frame, FramePlan& plan);
     bool moves_exact(const Frame& frame, const Picture& now, const FramePlan& plan) const;
     bool grows_old(const Picture& now) const;
     bool shows_layer_again(const Frame& frame, const Picture& now);
+    bool only_awaits_cells(const Frame& frame, const Picture& now) const;
+    void show_last(const Frame& frame) const;
     void agree(const Frame& frame, FramePlan plan);
     void rest_in_parts(const Frame& frame, Picture& now) const;
 

@@ -351,8 +351,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
                       .report = report};
     const SessionPanel::Facts facts = [&] { return panel_model(report); };
     supply_.request(frame);
-    report.extracting = supply_.extractor().busy();
-    supply_.take_newest(frame);
+    supply_.take_newest(frame, choice_.patience(frame, rest));
     show_messages(supply_.take_messages());
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));

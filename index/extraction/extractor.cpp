@@ -10,6 +10,8 @@
 namespace isochron::index {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// Whether what was extracted for one query is what another asks for.
 bool answers(const SurfacesQuery& query, const SurfacesQuery& wanted) {
     return query.step == wanted.step && same_but_for_step(query, wanted) &&
@@ -18,6 +20,11 @@ bool answers(const SurfacesQuery& query, const SurfacesQuery& wanted) {
 
 } // namespace
 
+bool is_worth_finishing(std::chrono::nanoseconds since_start, std::chrono::nanoseconds last_took) {
+    constexpr std::chrono::milliseconds kWorthIt{5};
+    return last_took >= kWorthIt && 4 * since_start >= last_took && since_start <= 2 * last_took;
+}
+
 struct Extractor::State {
     struct Job {
         SurfacesQuery query;
@@ -25,6 +32,7 @@ struct Extractor::State {
         ExtractionPtr meshes_of; ///< the job makes meshes of it; null: it extracts
         std::uint64_t times_forgotten;
         std::stop_source stop;
+        Clock::time_point started = Clock::now();
     };
     struct Outcome {
         ExtractionPtr extraction; ///< null: stopped or failed
@@ -50,6 +58,14 @@ struct Extractor::State {
         const bool may_have = set && set != not_meshed && !set->coarse() && set->cells() > 0;
         return may_have && !set->later->get() ? set : nullptr;
     }
+    /// Whether meshes are being made of the cells of this request, which may ask for other parts of
+    /// them in each frame that moves: they come first, for a moment, or they would never come.
+    bool finishes_meshes(const Request& request) const {
+        constexpr std::chrono::seconds kMoment{1};
+        return running && running->meshes_of &&
+               running->meshes_of->query.of_cells() == request.query.of_cells() &&
+               Clock::now() - running->started < kMoment;
+    }
     bool has_work() const { return (wanted && !answered) || meshes_wanted() || prefetch_wanted(); }
 
     void work(const std::stop_token& stop);
@@ -64,10 +80,11 @@ struct Extractor::State {
     mutable std::mutex mutex; ///< for the members below; held for a few assignments only
     mutable std::condition_variable_any changed;
     std::optional<Request> wanted;
-    bool answered = false;      ///< the wanted query has been shown or has failed
-    bool in_flux = false;       ///< the newest request is for other surfaces than the one before
-    bool prefetch_done = false; ///< the wanted prefetch need not be tried again
-    bool abandoned = false;     ///< the last search was abandoned, so the next one is finished
+    bool answered = false;        ///< the wanted query has been shown or has failed
+    bool in_flux = false;         ///< the newest request is for other surfaces than the one before
+    bool prefetch_done = false;   ///< the wanted prefetch need not be tried again
+    bool abandoned = false;       ///< the last search was abandoned, so the next one is finished
+    Clock::duration last_took{0}; ///< of an answer that was found
     std::uint64_t times_forgotten = 0;
     std::optional<Job> running;
     RecentExtractions recent;
@@ -196,6 +213,8 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
             dropped = recent.add(outcome.extraction, wanted->ahead);
             if (is_answer)
                 answered = true;
+            if (!job.prefetch)
+                last_took = Clock::now() - job.started;
             if (shows) {
                 failure.reset();
                 shown.swap(replaced);
@@ -275,9 +294,14 @@ void Extractor::request(const Request& request) {
             const bool shown_late =
                 s.running && !s.running->prefetch && s.running->query.step.between() &&
                 request.query.step.between() && same_but_for_step(s.running->query, request.query);
-            const bool obsolete =
-                s.running && !going_on && !shown_late && !answers(s.running->query, request.query);
-            if (obsolete && (s.running->prefetch || !s.abandoned))
+            const bool obsolete = s.running && !going_on && !shown_late &&
+                                  !s.finishes_meshes(request) &&
+                                  !answers(s.running->query, request.query);
+            const auto finishes = [&s] {
+                return s.abandoned ||
+                       is_worth_finishing(Clock::now() - s.running->started, s.last_took);
+            };
+            if (obsolete && (s.running->prefetch || !finishes()))
                 stop = s.running->stop;
         }
     }
@@ -322,6 +346,15 @@ std::optional<std::string> Extractor::failure() const {
 bool Extractor::busy() const {
     const std::scoped_lock lock(state_->mutex);
     return state_->wanted && !state_->answered;
+}
+
+bool Extractor::wait_for_newer(std::chrono::duration<double, std::milli> longest) const {
+    std::unique_lock lock(state_->mutex);
+    const Extraction* const known = state_->shown.get(); // not held: it may be freed meanwhile
+    const auto is_newer = [&] { return state_->shown.get() != known; };
+    state_->changed.wait_for(lock, std::chrono::duration_cast<std::chrono::nanoseconds>(longest),
+                             [&] { return is_newer() || !state_->wanted || state_->answered; });
+    return is_newer();
 }
 
 void Extractor::wait() const {

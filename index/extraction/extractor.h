@@ -10,6 +10,7 @@
 #include "index/extraction/extraction.h"
 #include "index/extraction/recent_extractions.h"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,9 +31,15 @@ struct Request {
     std::uint64_t later_room = 0;
 };
 
+/// Whether a search has come so far that it is finished although something else is asked for: that
+/// is done hardly later then. Not where the last search is no measure, as it was short, or this one
+/// takes far longer.
+/// @param since_start of the search @param last_took time of the last search that found something
+bool is_worth_finishing(std::chrono::nanoseconds since_start, std::chrono::nanoseconds last_took);
+
 /// Requests may come faster than searches finish. So after one abandoned search the next one is
-/// finished and shown even if there is a newer request. The picture then follows a slider or a fast
-/// playback instead of standing still until they stop.
+/// finished and shown even if there is a newer request, and so is one that `is_worth_finishing`.
+/// The picture then follows a slider or a fast playback instead of standing still until they stop.
 class Extractor {
   public:
     /// @param room [bytes] for extractions that are kept; the newest three are always kept
@@ -61,6 +68,10 @@ class Extractor {
     std::optional<std::string> failure() const;
     /// True until the newest request has been answered or has failed.
     bool busy() const;
+
+    /// Waits until there is something newer than `newest` gave at the call, or nothing is being
+    /// looked for, but no longer than this. @return whether there is
+    bool wait_for_newer(std::chrono::duration<double, std::milli> longest) const;
 
     /// Blocks until not busy, and until the meshes are made that come later: for fixed-step replay, captures and tests only, never in the live loop.
     void wait() const;

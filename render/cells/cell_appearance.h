@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 namespace isochron::render {
@@ -62,6 +63,8 @@ struct CellAppearance {
     std::optional<NearFade> near_fade;
     /// Of the footprint `mesh`: which of the set's meshes is drawn (CellBuffers::mesh).
     std::size_t mesh_level = 0;
+    /// Surfaces that are drawn, one bit for each; quads and splats show all of them.
+    std::uint32_t drawn = ~0u;
     /// A plane in the room (normal, offset) above which everything is cut away: whole cells with
     /// quads and splats, exactly at the plane with surfaces.
     std::optional<glm::vec4> cut;

@@ -22,7 +22,6 @@
 #include <numbers>
 
 namespace isochron::render {
-
 namespace {
 
 constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl
@@ -213,7 +212,8 @@ std::vector<CellPass::Layer> CellPass::layers_of(const CellBuffers& cells, Footp
     const std::size_t shown = cells.shown() ? cells.shown()->surfaces.size() : index::kMostSurfaces;
     Layer opaque, translucent{.blended = true};
     for (std::size_t i = 0; i < std::min(shown, index::kMostSurfaces); ++i)
-        (is_translucent(appearance.surfaces[i]) ? translucent : opaque).surfaces |= 1 << i;
+        if ((appearance.drawn >> i & 1) != 0)
+            (is_translucent(appearance.surfaces[i]) ? translucent : opaque).surfaces |= 1 << i;
     std::vector<Layer> layers{opaque, translucent};
     std::erase_if(layers, [](const Layer& layer) { return layer.surfaces == 0; });
     return layers;

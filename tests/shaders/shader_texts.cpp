@@ -10,6 +10,7 @@
 #include "render/gl/shader.h"
 #include "render/passes/background_pass.h"
 #include "render/passes/enlarge_pass.h"
+#include "render/passes/layer_pass.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/panel_pass.h"
 #include "render/passes/picture_pass.h"
@@ -135,6 +136,7 @@ void make_all_passes(const Gl& gl) {
     const render::BackgroundPass background(gl);
     const render::EnlargePass enlarge(gl);
     const render::ReprojectPass reproject(gl);
+    const render::LayerPass layers(gl);
     const render::LinePass lines(gl);
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);

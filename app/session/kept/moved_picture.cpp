@@ -24,6 +24,12 @@ bool same_viewers(const Picture& a, const Picture& b) {
 
 } // namespace
 
+bool stand_as(const Picture& then, const Picture& now) {
+    return then.audience.viewers == now.audience.viewers &&
+           then.audience.eyes == now.audience.eyes &&
+           then.room_from_physical == now.room_from_physical;
+}
+
 double moved_by(const Picture& then, const Picture& now) {
     const glm::dmat4 now_from_then = interaction::matrix(now.room_from_physical) *
                                      glm::inverse(interaction::matrix(then.room_from_physical));

@@ -16,6 +16,10 @@ constexpr double kMovedAtMost = 0.04;
 /// @param asked what the frame asks for
 bool may_be_moved(const Picture& exact, const Picture& now, const index::SurfacesQuery& asked);
 
+/// Whether eyes and data are where they were for a picture, which differs at most in the size of
+/// its views.
+bool stand_as(const Picture& then, const Picture& now);
+
 /// How far the heads have come from where they saw a picture, as the data see it [m in the room].
 double moved_by(const Picture& then, const Picture& now);
 

@@ -54,7 +54,7 @@ TEST(MeshLevelChoice, GivesWayToQuadsOfSoManyCellsThatTheyAreMoreLikeTheSurface)
     EXPECT_EQ(beside(0.1, 100), 3u);
 }
 
-TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuadsOfSomeCells) {
+TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuads) {
     const auto beside = [](double quads, double all_ms) {
         MeshesAtHand meshes = taking(all_ms);
         meshes.translucent = true;
@@ -67,7 +67,19 @@ TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuadsOfSomeCells) {
     EXPECT_EQ(beside(0.25, 100), 3u);
     EXPECT_EQ(beside(0.25, 1000), 3u) << "slower than wanted, but no scraps";
     EXPECT_EQ(beside(0.25, 2100), std::nullopt) << "longer than any picture may take";
-    EXPECT_EQ(beside(1, 100), std::nullopt) << "quads of all cells";
+    EXPECT_EQ(beside(1, 100), 3u) << "also before quads of all cells";
+}
+
+TEST(MeshLevelChoice, TakesHardlyLongerThanQuadsThatDoNotFitEither) {
+    const auto beside = [](double quads_ms, double all_ms) {
+        MeshesAtHand meshes = taking(all_ms);
+        meshes.quads_take = Milliseconds(quads_ms);
+        return MeshLevelChoice().choose(meshes);
+    };
+    const double budget = taking(1).budget.count();
+    EXPECT_EQ(beside(1.1 * budget, 1.4 * budget), 0u);
+    EXPECT_NE(beside(1.1 * budget, 1.5 * budget), 0u);
+    EXPECT_NE(beside(0.99 * budget, 1.2 * budget), 0u) << "quads fit";
 }
 
 TEST(MeshLevelChoice, StaysWhereTimesScatterAboutALimitAndFollowsThemTwiceASecondAtMost) {

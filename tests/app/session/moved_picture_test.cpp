@@ -1,6 +1,7 @@
 // The last exact picture is moved, by its depth, before a worse one is drawn.
 #include "tests/app/session/quality_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
@@ -147,6 +148,99 @@ TEST_P(MovedPicture, ComesAnewWhileTheHeadSways) {
     }
     EXPECT_GT(moved, 100);
     EXPECT_GT(far, 50) << "a picture of where the head was at first goes to 0.04 m";
+}
+
+/// A context that says that it is a window, so that a panel lies over it.
+class AsAWindow final : public stereo::GlContext {
+  public:
+    explicit AsAWindow(stereo::ContextKind kind)
+        : context_(stereo::make_context(kind, {.size = kSize})) {}
+    void make_current() override { context_->make_current(); }
+    render::GlLoader loader() const override { return context_->loader(); }
+    glm::ivec2 framebuffer_size() const override { return kSize; }
+    bool has_window() const override { return true; }
+    void present() override {}
+    bool should_close() const override { return false; }
+    std::vector<interaction::WindowEvent> poll_events() override { return {}; }
+    std::string description() const override { return "as a window"; }
+
+  private:
+    static constexpr glm::ivec2 kSize{640, 480};
+    std::unique_ptr<stereo::GlContext> context_;
+};
+
+TEST_P(MovedPicture, IsTheExactOneInAnotherSizeWhereThePanelComesOrGoes) {
+    Config config = config_with(1e4);
+    config.quality.still_budget_ms = 1e4;
+    config.installation.windows.front().stereo = stereo::StereoMode::mono;
+    AsAWindow window(GetParam());
+    Session session(config, file_, window);
+    session.share_frames(std::make_unique<SurfacesTakeLong>());
+    start(session);
+    rest_until(session, is_exact);
+    // All triangles would be as good where an eye has moved, and they are there.
+    float x = 0;
+    EXPECT_TRUE(test_support::eventually([&] {
+        const FrameReport report = with_head(session, {x = 0.005f - x, 0, 0});
+        return report.footprint == Footprint::mesh && !report.moved;
+    }));
+    rest_until(session, is_exact);
+    const auto picture = [&] { return session.outputs().display().read_eye(stereo::Eye::center); };
+    for (const bool panel : {false, true, false}) {
+        SCOPED_TRACE(panel);
+        const render::Image before = picture();
+        Commands tab;
+        tab.panel = panel;
+        FrameReport report = rest(session, 1, tab);
+        EXPECT_TRUE(report.moved);
+        const render::Image first = picture();
+        EXPECT_NE(first.height, before.height);
+        EXPECT_TRUE(test_support::eventually([&] {
+            report = rest(session, 1);
+            EXPECT_TRUE(report.moved || report.footprint == Footprint::surface);
+            return is_exact(report);
+        }));
+        const render::Image exact = picture();
+        std::vector<std::uint8_t> none(exact.rgba.size());
+        for (std::size_t i = 0; i < none.size(); i += 4)
+            std::copy_n(exact.rgba.begin(), 4, none.begin() + static_cast<std::ptrdiff_t>(i));
+        EXPECT_LT(unlike(first.rgba, exact.rgba, none), 0.1);
+    }
+}
+
+TEST_P(MovedPicture, IsNotOfTranslucentSurfacesWhichStayAsTheyAreUntilTheyAreDrawnBesideThePanel) {
+    Config config = config_in_parts();
+    config.installation.windows.front().stereo = stereo::StereoMode::mono;
+    AsAWindow window(GetParam());
+    Session session(config, file_, window);
+    Commands look;
+    look.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, 0.4f}, {8.0, {0.2f, 0.5f, 0.9f}, 1.0f}}};
+    session.frame(head_at_rest(0), look, Waiting::for_cells);
+    rest_until(session, is_exact);
+    const auto picture = [&] { return session.outputs().display().read_eye(stereo::Eye::center); };
+    for (const bool panel : {false, true}) {
+        SCOPED_TRACE(panel);
+        const render::Image before = picture();
+        Commands tab;
+        tab.panel = panel;
+        int frames = 0;
+        EXPECT_TRUE(test_support::eventually([&] {
+            const FrameReport report = rest(session, 1, frames++ == 0 ? tab : Commands{});
+            const render::Image now = picture();
+            if (report.redrawn)
+                EXPECT_EQ(report.footprint, Footprint::surface);
+            else if (!is_exact(report))
+                EXPECT_TRUE(now.rgba == before.rgba && now.height == before.height);
+            return is_exact(report);
+        }));
+        EXPECT_GT(frames, 3);
+        EXPECT_NE(picture().height, before.height);
+    }
+    // As one that was drawn so from the start.
+    Session other(config, file_, window);
+    other.frame(head_at_rest(0), look, Waiting::for_cells);
+    rest_until(other, is_exact);
+    EXPECT_TRUE(picture().rgba == other.outputs().display().read_eye(stereo::Eye::center).rgba);
 }
 
 } // namespace

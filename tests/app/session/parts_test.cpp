@@ -190,7 +190,9 @@ TEST_P(Parts, AreGivenUpInTheFrameThatChangesSomething) {
         [](Commands& commands, double&) { commands.step = 1; }};
     for (const auto& change : changes) {
         SCOPED_TRACE(&change - changes);
-        Session session(partial(), file_, *context_);
+        Config config = partial();
+        config.memory.mesh_megabytes = 0; // a mesh in motion is of live pictures alone
+        Session session(config, file_, *context_);
         start(session);
         ASSERT_TRUE(begin_parts(session));
         frame(session);
@@ -204,7 +206,7 @@ TEST_P(Parts, AreGivenUpInTheFrameThatChangesSomething) {
         if (!commands.step) {
             // At rest a load of other programs that ends may be the time to try splats. A moving
             // picture of a replay has quads.
-            Session fresh = at_once(partial(), report.footprint);
+            Session fresh = at_once(config, report.footprint);
             Commands same;
             same.isovalue = 2.0;
             for (int i = 0; i < 30; ++i)

@@ -1,5 +1,5 @@
 // A surface in one cell, with all that any footprint needs.
-#include "app/scene/small_surface.h"
+#include "app/scene/warm_up/small_surface.h"
 
 #include "index/extraction/block_values.h"
 #include "index/surface/mesh_maker.h"

@@ -32,6 +32,7 @@ class LayerTest : public testing::Test {
                                .stats = stats_,
                                .asked = asked_,
                                .frame = report_,
+                               .gaps = gaps_,
                                .movies = {.offered = true},
                                .controls = controls_},
                               time_);
@@ -69,6 +70,7 @@ class LayerTest : public testing::Test {
     index::IndexStats stats_;
     ExplorerState asked_;
     FrameReport report_;
+    std::vector<std::uint32_t> gaps_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

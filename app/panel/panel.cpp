@@ -39,8 +39,8 @@ void end_part() {
     ImGui::PopStyleColor();
 }
 
-/// The strip by which a hand carries the panel in the room; says that a gap is held, where both have
-/// room.
+/// The strip by which a hand carries the panel in the room; says between which steps the moment lies,
+/// or that a gap is held, where both have room.
 void title_of(const PanelModel& model, const PanelPlaces& places) {
     const PanelBox box{{0.0f, 0.0f}, {places.top.high.x, places.top.low.y}};
     begin_part("###title", box, Ink::chosen);

@@ -220,8 +220,8 @@ void step_field(const PanelModel& model, Commands& commands) {
     ImGui::SetNextItemWidth(kStepField);
     const index::Instant at = model.asked.instant();
     const std::string held = held_text(model);
-    const std::string format = at.between()    ? fmt::format("between %d and {}", number + 1)
-                               : !held.empty() ? fmt::format("held: gap %d to {}", number + 1)
+    const std::string format = at.between()    ? fmt::format("%d to {}", number + 1)
+                               : !held.empty() ? fmt::format("gap: %d to {}", number + 1)
                                                : fmt::format("step %d of {}", last + 1);
     if (whole_number_field("##step", &number, 1, std::max(1, last + 1), format.c_str()))
         commands.step = static_cast<std::uint32_t>(number - 1);

@@ -320,7 +320,9 @@ std::string time_of(const PanelModel& model, std::uint32_t step) {
 
 std::string held_text(const PanelModel& model) {
     const index::Instant now = model.asked.instant();
-    return !now.between() && is_gap(model, now.step) ? gap_text(now.step) : "";
+    if (now.between())
+        return fmt::format("between steps {} and {}", now.step + 1, now.step + 2);
+    return is_gap(model, now.step) ? gap_text(now.step) : "";
 }
 
 void time_track(const PanelModel& model, Commands& commands) {

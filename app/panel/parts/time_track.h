@@ -25,8 +25,8 @@ void show(const interaction::Moment& at, interaction::Commands& commands);
 std::uint32_t last_step(const PanelModel& model);
 /// The time of a step, in words.
 std::string time_of(const PanelModel& model, std::uint32_t step);
-/// `held: a gap between steps 12 and 13`, where steps are blended and the step before a gap is shown;
-/// else empty.
+/// `between steps 12 and 13`, or, where the step before a gap is shown, `held: a gap between steps 12
+/// and 13`; at any other step, and where steps are held, empty.
 std::string held_text(const PanelModel& model);
 
 } // namespace isochron::app

@@ -97,7 +97,7 @@ TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
     EXPECT_TRUE(says("step 12 of 20"));
     asked_.between = BetweenSteps::blend;
     EXPECT_TRUE(says(held));
-    EXPECT_TRUE(says("held: gap 12 to 13"));
+    EXPECT_TRUE(says("gap: 12 to 13"));
     const std::vector<float> all = ticks();
     ASSERT_EQ(all.size(), info_.times.size());
     const auto is_open = [&](std::size_t step) {
@@ -111,7 +111,7 @@ TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
     EXPECT_FALSE(is_open(10));
     asked_.fraction = 5;
     EXPECT_FALSE(says(held)) << "somebody has asked for the moment";
-    EXPECT_TRUE(says("between 12 and 13"));
+    EXPECT_TRUE(says("between steps 12 and 13"));
     asked_.step = 10;
     asked_.fraction = 0;
     EXPECT_FALSE(says(held));

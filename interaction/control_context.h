@@ -3,6 +3,7 @@
 
 #include "interaction/commands.h"
 #include "interaction/pointed.h"
+#include "interaction/step_gaps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -41,6 +42,7 @@ struct DataFrame {
 struct ControlledSeries {
     double low = 0, high = 1;                   ///< range of its values
     const std::vector<double>* times = nullptr; ///< physical times of the steps, increasing
+    const StepGaps* gaps = nullptr;             ///< of these steps; null: none
     glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: orbit turns about it
     Similarity home;       ///< room from physical space: what reset returns to
 };

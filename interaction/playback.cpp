@@ -31,18 +31,9 @@ Way swung(const StepTrack& track, const Way& from, double distance, bool to_star
 
 } // namespace
 
-double Playback::gap_in(std::span<const double> times) {
-    const std::pair known{times.size(), times.back()};
-    if (gap_of_ != known) {
-        gap_ = gap_between(times);
-        gap_of_ = known;
-    }
-    return gap_;
-}
-
 Playback::Result Playback::advance(std::span<const double> times, const Moment& from,
                                    const PlaybackState& state, Seconds elapsed,
-                                   const StepRange& range, bool blends) {
+                                   const StepRange& range, const StepGaps* blended) {
     const auto stays = [&](std::uint32_t step) {
         return Result{step, false, state.reverse, from.fraction};
     };
@@ -56,8 +47,7 @@ Playback::Result Playback::advance(std::span<const double> times, const Moment& 
     const std::uint32_t end = state.reverse ? 0 : track.last();
     const bool starts = state.playing && !was_playing_;
     was_playing_ = state.playing;
-    blends = blends && state.every == 1;
-    const double gap = blends ? gap_in(times) : 0.0;
+    const bool blends = blended && state.every == 1;
 
     const bool turned_at_rest = state.reverse != reverse_ && (starts || !state.playing);
     reverse_ = state.reverse;
@@ -68,7 +58,7 @@ Playback::Result Playback::advance(std::span<const double> times, const Moment& 
         place = track.last() - end;
         time_ = blends ? track.start(place) : entry(track, place, state.reverse);
     } else if (blends) {
-        if (track.moment_at(time_, gap) != Moment(step, from.fraction))
+        if (track.moment_at(time_, *blended) != Moment(step, from.fraction))
             time_ = track.time_of({step, from.fraction}, state.reverse);
     } else if (turned_at_rest || track.place_at(time_) != place) {
         time_ = entry(track, place, state.reverse);
@@ -78,7 +68,7 @@ Playback::Result Playback::advance(std::span<const double> times, const Moment& 
 
     const auto shown = [&](bool playing, bool reverse) {
         const Moment now =
-            blends ? track.moment_at(time_, gap) : Moment(track.step(track.place_at(time_)));
+            blends ? track.moment_at(time_, *blended) : Moment(track.step(track.place_at(time_)));
         return Result{now.step, playing, reverse, now.fraction};
     };
     const double distance = track_rate(state, times) * std::max(elapsed.count(), 0.0);

@@ -4,15 +4,14 @@
 #include "interaction/commands.h"
 #include "interaction/step_track.h"
 
-#include <cstddef>
 #include <span>
-#include <utility>
 
 namespace isochron::interaction {
 
 /// The series lasts from its first to its last time plus one mean step, so that the last step is
 /// shown too; at speed 1 that takes 10 s. A step is shown from its own time up to the time of the
-/// next one that is shown; blended, it is shown at its own time alone. Playing keeps to its range (`StepTrack`); what is shown at rest does not.
+/// next one that is shown; blended, it is shown at its own time alone. Playing keeps to its range
+/// (`StepTrack`); what is shown at rest does not.
 class Playback {
   public:
     struct Result {
@@ -26,16 +25,12 @@ class Playback {
     /// at its last step starts over from the other end. Fewer than two steps never play.
     /// @param times physical times of the steps, increasing
     /// @param from the moment that is shown
-    /// @param blends time is shown between the steps, too; else only steps are
+    /// @param blended time is shown between the steps, too, but for these gaps; null: only steps are
     Result advance(std::span<const double> times, const Moment& from, const PlaybackState& state,
-                   Seconds elapsed, const StepRange& range = {}, bool blends = false);
+                   Seconds elapsed, const StepRange& range = {}, const StepGaps* blended = nullptr);
 
   private:
-    double gap_in(std::span<const double> times);
-
     double time_ = 0; ///< on the track
-    double gap_ = 0;  ///< `gap_between` of as many steps, up to this time
-    std::pair<std::size_t, double> gap_of_{};
     bool reverse_ = false;
     bool was_playing_ = false;
 };

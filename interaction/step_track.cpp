@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace isochron::interaction {
@@ -54,9 +53,9 @@ std::uint32_t StepTrack::place_at(double time) const {
     return std::max(low, 1u) - 1;
 }
 
-Moment StepTrack::moment_at(double time, double gap) const {
+Moment StepTrack::moment_at(double time, const StepGaps& gaps) const {
     const std::uint32_t place = place_at(time), at = step(place);
-    if (place >= last() || every_ != 1 || times_[at + 1] - times_[at] > gap)
+    if (place >= last() || every_ != 1 || gaps.behind(at))
         return at;
     const double begin = start(place);
     const double share = std::clamp((time - begin) / (start(place + 1) - begin), 0.0, 1.0);
@@ -70,17 +69,6 @@ double StepTrack::time_of(const Moment& moment, bool reverse) const {
         return start(place);
     return std::lerp(start(place), start(place + 1),
                      static_cast<double>(moment.fraction) / kFractions);
-}
-
-double gap_between(std::span<const double> times) {
-    if (times.size() < 2)
-        return 0.0;
-    std::vector<double> apart(times.size());
-    std::adjacent_difference(times.begin(), times.end(), apart.begin());
-    const auto middle = apart.begin() + 1 + static_cast<std::ptrdiff_t>((times.size() - 1) / 2);
-    std::nth_element(apart.begin() + 1, std::min(middle, apart.end() - 1), apart.end());
-    constexpr double kMost = 3.0;
-    return kMost * *std::min(middle, apart.end() - 1);
 }
 
 double period(std::span<const double> times) {

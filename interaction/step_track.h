@@ -2,6 +2,7 @@
 #pragma once
 
 #include "interaction/setting_values.h"
+#include "interaction/step_gaps.h"
 
 #include <cstdint>
 #include <optional>
@@ -33,8 +34,8 @@ class StepTrack {
     std::uint32_t place_at(double time) const;
     /// The moment at a time where steps are blended, rounded once. Only steps next to each other
     /// are: others are held, and so are the last one and those before a gap.
-    /// @param gap times between steps above this are gaps
-    Moment moment_at(double time, double gap) const;
+    /// @param gaps of the whole series
+    Moment moment_at(double time, const StepGaps& gaps) const;
     /// When a moment of the track comes. @param reverse as `place_of`
     double time_of(const Moment& moment, bool reverse) const;
 
@@ -48,9 +49,6 @@ inline constexpr double kRoundSeconds = 10.0; ///< [s] of one whole series at sp
 
 /// How far time that plays moves on a `StepTrack` in a second.
 double track_rate(const PlaybackState& state, std::span<const double> times);
-
-/// Steps farther apart than this are not blended: three times the median distance.
-double gap_between(std::span<const double> times);
 
 /// Physical duration of one round: last minus first time plus one mean step; 0 for one step.
 double period(std::span<const double> times);

@@ -5,6 +5,7 @@
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/index_report.h"
+#include "app/indexing/series_report.h"
 #include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/error.h"
@@ -44,6 +45,8 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
     text += "\n";
     for (const std::string& note : info.notes)
         text += fmt::format("note: {}\n", note);
+    if (const std::string gaps = gaps_text(info); !gaps.empty())
+        text += fmt::format("note: a gap {}\n", gaps);
     const index::IndexStats& stats = file.stats();
     if (const std::uint64_t all = info.grid.vertex_count() * info.steps(); stats.nan_values == all)
         text += fmt::format("note: all {} values are missing: no surface can be "

@@ -69,7 +69,7 @@ interaction::Recording steps_seen(Session& session, const Config& config,
     session.set_state(start);
     PictureNote view = session.note();
     play_steps(movie, info.steps(), view.state);
-    interaction::Recording recording = series_seen(header, view, info.times, rate);
+    interaction::Recording recording = series_seen(header, view, session.times(), rate);
     session.set_state(start_of(recording.header, session.state(), info.steps(), {}));
     return recording;
 }

@@ -2,6 +2,7 @@
 #include "app/frame/explorer_state.h"
 
 #include "index/export/surface_writer.h"
+#include "index/volume/step_gaps.h"
 #include "interaction/command_fields.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/recording/commands_json.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <concepts>
 #include <numeric>
+#include <span>
 #include <string_view>
 
 namespace isochron::app {
@@ -242,6 +244,11 @@ interaction::Commands ExplorerState::way_to_start(const ExplorerState& start) co
     way.steps.reset();
     way.follow.reset();
     return way;
+}
+
+interaction::StepTimes known_times(const index::SeriesInfo& info, std::size_t steps) {
+    const auto known = std::span(info.times).first(steps == 0 ? info.steps() : steps);
+    return {{known.begin(), known.end()}, interaction::StepGaps(index::gaps_of(info, steps))};
 }
 
 double quantile(const index::IndexStats& stats, double share) {

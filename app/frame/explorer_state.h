@@ -3,6 +3,7 @@
 
 #include "index/file/index_file.h"
 #include "interaction/commands.h"
+#include "interaction/step_gaps.h"
 #include "stereo/stereo_mode.h"
 
 #include <algorithm>
@@ -49,6 +50,9 @@ struct ExplorerState : interaction::Settings {
     index::SurfacesQuery surfaces() const;
     bool operator==(const ExplorerState&) const = default;
 };
+
+/// When the first steps of a series are, and where it has gaps. @param steps 0: all
+interaction::StepTimes known_times(const index::SeriesInfo& info, std::size_t steps);
 
 /// The quantile of all values, to within a bin of the histogram: `share` of them are at most this.
 /// @param share 0 to 1

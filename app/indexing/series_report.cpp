@@ -3,6 +3,7 @@
 
 #include "app/config/first_placement.h"
 #include "app/text.h"
+#include "index/volume/step_gaps.h"
 #include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
@@ -83,6 +84,18 @@ nlohmann::ordered_json dates_of(const SeriesInfo& info) {
     return dates;
 }
 
+bool is_missing(const SeriesInfo& info, std::uint32_t step) {
+    return std::ranges::binary_search(info.missing_after, step);
+}
+
+/// The gaps of the series, and why each is one.
+nlohmann::ordered_json gaps_of_time(const SeriesInfo& info) {
+    nlohmann::ordered_json gaps = nlohmann::ordered_json::array();
+    for (const std::uint32_t step : index::gaps_of(info))
+        gaps.push_back({{"after_step", step}, {"numbers_are_missing", is_missing(info, step)}});
+    return gaps;
+}
+
 /// Of the finite values of a step, scaled.
 struct ValueRange {
     double low = std::numeric_limits<double>::infinity();
@@ -111,6 +124,25 @@ ValueRange range_of(index::VolumeSeries& series, std::size_t step) {
 }
 
 } // namespace
+
+std::string gaps_text(const SeriesInfo& info) {
+    constexpr std::size_t kNamed = 4;
+    const std::vector<std::uint32_t> gaps = index::gaps_of(info);
+    std::vector<std::string> named;
+    for (const std::uint32_t step : gaps) {
+        if (named.size() == kNamed) {
+            named.push_back(fmt::format("{} more", gaps.size() - kNamed));
+            break;
+        }
+        named.push_back(fmt::format("between steps {} and {} ({})", step, step + 1,
+                                    is_missing(info, step)
+                                        ? "numbers are missing in the names"
+                                        : "more than three times the usual time"));
+    }
+    return named.empty() ? ""
+                         : fmt::format("{}: where steps are blended, the step before is held",
+                                       fmt::join(named, ", "));
+}
 
 std::string text_of(const SeriesInfo& info) {
     const Grid& grid = info.grid;
@@ -144,6 +176,8 @@ std::string text_of(const SeriesInfo& info) {
     case index::Anatomy::none: break;
     }
     line("steps", times_text(info));
+    if (const std::string gaps = gaps_text(info); !gaps.empty())
+        line("gaps", gaps);
     line("type", std::string(index::name_of(info.type)));
     if (info.scaling != index::Scaling{})
         line("scaling",
@@ -170,6 +204,7 @@ nlohmann::ordered_json json_of(const SeriesInfo& info) {
             {"time_unit", info.time_unit},
             {"dates", dates_of(info)},
             {"uniform_time", uniform(info.times)},
+            {"gaps", gaps_of_time(info)},
             {"type", index::name_of(info.type)},
             {"slope", info.scaling.slope},
             {"intercept", info.scaling.intercept}};

@@ -9,6 +9,9 @@
 
 namespace isochron::app {
 
+/// Between which steps, counted from 0, the step before is held where steps are blended, and why:
+/// `between steps 2 and 3 (numbers are missing in the names): ...`. Empty: nowhere.
+std::string gaps_text(const index::SeriesInfo& info);
 /// A line each for array, grid, steps and type.
 std::string text_of(const index::SeriesInfo& info);
 nlohmann::ordered_json json_of(const index::SeriesInfo& info);

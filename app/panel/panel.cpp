@@ -7,6 +7,7 @@
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/time_bar.h"
+#include "app/panel/parts/time_track.h"
 #include "app/panel/parts/view_cube.h"
 
 #include <imgui.h>
@@ -38,13 +39,22 @@ void end_part() {
     ImGui::PopStyleColor();
 }
 
-/// The strip by which a hand carries the panel in the room.
+/// The strip by which a hand carries the panel in the room; says between which steps the moment lies,
+/// or that a gap is held, where both have room.
 void title_of(const PanelModel& model, const PanelPlaces& places) {
     const PanelBox box{{0.0f, 0.0f}, {places.top.high.x, places.top.low.y}};
     begin_part("###title", box, Ink::chosen);
     const std::string words = "Isochron: " + model.info.array;
     ImGui::SetCursorPosY((box.size().y - ImGui::GetFontSize()) / 2);
     ImGui::TextUnformatted(words.c_str());
+    const std::string held = held_text(model);
+    const float wide = ImGui::CalcTextSize(words.c_str()).x,
+                wants = ImGui::CalcTextSize(held.c_str()).x;
+    const float margin = ImGui::GetStyle().WindowPadding.x;
+    if (wide + wants + 4 * margin < box.size().x) {
+        ImGui::SameLine(box.size().x - wants - margin);
+        text(held);
+    }
     end_part();
 }
 
@@ -84,6 +94,7 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
         return;
     }
     const float right = state_chip(model, free, view.statistics);
+    gap_window(model, free);
     view_cube(model, free, commands);
     view.below_chip = free.low.y + 10.0f;
     if (!has_tool_strip(model))

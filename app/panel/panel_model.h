@@ -87,6 +87,7 @@ struct PanelModel {
     interaction::DataFrame data{};
     const ExplorerState& asked;
     const FrameReport& frame;
+    std::span<const std::uint32_t> gaps{}; ///< steps behind which playing holds, ascending
     PanelArrays arrays{};
     PanelColors colors{};
     PanelWork work{};

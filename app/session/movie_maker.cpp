@@ -250,7 +250,8 @@ interaction::RecordingHeader sized(interaction::RecordingHeader header,
 constexpr double kMostMoments = 1 << 20;
 
 interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
-                                   std::span<const double> times, double rate) {
+                                   const interaction::StepTimes& all, double rate) {
+    const std::span<const double> times = all.at;
     interaction::Recording recording;
     header.data_hash = view.data_hash;
     header.start = view.state;
@@ -278,12 +279,11 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
                         played.every == 1 && std::isfinite(seconds) && per_second > 0 &&
                         seconds * rate >= track.last();
     if (blends) {
-        const double gap = interaction::gap_between(times);
         const auto count = static_cast<std::uint64_t>(std::min(seconds * rate, kMostMoments));
         for (std::uint64_t i = 0; i <= count; ++i) {
             start = static_cast<double>(i) / rate;
             const double at = played.reverse ? seconds - start : start;
-            const interaction::Moment moment = track.moment_at(at * per_second, gap);
+            const interaction::Moment moment = track.moment_at(at * per_second, all.gaps);
             interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
             frame.input.time = Seconds(start);
             frame.commands.step = moment.step;

@@ -5,12 +5,12 @@
 #include "app/output/picture_note.h"
 #include "app/panel/panel_model.h"
 #include "interaction/recording/recording.h"
+#include "interaction/step_gaps.h"
 
 #include <filesystem>
 #include <functional>
 #include <future>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -90,9 +90,9 @@ interaction::RecordingHeader sized(interaction::RecordingHeader header,
 /// place in the best quality.
 /// @param header of the session
 /// @param view what is seen, see `Session::note`
-/// @param times of the steps, increasing
+/// @param times of the steps
 /// @param rate frames per second: each step is shown for at least one
 interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
-                                   std::span<const double> times, double rate);
+                                   const interaction::StepTimes& times, double rate);
 
 } // namespace isochron::app

@@ -19,8 +19,9 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
                  std::unique_ptr<stereo::Headset> headset)
     : config_(std::move(config)), outputs_(config_, std::move(windows), std::move(headset)),
       state_(start_state(config_, file)), home_(state_), arrays_(config_, file, home_),
-      times_(file->info().times), gate_(config_.quality.stillness), comfort_(config_.comfort),
-      scene_(outputs_.gl(), file->info(), config_), panel_(config_, outputs_), picker_(file),
+      times_(known_times(file->info(), 0)), gate_(config_.quality.stillness),
+      comfort_(config_.comfort), scene_(outputs_.gl(), file->info(), config_),
+      panel_(config_, outputs_), picker_(file),
       supply_(config_, file, scene_.cells(), std::move(extract),
               render::CellBuffers::wanted_shading(outputs_.gl())),
       pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
@@ -32,10 +33,6 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
 
 bool Session::should_close() const {
     return outputs_.windows().should_close() || frames_->close_wanted();
-}
-
-std::string Session::failure() const {
-    return frames_->failure(supply_.extractor());
 }
 
 std::string Session::drawing() const {
@@ -71,7 +68,8 @@ interaction::ControlContext Session::control_context(const interaction::Ways& wa
     return {.settings = state_,
             .series = {.low = array.stats().low,
                        .high = array.stats().high,
-                       .times = &times_,
+                       .times = &times_.at,
+                       .gaps = &times_.gaps,
                        .pivot = physical_center(arrays_.file()->info().grid),
                        .home = home_.room_from_physical},
             .color_arrays = {&arrays_.color_names(), color_array(state_, *arrays_.file())},
@@ -143,6 +141,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .data = data_frame(arrays_.file()->info()),
             .asked = state_,
             .frame = report,
+             .gaps = times_.gaps.steps(),
             .arrays = arrays_.in_panel(state_),
             .colors = {.range = scale ? scale->range : std::array{0.0, 0.0},
                        .own_maps = config_.color_maps},
@@ -296,12 +295,11 @@ PictureNote Session::note() const {
 void Session::obey(const Commands& commands, const interaction::InputState& input) {
     const ExplorerState before = state_;
     grow_with(commands);
-    const std::vector<double>& times = arrays_.file()->info().times;
-    state_.apply(commands, times.size());
+    state_.apply(commands, arrays_.file()->info().steps());
     if (arrays_.turn(before, state_))
         picker_.set_file(arrays_.held(state_));
-    if (times_.size() != steps())
-        times_.assign(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(steps()));
+    if (times_.at.size() != steps())
+        times_ = known_times(arrays_.file()->info(), steps());
     history_.add(before, state_, commands, input);
     if (commands.screenshot)
         captures_.ask();

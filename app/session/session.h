@@ -136,8 +136,8 @@ class Session {
     void set_recording(bool recording) { panel_.set_recording(recording); }
     /// Sets what the panel shows about movies from now on.
     void set_movies(const MovieState& movies) { panel_.set_movies(movies); }
-    /// Times of the known steps.
-    std::span<const double> times() const { return times_; }
+    /// Of the known steps.
+    const interaction::StepTimes& times() const { return times_; }
 
     /// Sets the file name of the data, for the notes in pictures.
     /// @param recorded_on hash of the recording's data, if those are others
@@ -151,7 +151,7 @@ class Session {
     std::optional<ColorScale> scale() const { return pictures_.scale(state_); } ///< of all colors
 
     /// Why the newest query could not be answered; empty when all is well.
-    std::string failure() const;
+    std::string failure() const { return frames_->failure(supply_.extractor()); }
     /// The windows or headset that show the frames, and write pictures.
     Outputs& outputs() { return outputs_; }
     const Outputs& outputs() const { return outputs_; }
@@ -184,7 +184,7 @@ class Session {
     ExplorerState state_;
     ExplorerState home_;
     ShownArrays arrays_;
-    std::vector<double> times_; ///< of the known steps
+    interaction::StepTimes times_; ///< of the known steps
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;

@@ -211,21 +211,44 @@ ChunkLayerPtr BetweenSteps::layer(std::uint32_t layer) const {
     return made;
 }
 
+void BetweenSteps::blend_bricks(const Chunk& now, const Chunk& next, Chunk& out) const {
+    out.bricks = now.bricks;
+    if (store_.has_bricks())
+        ranks().blend(std::span(out.bricks).first(kBricksOfChunk),
+                      std::span(out.bricks).last(kBricksOfChunk),
+                      std::span(next.bricks).first(kBricksOfChunk),
+                      std::span(next.bricks).last(kBricksOfChunk));
+}
+
 ChunkPtr BetweenSteps::blended(const Chunk& now, const Chunk& next) const {
     const auto made = std::make_shared<BlendedChunk>(store_.for_blends().spare);
     made->size = now.size;
-    made->bricks = now.bricks;
-    if (store_.has_bricks())
-        ranks().blend(std::span(made->bricks).first(kBricksOfChunk),
-                      std::span(made->bricks).last(kBricksOfChunk),
-                      std::span(next.bricks).first(kBricksOfChunk),
-                      std::span(next.bricks).last(kBricksOfChunk));
+    blend_bricks(now, next, *made);
     const std::size_t count = now.values.size() / size_of(store_.info().type);
     const std::size_t bytes = count * size_of(blend_.type());
     auto* const values = reinterpret_cast<std::byte*>(made->memory.get());
     blend_(now.values, next.values, values);
     made->values = {values, bytes};
     return made;
+}
+
+std::vector<ChunkPtr> BetweenSteps::pairs(std::uint32_t layer,
+                                          std::span<const std::uint32_t> places,
+                                          const std::stop_token& stop) const {
+    store_.expect(at_.step + 1, layer, places); // announced before the first step is waited for
+    std::vector<ChunkPtr> now = store_.chunks(at_.step, layer, places, stop);
+    std::vector<ChunkPtr> next = store_.chunks(at_.step + 1, layer, places, stop);
+    std::vector<ChunkPtr> pairs;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto pair = std::make_shared<ChunkPair>();
+        pair->size = now[i]->size;
+        pair->values = now[i]->values;
+        blend_bricks(*now[i], *next[i], *pair);
+        pair->now = std::move(now[i]);
+        pair->next = std::move(next[i]);
+        pairs.push_back(pair);
+    }
+    return pairs;
 }
 
 std::vector<ChunkPtr> BetweenSteps::chunks(std::uint32_t layer,

@@ -46,6 +46,12 @@ class BlendedRanks {
     bool reversed_; ///< larger stored values are smaller scaled ones
 };
 
+/// A place at both steps, for whoever blends only the values that are needed: `bricks` are bounds of
+/// the blends, `values` the first step's.
+struct ChunkPair : Chunk {
+    ChunkPtr now, next;
+};
+
 /// What a store has at a moment between two of its steps. Keeps what it has blended, up to a limit.
 /// Thread-safe; throws as ChunkStore does.
 class BetweenSteps {
@@ -58,6 +64,9 @@ class BetweenSteps {
     ChunkLayerPtr layer(std::uint32_t layer) const;
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                  const std::stop_token& stop) const;
+    /// Likewise, each a ChunkPair.
+    std::vector<ChunkPtr> pairs(std::uint32_t layer, std::span<const std::uint32_t> places,
+                                const std::stop_token& stop) const;
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;
     std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
                         const std::stop_token& stop) const;
@@ -68,6 +77,7 @@ class BetweenSteps {
 
   private:
     const BlendedRanks& ranks() const;
+    void blend_bricks(const Chunk& now, const Chunk& next, Chunk& out) const;
     ChunkPtr blended(const Chunk& now, const Chunk& next) const;
 
     const ChunkStore& store_;

@@ -2,6 +2,7 @@
 #include "index/file/blend_advice.h"
 
 #include "index/file/step_view.h"
+#include "index/volume/step_gaps.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -47,11 +48,22 @@ std::vector<T> spread(const std::vector<T>& all, std::size_t most) {
     return some;
 }
 
-std::vector<SampledChunk> sampled(const ChunkStore& store, const IndexStats& stats) {
-    const auto steps = static_cast<std::uint32_t>(store.info().steps());
-    const std::uint32_t beside = steps >= 5 ? 2 : 1; // steps that each side must have
+/// The steps that can be left out: they have others at either side, without a gap between them, as
+/// gaps are not blended. Where there are none without a gap, all.
+std::vector<std::uint32_t> middle_steps(const SeriesInfo& info) {
+    const auto steps = static_cast<std::uint32_t>(info.steps());
+    const std::uint32_t beside = steps >= 5 ? 2 : 1;
     std::vector<std::uint32_t> middle(steps - 2 * beside);
     std::iota(middle.begin(), middle.end(), beside);
+    std::vector<std::uint32_t> whole = middle;
+    for (const std::uint32_t gap : gaps_of(info))
+        std::erase_if(
+            whole, [&](std::uint32_t step) { return gap + beside >= step && gap < step + beside; });
+    return whole.empty() ? middle : whole;
+}
+
+std::vector<SampledChunk> sampled(const ChunkStore& store, const IndexStats& stats) {
+    const std::vector<std::uint32_t> middle = middle_steps(store.info());
     std::vector<SampledChunk> all;
     for (const std::uint32_t step : spread(middle, kMostSampledSteps))
         for (const double share : kQuantiles) {

@@ -78,6 +78,14 @@ class StepView {
         return between_ ? between_->chunks(layer, places, stop)
                         : store_->chunks(at_, layer, places, stop);
     }
+    /// For a ChunkCube, by chunks: between two steps pairs, of which it blends what it needs.
+    std::vector<ChunkPtr> cube_chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
+                                      const std::stop_token& stop) const {
+        return between_ ? between_->pairs(layer, places, stop)
+                        : store_->chunks(at_, layer, places, stop);
+    }
+    /// Of these pairs; null at a step.
+    const Blend* cube_blend() const { return between_ ? &*blend_ : nullptr; }
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
         if (!by_chunks())
             return 0;

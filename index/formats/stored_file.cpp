@@ -227,6 +227,9 @@ void expect_measurable(const Grid& grid, const ReadOptions& options) {
     constexpr double kMost = 1e30;
     const auto text = [](const glm::dvec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
     for (int axis = 0; axis < 3; ++axis) {
+        if (options.spacing && (!(grid.spacing[axis] > 0) || !std::isfinite(grid.spacing[axis])))
+            throw Error(
+                fmt::format("--spacing: ({}), expected positive numbers", text(*options.spacing)));
         if (options.spacing && !(grid.spacing[axis] * grid.vertices[axis] < kMost))
             throw Error(fmt::format("--spacing: {}, expected a volume of less than {:g} along each "
                                     "axis",

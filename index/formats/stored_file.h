@@ -41,7 +41,8 @@ void set_axes(Grid& grid, const glm::dmat3& steps, const std::string& file);
 /// @throws Error naming the file
 void expect_few_steps(std::size_t steps, const std::string& file);
 
-/// Sizes that are given must be such that pictures, which have single precision, can show them.
+/// Sizes that are given must be above 0, and such that pictures, which have single precision, can
+/// show them.
 /// @throws Error naming the option
 void expect_measurable(const Grid& grid, const ReadOptions& options);
 

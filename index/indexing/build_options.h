@@ -46,6 +46,9 @@ struct BuildOptions {
     /// How the files are read, for steps that are appended later; without array and component.
     std::optional<ReadOptions> reading = {};
     bool replaces_any = false; ///< also a file that is no index
+    /// Measure what blends between the steps are worth. Without it the index does not say, as those of
+    /// older programs do not; benchmarks compare the times.
+    bool measures_blends = true;
     /// Further arrays, each with its own levels and tiers; fewer than kMostArrays.
     std::vector<FurtherArray> further = {};
 };

@@ -11,6 +11,7 @@ FirstSteps::FirstSteps(VolumeSeries& whole, std::size_t steps)
     if (info_.sources.size() == info_.steps()) // else all steps are in the same files
         info_.sources.resize(steps);
     info_.times.resize(steps);
+    std::erase_if(info_.missing_after, [&](std::uint32_t step) { return step + 1 >= steps; });
 }
 
 std::unique_ptr<VolumeSeries> FirstSteps::another() const {

@@ -166,7 +166,6 @@ class Arrays {
 void measure(ArraySections& array, const ByteSource& written, std::uint32_t version) {
     constexpr std::uint64_t kCache = 32 << 20;
     Metadata& metadata = array.metadata;
-    metadata.blends.reset();
     ChunkArray volume{.called = "volume",
                       .info = metadata.info,
                       .steps = array.steps,
@@ -200,8 +199,11 @@ bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const B
             return;
         auto sections = arrays.take_sections();
         const auto written = open_bytes(target.path_to_read(out));
-        for (ArraySections& array : sections)
-            measure(array, *written, header.version);
+        for (ArraySections& array : sections) {
+            array.metadata.blends.reset();
+            if (all.measures_blends)
+                measure(array, *written, header.version);
+        }
         write_sections(sections, held, end, header, target.sink());
     });
     arrays.report_flushing();

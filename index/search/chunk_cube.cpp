@@ -47,6 +47,32 @@ void copy_rows_of_width(const Rows& rows, std::size_t width) {
     }
 }
 
+/// The part of a chunk, as rows side by side.
+struct Part {
+    std::size_t first;             ///< bytes before it
+    std::size_t row, plane, width; ///< bytes
+    std::uint32_t rows, planes;
+
+    std::size_t bytes() const { return width * rows * planes; }
+    bool is_dense() const { return width == row && width * rows == plane; }
+};
+/// @param room for the part, where its rows are apart @return its values side by side
+std::span<const std::byte> dense(const Part& part, std::span<const std::byte> values,
+                                 std::byte* room) {
+    if (part.is_dense())
+        return values.subspan(part.first, part.bytes());
+    copy_rows_of_width({.from = values.data() + part.first,
+                        .to = room,
+                        .from_row = part.row,
+                        .from_plane = part.plane,
+                        .to_row = part.width,
+                        .to_plane = part.width * part.rows,
+                        .rows = part.rows,
+                        .planes = part.planes},
+                       part.width);
+    return {room, part.bytes()};
+}
+
 } // namespace
 
 void ChunkCube::begin(const StepView& step, const std::array<std::uint32_t, 3>& at) {
@@ -60,6 +86,8 @@ void ChunkCube::begin(const StepView& step, const std::array<std::uint32_t, 3>& 
     values_.first = reinterpret_cast<const std::byte*>(memory_.data());
     values_.stride = memory_.size() * sizeof(std::uint64_t);
     values_.first_step = step.at();
+    blend_ = step.cube_blend();
+    stored_ = size_of(step.store().info().type);
     std::array<std::uint32_t, 3> begin{}, end{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::uint32_t first = at[axis] * kChunkEdge, all = grid.vertices[axis];
@@ -99,21 +127,36 @@ void ChunkCube::copy(unsigned bit, const Chunk& chunk) {
             break;
         }
     }
-    const std::size_t word = size_of(values_.type);
-    const std::size_t from_row = chunk.size[0] * word, from_plane = chunk.size[1] * from_row;
+    const std::size_t word = size_of(values_.type), stored = blend_ ? stored_ : word;
+    Part part{0, chunk.size[0] * stored, 0, size[0] * stored, size[1], size[2]};
+    part.plane = chunk.size[1] * part.row;
+    part.first = from[2] * part.plane + from[1] * part.row + from[0] * stored;
+    const std::byte* first = chunk.values.data() + part.first;
+    if (blend_) {
+        constexpr std::size_t kMost =
+            std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge; // of 8 bytes
+        part_.resize(3 * kMost);
+        const auto& pair = static_cast<const ChunkPair&>(chunk);
+        auto* const blended = reinterpret_cast<std::byte*>(part_.data());
+        auto* const a = reinterpret_cast<std::byte*>(part_.data() + kMost);
+        auto* const b = reinterpret_cast<std::byte*>(part_.data() + 2 * kMost);
+        (*blend_)(dense(part, pair.now->values, a), dense(part, pair.next->values, b), blended);
+        first = blended;
+        part.row = size[0] * word;
+        part.plane = size[1] * part.row;
+    }
     const std::size_t to_row = values_.grid.vertices[0] * word;
     const std::size_t to_plane = values_.grid.vertices[1] * to_row;
     auto* const out = reinterpret_cast<std::byte*>(memory_.data());
-    copy_rows_of_width(
-        {.from = chunk.values.data() + from[2] * from_plane + from[1] * from_row + from[0] * word,
-         .to = out + to[2] * to_plane + to[1] * to_row + to[0] * word,
-         .from_row = from_row,
-         .from_plane = from_plane,
-         .to_row = to_row,
-         .to_plane = to_plane,
-         .rows = size[1],
-         .planes = size[2]},
-        size[0] * word);
+    copy_rows_of_width({.from = first,
+                        .to = out + to[2] * to_plane + to[1] * to_row + to[0] * word,
+                        .from_row = part.row,
+                        .from_plane = part.plane,
+                        .to_row = to_row,
+                        .to_plane = to_plane,
+                        .rows = size[1],
+                        .planes = size[2]},
+                       size[0] * word);
 }
 
 } // namespace isochron::index

@@ -20,7 +20,7 @@ class ChunkCube {
     /// @param at coordinates of the chunk
     void begin(const StepView& step, const std::array<std::uint32_t, 3>& at);
     /// Copies the part of a chunk that lies in the cube: the chunk at an offset (bit of
-    /// ChunksAround).
+    /// ChunksAround). @param chunk from `StepView::cube_chunks`; of a pair that part alone is blended
     void copy(unsigned bit, const Chunk& chunk);
 
     /// The whole cube, as a grid of its own. Where the cube reaches the border of the whole grid,
@@ -32,8 +32,10 @@ class ChunkCube {
     const std::array<std::uint32_t, 3>& cells() const { return cells_; }
 
   private:
-    std::vector<std::uint64_t> memory_;
+    std::vector<std::uint64_t> memory_, part_; ///< of the cube, and of a part that is blended
     StepValues values_;
+    const Blend* blend_ = nullptr; ///< of pairs; null at a step
+    std::size_t stored_ = 0;       ///< bytes of a value of theirs
     std::array<std::uint32_t, 3> first_{}, cells_{};
 };
 

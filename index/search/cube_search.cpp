@@ -181,7 +181,7 @@ void CubeSearch::fetch(const LayerCandidates& candidates, const std::stop_token&
         const std::vector<std::uint32_t> places = std::exchange(missing_[i], {});
         if (places.empty())
             continue;
-        std::vector<ChunkPtr> chunks = step_->chunks(layer_ + i - 1, places, stop);
+        std::vector<ChunkPtr> chunks = step_->cube_chunks(layer_ + i - 1, places, stop);
         for (std::size_t at = 0; at < places.size(); ++at) {
             there_[i][places[at]] = chunks[at].get();
             held_.push_back(std::move(chunks[at]));

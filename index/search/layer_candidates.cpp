@@ -71,7 +71,7 @@ LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
     for (std::uint32_t i = 0; i < tables_.size(); ++i)
         if (layer + i > 0 && layer + i - 1 < grid.layers())
             tables_[i] = step.layer(layer + i - 1);
-    chunks_ = step.chunks(layer, places_, stop);
+    chunks_ = step.cube_chunks(layer, places_, stop);
     for (std::size_t i = 0; i < places_.size(); ++i) {
         bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
         if (staying)

@@ -36,6 +36,8 @@ struct SeriesInfo {
     Scaling scaling;
     std::vector<double>
         times; ///< physical time of every step, increasing; the step number if unknown
+    /// Steps, ascending, behind which numbers or dates are missing in the names of the files.
+    std::vector<std::uint32_t> missing_after;
     std::vector<std::string> sources; ///< file names, natural order
     std::vector<std::string> notes;   ///< what a user should know: `cell data averaged to vertices`
 

@@ -64,6 +64,14 @@ std::vector<Bookmark> toggled(const std::vector<Bookmark>& bookmarks, const Mome
 /// A stick that is pushed at least so far counts as a key.
 constexpr double kPushed = 0.5;
 
+/// The gaps where time that plays between the steps holds; null where steps are not blended.
+const StepGaps* blended(const ControlContext& context) {
+    static const StepGaps kNone;
+    if (!context.settings.blends())
+        return nullptr;
+    return context.series.gaps ? context.series.gaps : &kNone;
+}
+
 /// How fast time is pushed on, -1 to 1.
 double push_rate(const Reading& now, bool blends) {
     const double stick = blends ? now.wand_rate(WandValuator::step) : 0.0;
@@ -89,8 +97,10 @@ Moment TimeControls::moved(const Reading& now, const ControlContext& context, Se
                                    time);
     for (int i = back; i < forward; ++i)
         to = next_step(to.step, by, steps);
-    for (int i = forward; i < back; ++i) // the step before a moment is the one that it follows
-        to = to.fraction > 0 ? to.step : previous_step(to.step, by, steps);
+    for (int i = forward; i < back; ++i) { // the step before a moment is the one that it follows
+        const bool between = to.fraction > 0 && to.step + 1 < steps; // the last step holds
+        to = between ? to.step : previous_step(to.step, by, steps);
+    }
     if (now.pressed(Action::first_step))
         to = first_of(settings.play_range, steps);
     if (now.pressed(Action::last_step))
@@ -124,7 +134,7 @@ Moment TimeControls::pushed(const Reading& now, const ControlContext& context, c
         state.reverse ? first_of(settings.play_range, steps) : last_of(settings.play_range, steps);
     state.playing = state.playing && from != end; // it would start over
     const Playback::Result reached =
-        pushed_.advance(times, from, state, elapsed, settings.play_range, settings.blends());
+        pushed_.advance(times, from, state, elapsed, settings.play_range, blended(context));
     return state.playing ? Moment(reached.step, reached.fraction) : from;
 }
 
@@ -145,7 +155,7 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
     if (to != from || push_rate(now, settings.blends()) != 0)
         state.playing = false;
     const Playback::Result reached =
-        playback_.advance(times, to, state, elapsed, range, settings.blends());
+        playback_.advance(times, to, state, elapsed, range, blended(context));
     state.playing = reached.playing;
     state.reverse = reached.reverse;
     if (Moment(reached.step, reached.fraction) != from) {

@@ -3,18 +3,13 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/progress_bar.h"
 #include "index/extraction/extraction.h"
-#include "index/file/blend_advice.h"
-#include "index/file/index_series.h"
 #include "index/file/named_index.h"
-#include "index/indexing/index_build.h"
 #include "index/search/index_search.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/between_steps.h"
 #include "tests/bench/measures/data_sets.h"
 #include "tests/bench/measures/isovalues.h"
-#include "tests/bench/measures/stopwatch.h"
-#include "tests/bench/measures/timing.h"
 #include "tests/bench/measures/work_folder.h"
 #include "tests/bench/motion/step_jumps.h"
 #include "tests/bench/text_file.h"
@@ -22,7 +17,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -123,16 +118,20 @@ void run_bench_between(const BetweenArguments& arguments) {
     {
         double own = 0;
         const auto demo = built("vorticity", index::ValueType::f32, own, std::nullopt);
-        const auto series = index::open_index_series(demo->name(), {});
-        const Stopwatch watch(Stopwatch::Of::all_threads);
-        index::build_index(*series, folder.path() / "again.isochron", {});
-        const double all = watch.seconds();
-        const Stopwatch measuring(Stopwatch::Of::all_threads);
-        index::measure_blends(demo->chunks(), demo->stats());
-        add({"demo: building with the measurement of blends over without",
-             all / (all - measuring.seconds()), 1.05, 1.15});
         add_jumps("demo", demo, std::nullopt);
     }
+    const auto add_building = [&](const std::string& name, const std::string& data,
+                                  std::optional<std::size_t> steps) {
+        constexpr unsigned kMost = 7;
+        const auto series = made_series(data_set(data, index::ValueType::f32, steps),
+                                        [&](std::string_view, double) { signals.check(); });
+        add({fmt::format("{}: building, with what blends are worth measured over without", name),
+             time_of_measuring(*series, folder.path() / "again.isochron",
+                               std::min(arguments.repeats, kMost), [&] { signals.check(); }),
+             1.05, 1.15});
+    };
+    add_building("demo", "vorticity", std::nullopt);
+    add_building(arguments.data, arguments.data, 3);
     for (const std::string& path : arguments.played)
         add_jumps(fs::path(path).stem().string(), index::open_named_index(path), std::nullopt);
     const double load = load_of_minute();

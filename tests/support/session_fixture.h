@@ -29,6 +29,7 @@ class MovingSphere final : public index::VolumeSeries {
         info_.sources = {"made in memory"};
     }
     const index::SeriesInfo& info() const override { return info_; }
+    index::SeriesInfo& info() { return info_; }
     void read(std::size_t step, std::span<std::byte> out) override {
         std::size_t at = 0;
         const int edge = static_cast<int>(info_.grid.vertices[0]);

@@ -5,6 +5,7 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/theme.h"
+#include "app/panel/parts/time_track.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -89,6 +90,17 @@ float state_chip(const PanelModel& model, const PanelBox& picture, bool& open) {
     if (open)
         statistics_window(model, picture, corner.y + height + 6.0f);
     return corner.x + width;
+}
+
+void gap_window(const PanelModel& model, const PanelBox& picture) {
+    const std::string held = held_text(model);
+    if (held.empty())
+        return;
+    ImGui::SetNextWindowPos({picture.low.x + kMargin, picture.high.y - kMargin}, ImGuiCond_Always,
+                            {0.0f, 1.0f});
+    ImGui::Begin("###gap", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav);
+    text(held);
+    ImGui::End();
 }
 
 bool message_window(const Said& said, const PanelBox& picture, float top) {

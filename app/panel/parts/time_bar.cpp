@@ -219,11 +219,14 @@ void step_field(const PanelModel& model, Commands& commands) {
     int number = static_cast<int>(model.asked.step) + 1; // people count from 1
     ImGui::SetNextItemWidth(kStepField);
     const index::Instant at = model.asked.instant();
-    const std::string format = at.between() ? fmt::format("between %d and {}", number + 1)
-                                            : fmt::format("step %d of {}", last + 1);
+    const std::string held = held_text(model);
+    const std::string format = at.between()    ? fmt::format("%d to {}", number + 1)
+                               : !held.empty() ? fmt::format("gap: %d to {}", number + 1)
+                                               : fmt::format("step %d of {}", last + 1);
     if (whole_number_field("##step", &number, 1, std::max(1, last + 1), format.c_str()))
         commands.step = static_cast<std::uint32_t>(number - 1);
-    tip("step: drag, or click and type (Left, Right)");
+    tip(((held.empty() ? "" : held + "\n") + "step: drag, or click and type (Left, Right)")
+            .c_str());
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "index/volume/time_unit.h"
 #include "interaction/step_track.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -92,6 +93,49 @@ void steps_at_hand(const Track& track, const PanelModel& model) {
             ImGui::GetWindowDrawList()->AddRectFilled({track.left_of(step), track.low.y},
                                                       {track.left_of(step + 1), track.high.y},
                                                       packed(Ink::columns));
+}
+
+bool is_gap(const PanelModel& model, std::uint32_t step) {
+    return model.asked.blends() && std::ranges::binary_search(model.gaps, step);
+}
+
+std::string gap_text(std::uint32_t step) {
+    return fmt::format("held: a gap between steps {} and {}", step + 1, step + 2);
+}
+
+/// Where steps are blended: the track is open at gaps, and has a tick at every step, or at every so
+/// many of them if these lie close. Those that the shown moment lies between have long ticks.
+void true_steps_on(const Track& track, const PanelModel& model) {
+    if (!model.asked.blends() || track.steps < 2)
+        return;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    float taken = track.low.x;
+    for (const std::uint32_t step : model.gaps) {
+        constexpr float kSeen = 1.0f; // pixels
+        const float end = step + 1 < track.steps ? track.middle_of(step + 1) : track.low.x;
+        if (end < taken + kSeen)
+            continue;
+        list.AddRectFilled({std::max(taken, track.middle_of(step)), track.low.y},
+                           {end, track.high.y}, packed(Ink::bar));
+        taken = end;
+    }
+    const auto tick = [&](std::uint32_t step, float top, Ink ink) {
+        const float x = std::floor(track.middle_of(step));
+        list.AddRectFilled({x, top}, {x + 1, track.high.y}, packed(ink));
+    };
+    constexpr float kApart = 4.0f, kTick = 5.0f; // pixels
+    const float apart = kApart / track.width();
+    std::uint32_t every = 1;
+    for (std::uint32_t factor : {2u, 5u, 10u})
+        if (static_cast<float>(every) < apart)
+            every = factor;
+    while (static_cast<float>(every) < apart)
+        every *= 2;
+    for (std::uint32_t step = 0; step < track.steps; step += every)
+        tick(step, track.high.y - kTick, Ink::dim);
+    const index::Instant now = model.asked.instant();
+    for (std::uint32_t step = now.step; now.between() && step < now.step + 2; ++step)
+        tick(step, track.low.y, Ink::text);
 }
 
 /// The ends of the range as tabs in the lane, joined by a bar; the steps outside are dimmed.
@@ -214,6 +258,14 @@ void lane(const Track& track, const PanelModel& model, Commands& commands) {
     tip_of_lane(near, track, model);
 }
 
+void tip_of_track(const Track& track, const PanelModel& model, std::uint32_t pointed) {
+    std::string words = fmt::format("step {}: {}", pointed + 1, time_of(model, pointed));
+    const interaction::Moment at = track.moment_at(ImGui::GetIO().MousePos.x, 0.0f);
+    if (is_gap(model, at.step))
+        words += "\n" + gap_text(at.step);
+    ImGui::SetTooltip("%s", words.c_str());
+}
+
 /// What can be done with the step that the right button was pressed on.
 void menu_of_step(std::uint32_t step, const PanelModel& model, Commands& commands) {
     if (!ImGui::BeginPopup("step"))
@@ -266,6 +318,13 @@ std::string time_of(const PanelModel& model, std::uint32_t step) {
     return index::time_text(model.info.times, step, model.info.time_unit);
 }
 
+std::string held_text(const PanelModel& model) {
+    const index::Instant now = model.asked.instant();
+    if (now.between())
+        return fmt::format("between steps {} and {}", now.step + 1, now.step + 2);
+    return is_gap(model, now.step) ? gap_text(now.step) : "";
+}
+
 void time_track(const PanelModel& model, Commands& commands) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -293,9 +352,10 @@ void time_track(const PanelModel& model, Commands& commands) {
         commands.step = pointed;
     }
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("step %u: %s", pointed + 1, time_of(model, pointed).c_str());
+        tip_of_track(track, model, pointed);
     ImGui::GetWindowDrawList()->AddRectFilled(track.low, track.high, packed(Ink::control), 3.0f);
     steps_at_hand(track, model);
+    true_steps_on(track, model);
     range_on(track, model.asked.play_range);
     flags_on(track, model);
     handles_on(track, model);

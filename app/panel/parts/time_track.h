@@ -15,7 +15,8 @@ inline constexpr float kLaneHeight = 12.0f, kTrackHeight = 16.0f;
 
 /// Lays lane and track out across the rest of the current window, with times below them. A press on
 /// the track shows a step; the ends of the range are dragged in the lane; a flag leads to its
-/// bookmark; the right button opens a menu of what can be done with a step.
+/// bookmark; the right button opens a menu of what can be done with a step. Where steps are blended,
+/// the track has a tick at each of them, and is open at gaps.
 void time_track(const PanelModel& model, interaction::Commands& commands);
 
 /// Commands that show a moment.
@@ -24,5 +25,8 @@ void show(const interaction::Moment& at, interaction::Commands& commands);
 std::uint32_t last_step(const PanelModel& model);
 /// The time of a step, in words.
 std::string time_of(const PanelModel& model, std::uint32_t step);
+/// `between steps 12 and 13`, or, where the step before a gap is shown, `held: a gap between steps 12
+/// and 13`; at any other step, and where steps are held, empty.
+std::string held_text(const PanelModel& model);
 
 } // namespace isochron::app

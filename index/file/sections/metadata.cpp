@@ -64,6 +64,10 @@ SeriesInfo info_of(const json& j) {
     j.at("slope").get_to(info.scaling.slope);
     j.at("intercept").get_to(info.scaling.intercept);
     j.at("times").get_to(info.times);
+    if (const auto found = j.find("missing_after"); found != j.end()) {
+        info.missing_after.resize(std::min(found->size(), info.steps()));
+        get_whole(*found, info.missing_after);
+    }
     for (const json& source : j.at("sources"))
         info.sources.push_back(exact_text(source));
     j.at("notes").get_to(info.notes);
@@ -193,6 +197,8 @@ std::string to_json(const Metadata& metadata) {
                           grid.positions[2].distances()};
     if (info.axis_names != decltype(info.axis_names){})
         j["axis_names"] = info.axis_names;
+    if (!info.missing_after.empty())
+        j["missing_after"] = info.missing_after;
     if (!metadata.earlier.empty())
         j["earlier"] = metadata.earlier;
     if (metadata.levels)

@@ -66,6 +66,10 @@ void check_limits(const SeriesInfo& info) {
         if (!std::isfinite(info.times[t]) || (t > 0 && !(info.times[t] > info.times[t - 1])))
             throw Error(fmt::format("step {} has time {}, expected finite and increasing times", t,
                                     info.times[t]));
+    for (std::size_t i = 0; i < info.missing_after.size(); ++i)
+        if (const std::uint32_t step = info.missing_after[i];
+            step + std::size_t{1} >= info.steps() || (i > 0 && step <= info.missing_after[i - 1]))
+            throw Error(fmt::format("a gap behind step {} of {}", step, info.steps()));
 }
 
 std::uint64_t content_hash_of(const SeriesInfo& info, std::span<const std::uint64_t> checksums) {

@@ -3,8 +3,7 @@
 
 #include "index/error.h"
 #include "index/formats/converted_file.h"
-#include "index/formats/series/dated_name.h"
-#include "index/formats/series/numbered_name.h"
+#include "index/formats/series/missing_numbers.h"
 #include "index/formats/series/same_volume.h"
 #include "index/formats/series/step_order.h"
 #include "index/formats/series/telling_head.h"
@@ -78,6 +77,7 @@ class FileSeries final : public VolumeSeries {
         if (!options_.time_step)
             order_by_time();
         choose_steps();
+        find_gaps();
         override_info();
     }
 
@@ -227,15 +227,26 @@ class FileSeries final : public VolumeSeries {
         choose(first.array, std::nullopt);
     }
 
+    /// The file of each step.
+    std::vector<std::filesystem::path> paths() const {
+        std::vector<std::filesystem::path> paths;
+        for (const StepPlace& place : places_)
+            paths.push_back(files_[place.file].path);
+        return paths;
+    }
+
     void note_missing_numbers() {
         if (timed_ || options_.time_step || places_.size() != files_.size())
             return;
-        std::vector<std::filesystem::path> paths;
-        for (const SeriesFile& file : files_)
-            paths.push_back(file.path);
-        auto note = note_on_dates(paths);
-        if (note || (note = note_on_missing(paths)))
+        if (const auto note = note_on_names(paths()))
             info_.notes.push_back(*note);
+    }
+
+    /// Where names alone order the steps.
+    void find_gaps() {
+        const auto one = [](const Found& found) { return found.steps == 1; };
+        if ((!timed_ || options_.time_step) && std::ranges::all_of(found_, one))
+            info_.missing_after = missing_after(paths());
     }
 
     void open_file(std::size_t index) {
@@ -289,22 +300,17 @@ class FileSeries final : public VolumeSeries {
         if (first > last || last >= places_.size() || stride == 0)
             throw Error(fmt::format("{}: --steps {}:{}:{}, expected steps of 0:{}", name(0), first,
                                     last, stride, places_.size() - 1));
-        const std::size_t all = places_.size();
-        std::vector<StepPlace> places;
-        std::vector<double> times;
+        const std::vector<StepPlace> all = std::exchange(places_, {});
+        info_.times.clear();
+        info_.sources.clear();
         for (std::uint64_t i = 0; i <= (last - first) / stride; ++i) {
-            places.push_back(places_[first + i * stride]);
-            times.push_back(info_.times[first + i * stride]);
+            places_.push_back(all[first + i * stride]);
+            info_.times.push_back(places_.back().time);
+            const auto source = files_[places_.back().file].path.filename().string();
+            if (info_.sources.empty() || info_.sources.back() != source)
+                info_.sources.push_back(source);
         }
-        places_ = std::move(places);
-        info_.times = std::move(times);
-        std::vector<std::string> sources;
-        for (const StepPlace& place : places_)
-            if (const std::string source = files_[place.file].path.filename().string();
-                sources.empty() || sources.back() != source)
-                sources.push_back(source);
-        info_.sources = std::move(sources);
-        info_.notes.push_back(fmt::format("steps {}:{}:{} of {}", first, last, stride, all));
+        info_.notes.push_back(fmt::format("steps {}:{}:{} of {}", first, last, stride, all.size()));
     }
 
     void expect_increasing_times() const {
@@ -334,11 +340,6 @@ class FileSeries final : public VolumeSeries {
 
     void override_info() {
         if (options_.spacing) {
-            for (int axis = 0; axis < 3; ++axis)
-                if (!((*options_.spacing)[axis] > 0) || !std::isfinite((*options_.spacing)[axis]))
-                    throw Error(fmt::format("--spacing: ({} {} {}), expected positive numbers",
-                                            options_.spacing->x, options_.spacing->y,
-                                            options_.spacing->z));
             info_.grid.spacing = *options_.spacing;
             info_.grid.positions = {}; // even
         }

@@ -357,34 +357,4 @@ std::vector<std::optional<double>> times_in_names(std::span<const std::filesyste
     return times;
 }
 
-std::optional<std::string> note_on_missing(std::span<const std::filesystem::path> files) {
-    if (files.size() < 3)
-        return std::nullopt;
-    std::vector<std::string> given;
-    for (const std::filesystem::path& file : files)
-        given.push_back(file.string());
-    const std::vector<NumberedName> names = read_names(given).names;
-    const auto varying = varying_numbers(names);
-    if (varying.size() != 1)
-        return std::nullopt;
-    const auto number = [&](std::size_t file) -> const NameNumber& {
-        return names[file].numbers[varying.front()];
-    };
-    // The smallest distance is what steps are apart where none is missing.
-    double least = std::numeric_limits<double>::infinity(), rounding = 0;
-    for (std::size_t i = 1; i < files.size(); ++i) {
-        if (number(i) < number(i - 1)) // in an order of their own
-            return std::nullopt;
-        least = std::min(least, number(i).value - number(i - 1).value); // 0: other zeros alone
-        rounding = std::max(rounding, number(i).rounding());
-    }
-    for (std::size_t i = 1; i < files.size(); ++i)
-        if (const double gap = number(i).value - number(i - 1).value;
-            gap - least > std::max(1.5 * rounding, 1e-9 * std::abs(least)))
-            return fmt::format("the files' numbers are not evenly spaced ({} follows {}); the "
-                               "steps are; --times-from-names takes the numbers as times",
-                               number(i).value, number(i - 1).value);
-    return std::nullopt;
-}
-
 } // namespace isochron::index

@@ -73,9 +73,4 @@ std::optional<std::size_t> number_at_end(std::string_view text);
 /// the name of each. Empty for a file without any.
 std::vector<std::optional<double>> times_in_names(std::span<const std::filesystem::path> files);
 
-/// A note for the user, one sentence, if files without times differ in one number of their names
-/// and some numbers are missing: `t_1.vti t_2.vti t_4.vti`. Else empty.
-/// @param files in the order of their steps, one each
-std::optional<std::string> note_on_missing(std::span<const std::filesystem::path> files);
-
 } // namespace isochron::index

@@ -15,6 +15,7 @@ namespace isochron::app {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(PathWithin, IsTakenOffTheName) {
     std::vector<std::string> names{"run.h5:/fields/rho", "b.h5:/fields/rho", "c.h5"};
@@ -44,6 +45,9 @@ class SourceInfo : public testing::Test {
   protected:
     ChildResult info(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), "info");
+        return run(arguments);
+    }
+    ChildResult run(const std::vector<std::string>& arguments) const {
         return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
     }
     TestFolder folder_;
@@ -67,6 +71,43 @@ TEST_F(SourceInfo, SaysWhereASpacingIsAMean) {
                                     "to 6\nlength unit   none\nsize "));
     const auto said = nlohmann::json::parse(info({"r.vtk", "--json"}).out);
     EXPECT_EQ(said.at("uneven"), nlohmann::json::parse(R"({"x": [1.0, 6.0]})"));
+}
+
+/// `info` of files and of indices, and `build`, also as the series grows.
+TEST_F(SourceInfo, SaysWhereNumbersAreMissing) {
+    for (const char step : {'0', '1', '2', '3', '4'})
+        folder_.write(std::string("t") + step + ".raw", std::string(60, step));
+    const std::vector<std::string> raw{"--dims", "5", "4", "3", "--type", "u8"};
+    const auto build = [&](const std::string& files, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> all{"build", files, "-o", "a.isochron"};
+        all.insert(all.end(), raw.begin(), raw.end());
+        all.insert(all.end(), more.begin(), more.end());
+        const ChildResult result = run(all);
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.out;
+    };
+    const auto gaps = [&] {
+        return nlohmann::json::parse(info({"a.isochron", "--json"}).out).at("gaps");
+    };
+    const std::string gap = "between steps 1 and 2 (numbers are missing in the names): where steps "
+                            "are blended, the step before is held\n";
+    const auto behind_1 =
+        nlohmann::json::parse(R"([{"after_step": 1, "numbers_are_missing": true}])");
+    EXPECT_THAT(build("t[013].raw"), HasSubstr("note: a gap " + gap));
+    const std::string built = folder_.read("a.isochron");
+    EXPECT_EQ(gaps(), behind_1);
+    EXPECT_THAT(info({"a.isochron"}).out, HasSubstr("\ngaps          " + gap));
+    std::vector<std::string> files{"t[013].raw"};
+    files.insert(files.end(), raw.begin(), raw.end());
+    EXPECT_THAT(info(files).out, HasSubstr("\ngaps          " + gap));
+    build("t[0134].raw", {"--append"});
+    EXPECT_EQ(gaps(), behind_1);
+    std::filesystem::remove(folder_.path() / "a.isochron");
+    build("t[013].raw");
+    EXPECT_EQ(folder_.read("a.isochron"), built);
+    EXPECT_THAT(build("t*.raw"), Not(HasSubstr("gap")));
+    EXPECT_EQ(gaps(), nlohmann::json::array());
+    EXPECT_THAT(info({"a.isochron"}).out, Not(HasSubstr("gaps")));
 }
 
 TEST_F(SourceInfo, SaysWhatFilesAre) {

@@ -33,6 +33,7 @@ class LayerTest : public testing::Test {
                                .stats = stats_,
                                .asked = asked_,
                                .frame = report_,
+                               .gaps = gaps_,
                                .arrays = arrays_,
                                .movies = {.offered = true},
                                .controls = controls_},
@@ -87,6 +88,7 @@ class LayerTest : public testing::Test {
     index::IndexStats stats_;
     ExplorerState asked_;
     FrameReport report_;
+    std::vector<std::uint32_t> gaps_;
     PanelArrays arrays_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};

@@ -66,6 +66,7 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
                 .stats = stats_,
                 .asked = asked_,
                 .frame = report_,
+                .gaps = gaps_,
                 .arrays = {.names = arrays_, .lines = lines_, .color_names = arrays_},
                 .colors = {.range = {0.0, 40.0}},
                 .work = {.at_hand_steps = {3, 4, 5, 6, 20}},
@@ -133,6 +134,7 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
     index::IndexStats stats_;
     ExplorerState asked_;
     FrameReport report_;
+    std::vector<std::uint32_t> gaps_;
     PanelNotes notes_;
     bool recording_ = false;
     std::vector<std::string> arrays_{"vorticity"};
@@ -149,6 +151,15 @@ TEST_P(LegiblePanel, AsItOpens) {
     asked_.step = 63;
     info_.time_unit = "hours since 2009-09-09 17:00";
     expect_legible("with dates");
+}
+
+TEST_P(LegiblePanel, WhereStepsAreBlendedAndAGapIsHeld) {
+    asked_.between = interaction::BetweenSteps::blend;
+    gaps_ = {11, 12, 40};
+    asked_.step = 11;
+    expect_legible_sections("with a gap");
+    asked_.fraction = interaction::kFractions / 3;
+    expect_legible("between steps");
 }
 
 TEST_P(LegiblePanel, WithSeveralSurfacesAndAColorMap) {

@@ -10,6 +10,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <set>
 
 namespace isochron::app {
 namespace {
@@ -178,7 +179,7 @@ TEST(SeriesSeen, EveryStepHasItsFrameHoweverFastTheSeriesPlays) {
     const std::vector<double> times{0, 1, 1.5, 7, 1e9};
     for (const bool reverse : {false, true}) {
         view.state.playback->reverse = reverse;
-        const auto series = series_seen({}, view, times, 25);
+        const auto series = series_seen({}, view, {times, {}}, 25);
         ASSERT_EQ(series.frames.size(), times.size() + 1);
         for (std::size_t i = 0; i < times.size(); ++i) {
             EXPECT_EQ(series.frames[i].commands.step, reverse ? times.size() - 1 - i : i);
@@ -195,7 +196,7 @@ TEST(SeriesSeen, FramesOfBlendedStepsAreMoments) {
     const std::vector<double> times{0, 1, 2, 3};
     for (const bool reverse : {false, true}) {
         view.state.playback = interaction::PlaybackState{.reverse = reverse, .speed = 0.1};
-        const auto series = series_seen({}, view, times, 25);
+        const auto series = series_seen({}, view, {times, {}}, 25);
         const double seconds = 10.0 / 4 * 3 / 0.1; // to the last step, which is shown then
         ASSERT_EQ(series.frames.size(), static_cast<std::size_t>(seconds * 25) + 2);
         double before = reverse ? 3 : 0;
@@ -208,6 +209,23 @@ TEST(SeriesSeen, FramesOfBlendedStepsAreMoments) {
         }
         EXPECT_EQ(before, reverse ? 0 : 3);
     }
+}
+
+TEST(SeriesSeen, AGapIsHeld) {
+    PictureNote view;
+    view.state.between = interaction::BetweenSteps::blend;
+    view.state.playback = interaction::PlaybackState{.speed = 0.1};
+    const std::vector<double> times{0, 1, 2, 3};
+    std::set<std::uint32_t> blended;
+    std::size_t held = 0;
+    for (const auto& frame :
+         series_seen({}, view, {times, interaction::StepGaps({1})}, 25).frames) {
+        if (frame.commands.fraction.value_or(0) > 0)
+            blended.insert(*frame.commands.step);
+        held += frame.commands.step == 1u;
+    }
+    EXPECT_EQ(blended, (std::set<std::uint32_t>{0, 2}));
+    EXPECT_NEAR(static_cast<double>(held), 10.0 / 4 / 0.1 * 25, 1) << "as long as it lasts";
 }
 
 } // namespace

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -25,14 +27,19 @@ class SessionTime : public SessionTest {
         explicit Player(Session& session) : session_(session) {
             recording_.header.start = session.state().as_commands();
         }
-        void frame(const std::vector<interaction::WindowEvent>& events = {}) {
+        /// @param told what comes besides the devices' commands @return what is shown
+        std::optional<index::SurfacesQuery>
+        frame(const std::vector<interaction::WindowEvent>& events = {}, const Commands& told = {}) {
             interaction::RecordedFrame frame;
             emulation_.feed(events);
             frame.input = emulation_.poll(interaction::Seconds(now_ += 0.1));
             frame.commands = session_.commands_from(frame.input);
-            session_.frame(frame.input, frame.commands, Waiting::for_cells);
+            interaction::merge(frame.commands, told);
+            const auto shown =
+                session_.frame(frame.input, frame.commands, Waiting::for_cells).shown;
             shown_.push_back(session_.state().step);
             recording_.frames.push_back(std::move(frame));
+            return shown;
         }
         /// A key together with Ctrl, or alone.
         void tap(Key key, bool control = true) {
@@ -99,6 +106,75 @@ TEST_P(SessionTime, AReplayShowsTheSameSteps) {
     EXPECT_THAT(different, testing::IsEmpty());
     EXPECT_EQ(replayed, player.shown());
     EXPECT_EQ(again.state(), session.state());
+}
+
+TEST_P(SessionTime, AGapIsHeldWhileTimePlaysAndShownToWhoeverAsksForIt) {
+    MovingSphere series(6);
+    series.info().missing_after = {2};
+    build_index(series, folder_.path() / "gap.isochron", {});
+    Session session(small_config(), index::IndexFile::open(folder_.path() / "gap.isochron"),
+                    *context_);
+    Player player(session);
+    player.tap(static_cast<Key>('T')); // blends
+    player.tap(Key::space, false);
+    std::set<std::uint32_t> blended, seen;
+    for (int i = 0; i < 110; ++i) { // a round takes 10 s
+        player.frame();
+        const index::Instant shown = session.log().frames().back().shown->step;
+        seen.insert(shown.step);
+        if (shown.between())
+            blended.insert(shown.step);
+    }
+    EXPECT_THAT(seen, testing::ElementsAre(0, 1, 2, 3, 4, 5));
+    EXPECT_THAT(blended, testing::ElementsAre(0, 1, 3, 4));
+    player.tap(Key::space, false);
+    Commands there;
+    there.step = 2;
+    there.fraction = 20'000;
+    EXPECT_EQ(session.frame(head_at_rest(100), there, Waiting::for_cells).shown->step,
+              index::Instant(2, 20'000));
+}
+
+/// As a simulation writes them: what is not there yet is not blended.
+TEST_P(SessionTime, BlendsOnlyBetweenStepsThatAreThere) {
+    Session session(small_config(), file_, *context_);
+    Player player(session);
+    player.tap(static_cast<Key>('T')); // blends
+    const auto at = [&](const Commands& commands) { return player.frame({}, commands)->step; };
+    Commands last;
+    last.follow = true;
+    last.steps = 6;
+    last.step = 5;
+    last.fraction = 30'000;
+    EXPECT_EQ(at(last), index::Instant(5)) << "the last step holds";
+    EXPECT_EQ(session.state().instant(), index::Instant(5));
+    player.tap(Key::left, false); // back to step 4, and plays to the end of what is there
+    player.tap(Key::space, false);
+    std::vector<index::Instant> played;
+    while (played.empty() || played.back().step >= 4)
+        played.push_back(at({}));
+    EXPECT_GT(std::ranges::count_if(
+                  played, [](index::Instant one) { return one.between() && one.step == 4; }),
+              5);
+    EXPECT_GT(std::ranges::count(played, index::Instant(5)), 5) << "for as long as steps last";
+    EXPECT_TRUE(std::ranges::none_of(
+        played, [](index::Instant one) { return one.between() && one.step == 5; }));
+
+    // The next step arrives while the end is shown.
+    while (session.state().step != 5)
+        at({});
+    session.grow(build_sphere(folder_.path(), 7));
+    EXPECT_EQ(at({}), index::Instant(5)) << "a step counts when the commands tell of it";
+    Commands more;
+    more.steps = 7;
+    at(more);
+    EXPECT_TRUE(at({}).between());
+    EXPECT_EQ(session.state().step, 5u);
+    Commands asked;
+    asked.step = 5;
+    asked.fraction = 30'000;
+    player.tap(Key::space, false);
+    EXPECT_EQ(at(asked), index::Instant(5, 30'000));
 }
 
 TEST_P(SessionTime, ChangesAreUndoneAndTurningRoundIsNone) {

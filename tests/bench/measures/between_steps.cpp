@@ -3,6 +3,7 @@
 
 #include "index/extraction/extraction.h"
 #include "index/file/step_view.h"
+#include "index/indexing/index_build.h"
 #include "index/scan/scan.h"
 #include "index/search/index_search.h"
 #include "tests/bench/measures/stopwatch.h"
@@ -91,6 +92,25 @@ Difference difference_from_vtk(const std::shared_ptr<const index::IndexFile>& fi
     }
     difference.spoiled_values = spoiled_by_neighbors();
     return difference;
+}
+
+double time_of_measuring(index::VolumeSeries& series, const std::filesystem::path& file,
+                         unsigned repeats, const std::function<void()>& check) {
+    const auto build = [&](bool measures) {
+        check();
+        const Stopwatch watch(Stopwatch::Of::all_threads);
+        index::build_index(series, file, {.measures_blends = measures});
+        return watch.seconds();
+    };
+    build(true);
+    std::vector<double> ratios;
+    for (unsigned i = 0; i < repeats; ++i) {
+        const bool first = i % 2 == 0;
+        const double one = build(first), other = build(!first);
+        ratios.push_back(first ? one / other : other / one);
+    }
+    std::filesystem::remove(file);
+    return median(ratios);
 }
 
 BetweenTimes time_between(const std::shared_ptr<const index::IndexFile>& file, double isovalue,

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 
 namespace isochron::bench {
@@ -29,6 +31,11 @@ struct BetweenTimes {
     double drawn_moment = 0, drawn_step = 0; ///< with the volume around the cells
     double cold_bytes = 0;                   ///< read for a moment, over those of a step
 };
+/// Processor time of building an index that says what blends are worth, over one that does not: the
+/// median of so many pairs, in turn. @param file is written and removed
+double time_of_measuring(index::VolumeSeries& series, const std::filesystem::path& file,
+                         unsigned repeats, const std::function<void()>& check);
+
 /// @param file of at least two steps, without scaling
 BetweenTimes time_between(const std::shared_ptr<const index::IndexFile>& file, double isovalue,
                           unsigned repeats);

@@ -62,12 +62,17 @@ DataSet data_set(const std::string& name, index::ValueType type, std::optional<s
             .active_cells = large ? 96'000.0 : 10'240.0};
 }
 
+std::unique_ptr<index::VolumeSeries> made_series(const DataSet& data,
+                                                 const index::Progress& progress) {
+    return std::visit(
+        [&](const auto& of_kind) { return std::make_unique<MadeSeries>(of_kind, progress); },
+        data.series);
+}
+
 std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,
                                                    const std::filesystem::path& file,
                                                    const index::Progress& progress) {
-    const auto series = std::visit(
-        [&](const auto& of_kind) { return std::make_unique<MadeSeries>(of_kind, progress); },
-        data.series);
+    const auto series = made_series(data, progress);
     // All structures that the table compares, also where the program would leave some out.
     index::BuildOptions options;
     if (size_of(series->info().type) == 1)

@@ -28,6 +28,10 @@ const std::vector<std::string>& data_names();
 /// @param steps number of steps; empty: as the name has
 DataSet data_set(const std::string& name, index::ValueType type, std::optional<std::size_t> steps);
 
+/// The series in memory.
+std::unique_ptr<index::VolumeSeries> made_series(const DataSet& data,
+                                                 const index::Progress& progress);
+
 /// Makes the series and builds its index as `isochron build` does.
 std::shared_ptr<const index::IndexFile>
 build_file(const DataSet& data, const std::filesystem::path& file, const index::Progress& progress);

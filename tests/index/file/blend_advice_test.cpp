@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -17,9 +18,13 @@ namespace isochron::index {
 namespace {
 
 /// What the index of a series says.
-std::optional<BlendQuality> measured(const TestField& field) {
+/// @param change of what the series says of itself
+std::optional<BlendQuality> measured(const TestField& field,
+                                     const std::function<void(SeriesInfo&)>& change = {}) {
     const test_support::TestFolder folder;
     MemorySeries series(field.view());
+    if (change)
+        change(series.info());
     const auto path = folder.path() / "a.isochron";
     BuildOptions options;
     options.tiers = TierSet().with(Tier::bricks);
@@ -160,6 +165,28 @@ TEST(BlendAdvice, HoldsWhereASmallPartVanishesThoughNearlyAllOfTheSurfaceIsRight
     EXPECT_GT(fast->lone, 0u);
     EXPECT_LT(fast->expected(), 0.5) << "95 % of the cells are of the plane";
     EXPECT_TRUE(fast->holds());
+}
+
+/// Gaps are held whatever the advice is, so it is about the other distances.
+TEST(BlendAdvice, LeavesGapsOut) {
+    constexpr std::uint32_t kGap = 5, kMissing = 20;
+    const auto jumped = [](double t) { return t > kGap ? t + kMissing : t; };
+    const auto smooth = blob(8)(0.5);
+    const TestField field(
+        {48, 32, 32}, 12, ValueType::f32,
+        [&](double x, double y, double z, double t) { return smooth(x, y, z, jumped(t)); });
+    const auto unknown = measured(field);
+    const auto missing = measured(field, [](SeriesInfo& info) { info.missing_after = {kGap}; });
+    const auto timed = measured(field, [&](SeriesInfo& info) {
+        for (std::size_t t = 0; t < info.times.size(); ++t)
+            info.times[t] = jumped(static_cast<double>(t));
+    });
+    ASSERT_TRUE(unknown && missing && timed);
+    EXPECT_GT(unknown->expected(), 0.5) << "the gap is blended, too";
+    for (const auto& advice : {missing, timed}) {
+        EXPECT_FALSE(advice->holds());
+        EXPECT_LT(advice->expected(), 0.1);
+    }
 }
 
 TEST(BlendAdvice, HoldsWhatIsNewInEveryStep) {

@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/metadata.h"
+#include "index/indexing/first_steps.h"
 #include "index/indexing/index_build.h"
 #include "index/search/tree_of_file.h"
 #include "tests/support/memory_series.h"
@@ -20,6 +21,7 @@ namespace isochron::index {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 void put(const std::filesystem::path& path, std::string_view bytes) {
     std::filesystem::remove(path); // some file systems flush when a file is overwritten: slow
@@ -123,6 +125,7 @@ TEST_F(IndexFileTest, TheDescriptionOfTheSeriesGoesInAndComesOutUnchanged) {
     info.times = {-1.5, 0.1, 1e9};
     info.sources = {"a b.vti", "../c.vti", "d.vti"};
     info.notes = {"cell data averaged to vertices"};
+    info.missing_after = {1};
     build_index(series, folder.path() / "a.isochron",
                 {.with_tree = true, .tree = {.lattice = 16, .max_variation = 3}});
     const auto file = IndexFile::open(folder.path() / "a.isochron");
@@ -137,8 +140,34 @@ TEST_F(IndexFileTest, TheDescriptionOfTheSeriesGoesInAndComesOutUnchanged) {
     EXPECT_EQ(out.times, info.times);
     EXPECT_EQ(out.sources, info.sources);
     EXPECT_EQ(out.notes, info.notes);
+    EXPECT_EQ(out.missing_after, info.missing_after);
     EXPECT_EQ(file->tree_options(), (ThiOptions{.lattice = 16, .max_variation = 3}));
     EXPECT_EQ(tree_of(*file)->options(), file->tree_options());
+}
+
+TEST_F(IndexFileTest, GapsAreInTheMetadataOfThoseSeriesAloneThatHaveSome) {
+    const TestField field({3, 4, 5}, 4, ValueType::f32, moving_sphere);
+    const auto built = [&](std::vector<std::uint32_t> missing, std::size_t steps) {
+        MemorySeries series(field.view());
+        series.info().missing_after = std::move(missing);
+        FirstSteps first(series, steps);
+        build_index(steps < 4 ? static_cast<VolumeSeries&>(first) : series,
+                    folder.path() / "a.isochron", {});
+        return read_file(folder.path() / "a.isochron");
+    };
+    const auto gaps = [&] {
+        return IndexFile::open(folder.path() / "a.isochron")->info().missing_after;
+    };
+    EXPECT_THAT(built({}, 4), Not(HasSubstr("missing_after")));
+    EXPECT_TRUE(gaps().empty());
+    const std::string with = built({0, 2}, 4);
+    EXPECT_EQ(built({0, 2}, 4), with);
+    EXPECT_EQ(gaps(), (std::vector<std::uint32_t>{0, 2}));
+    built({0, 2}, 3); // the step behind the second one has not come yet
+    EXPECT_EQ(gaps(), std::vector<std::uint32_t>{0});
+    for (const std::vector<std::uint32_t>& wrong :
+         {std::vector<std::uint32_t>{3}, {2, 1}, {1, 1}, {0, 9}})
+        EXPECT_THROW(built(wrong, 4), Error) << wrong.back();
 }
 
 TEST_F(IndexFileTest, ValuesThatAreNotFiniteAreCountedAndKeptOutOfTheRange) {
@@ -206,8 +235,7 @@ TEST_F(IndexFileTest, EveryKindOfHeaderDamageHasItsOwnLine) {
     newer.version = kFileVersion + 1;
     std::string bytes = good;
     reseal(bytes, newer);
-    EXPECT_THAT(message_of(bytes),
-                HasSubstr("file version 6, this program reads versions 3 to 5"));
+    EXPECT_THAT(message_of(bytes), HasSubstr("file version 6, this program reads versions 3 to 5"));
     FileHeader older = header_of(good);
     older.version = 2;
     bytes = good;

@@ -149,6 +149,49 @@ TEST_F(UsersFolder, MissingStepsAreSaid) {
         << "every tenth is even";
 }
 
+TEST_F(UsersFolder, GapsAreWhereNumbersAreMissing) {
+    const auto gaps = [&](const std::vector<std::string>& names, const ReadOptions& options = {}) {
+        std::vector<fs::path> files;
+        for (const std::string& name : names)
+            files.push_back(nrrd(name + ".nrrd", 'a'));
+        return open_series(files, options)->info().missing_after;
+    };
+    EXPECT_THAT(gaps({"a1", "a2", "a3", "a5", "a6", "a9"}), ElementsAre(2, 4));
+    EXPECT_THAT(gaps({"a1", "a2", "a4"}), ElementsAre(1));
+    EXPECT_THAT(gaps({"a1", "a5"}), IsEmpty()) << "how far apart steps are is not known";
+    EXPECT_THAT(gaps({"b0.1", "b0.2", "b0.4"}), ElementsAre(1));
+    EXPECT_THAT(gaps({"b0.3", "b0.7", "b1.0"}), IsEmpty()) << "thirds, rounded";
+    EXPECT_THAT(gaps({"c0", "c10", "c20", "c25", "c30", "c40"}), IsEmpty()) << "one more step";
+    EXPECT_THAT(gaps({"d/1/x1", "d/2/x2", "d/4/x4"}), ElementsAre(1)) << "folders count, too";
+    EXPECT_THAT(gaps({"2020-01-30", "2020-01-31", "2020-02-01", "2020-02-03"}), ElementsAre(2));
+    EXPECT_THAT(gaps({"m20191201", "m20200101", "m20200201", "m20200301"}), IsEmpty()) << "months";
+    EXPECT_THAT(gaps({"m20191201", "m20200101", "m20200201", "m20200401"}), ElementsAre(2));
+    ReadOptions options;
+    options.times_from_names = true;
+    EXPECT_THAT(gaps({"a1", "a2", "a3", "a5"}, options), IsEmpty()) << "the times tell";
+    options = {};
+    options.time_step = 0.5;
+    EXPECT_THAT(gaps({"a1", "a2", "a3", "a5"}, options), ElementsAre(2));
+    options = {};
+    options.steps = {1, 5, 2};
+    EXPECT_THAT(gaps({"a1", "a2", "a3", "a4", "a5", "a6"}, options), IsEmpty());
+    EXPECT_THAT(gaps({"a0", "a1", "a2", "a3", "a5", "a7", "a8"}, options), ElementsAre(1));
+}
+
+TEST_F(UsersFolder, TimesThatFilesStateTellOfGapsThemselves) {
+    std::vector<fs::path> files;
+    for (const char time : {'1', '2', '4'}) {
+        const std::string name = std::string("e") + time;
+        write(name + ".raw", std::string(8, time));
+        files.push_back(write(name + ".bov", std::string("TIME: ") + time +
+                                                 ".5\nDATA_FILE: " + name +
+                                                 ".raw\nDATA_SIZE: 2 2 2\nDATA_FORMAT: BYTE\n"));
+    }
+    const auto series = open_series(files);
+    EXPECT_THAT(series->info().times, ElementsAre(1.5, 2.5, 4.5));
+    EXPECT_THAT(series->info().missing_after, IsEmpty());
+}
+
 /// Arrays stand in another order in the second file: what was taken of the first is taken of all.
 TEST_F(UsersFolder, HasFilesWhoseArraysStandInAnyOrder) {
     const auto vtk = [&](const std::string& name, const std::vector<std::string>& arrays) {

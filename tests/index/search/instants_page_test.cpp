@@ -1,9 +1,11 @@
 // What docs/FORMATS.md says of instants, sentence by sentence, each tried on a cell.
 #include "index/file/step_view.h"
+#include "index/formats/series/missing_numbers.h"
 #include "index/indexing/index_build.h"
 #include "index/search/first_crossing.h"
 #include "index/search/index_search.h"
 #include "index/volume/blend.h"
+#include "index/volume/step_gaps.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
@@ -13,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -130,6 +134,23 @@ const std::vector<std::pair<const char*, std::function<void()>>> kSentences{
          EXPECT_EQ(Blend(ValueType::f32, {}, 32768, alike).type(), ValueType::f64);
          const std::vector<double> many(9, 1.0);
          EXPECT_EQ(Blend(ValueType::f32, {}, 32768, many).type(), ValueType::f64);
+     }},
+    {"A gap is where the time to the next step is more than three times the median, or where "
+     "metadata key `missing_after` says so",
+     [] {
+         SeriesInfo info;
+         info.times = {0, 1, 2, 6, 7, 10};
+         info.missing_after = {0};
+         EXPECT_EQ(gaps_of(info), (std::vector<std::uint32_t>{0, 2}));
+     }},
+    {"There the next number or date is more than one and a half times as far away as the lower "
+     "median.",
+     [] {
+         const auto missing = [](const std::vector<std::filesystem::path>& files) {
+             return missing_after(files);
+         };
+         EXPECT_EQ(missing({"t2", "t4", "t7"}), std::vector<std::uint32_t>{});
+         EXPECT_EQ(missing({"t2", "t4", "t8"}), std::vector<std::uint32_t>{1});
      }},
 };
 

@@ -1,0 +1,121 @@
+// The track of the time where steps are blended: a tick at each true step, and gaps that are open.
+#include "tests/app/panel/drawn_text.h"
+#include "tests/app/panel/layer_fixture.h"
+
+#include "app/panel/parts/time_track.h"
+
+#include <gmock/gmock.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using interaction::BetweenSteps;
+using interaction::kFractions;
+
+class TimeTrack : public LayerTest {
+  protected:
+    TimeTrack() { info_.times.resize(20); }
+
+    /// The upright rectangles that are drawn between the ends of the track, from left to right.
+    std::vector<ImRect> rectangles() {
+        frame();
+        frame();
+        const PanelBox& bar = layer_.places().time;
+        std::vector<ImRect> found;
+        const ImDrawData& data = *ImGui::GetDrawData();
+        for (int n = 0; n < data.CmdListsCount; ++n) {
+            const ImDrawList& list = *data.CmdLists[n];
+            if (std::string(list._OwnerName).find("###time") != 0)
+                continue;
+            for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
+                const ImDrawVert* at = list.VtxBuffer.Data + i;
+                const bool upright = at[0].pos.y == at[1].pos.y && at[1].pos.x == at[2].pos.x &&
+                                     at[2].pos.y == at[3].pos.y && at[3].pos.x == at[0].pos.x;
+                const bool plain = at[0].uv.x == at[2].uv.x && at[0].uv.y == at[2].uv.y;
+                if (upright && plain && at[2].pos.x > at[0].pos.x &&
+                    at[0].pos.y >= bar.low.y + kLaneHeight)
+                    found.emplace_back(at[0].pos, at[2].pos);
+            }
+        }
+        std::ranges::sort(found, {}, [](const ImRect& one) { return one.Min.x; });
+        return found;
+    }
+    /// Of one pixel's width. @param least height
+    std::vector<float> ticks(float least = 1) {
+        std::vector<float> places;
+        for (const ImRect& one : rectangles())
+            if (one.GetWidth() == 1.0f && one.GetHeight() >= least)
+                places.push_back(one.Min.x);
+        return places;
+    }
+    bool says(const std::string& words) {
+        frame();
+        frame();
+        return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), words)
+            .has_value();
+    }
+};
+
+TEST_F(TimeTrack, HasATickAtEachTrueStepWhereStepsAreBlended) {
+    EXPECT_THAT(ticks(), testing::IsEmpty()) << "steps are held";
+    asked_.between = BetweenSteps::blend;
+    const std::vector<float> all = ticks();
+    ASSERT_EQ(all.size(), info_.times.size());
+    const float apart = (all.back() - all.front()) / static_cast<float>(all.size() - 1);
+    for (std::size_t i = 1; i < all.size(); ++i)
+        EXPECT_NEAR(all[i] - all[i - 1], apart, 1.0f);
+    EXPECT_THAT(ticks(kTrackHeight), testing::IsEmpty()) << "a step itself is shown";
+    asked_.step = 7;
+    asked_.fraction = kFractions / 2;
+    EXPECT_THAT(ticks(kTrackHeight), testing::ElementsAre(all[7], all[8]))
+        << "the two that are blended";
+    asked_.quality = interaction::QualityMode::paper; // always holds
+    EXPECT_THAT(ticks(), testing::IsEmpty());
+}
+
+TEST_F(TimeTrack, HasFewerTicksWhereStepsLieClose) {
+    info_.times.resize(100'000);
+    asked_.between = BetweenSteps::blend;
+    const std::vector<float> some = ticks();
+    EXPECT_GT(some.size(), 50u);
+    for (std::size_t i = 1; i < some.size(); ++i)
+        EXPECT_GE(some[i] - some[i - 1], 3.0f);
+}
+
+TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
+    const std::string held = "held: a gap between steps 12 and 13";
+    gaps_ = {11};
+    asked_.step = 11;
+    EXPECT_FALSE(says(held)) << "all steps are held";
+    EXPECT_TRUE(says("step 12 of 20"));
+    asked_.between = BetweenSteps::blend;
+    EXPECT_TRUE(says(held));
+    EXPECT_TRUE(says("gap: 12 to 13"));
+    const std::vector<float> all = ticks();
+    ASSERT_EQ(all.size(), info_.times.size());
+    const auto is_open = [&](std::size_t step) {
+        for (const ImRect& one : rectangles())
+            if (std::abs(one.Min.x - all[step]) <= 1 && std::abs(one.Max.x - all[step + 1]) <= 1 &&
+                one.GetHeight() == kTrackHeight)
+                return true;
+        return false;
+    };
+    EXPECT_TRUE(is_open(11));
+    EXPECT_FALSE(is_open(10));
+    asked_.fraction = 5;
+    EXPECT_FALSE(says(held)) << "somebody has asked for the moment";
+    EXPECT_TRUE(says("between steps 12 and 13"));
+    asked_.step = 10;
+    asked_.fraction = 0;
+    EXPECT_FALSE(says(held));
+}
+
+} // namespace
+} // namespace isochron::app

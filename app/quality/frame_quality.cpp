@@ -245,12 +245,6 @@ Milliseconds FrameQuality::left_of_frame(Milliseconds taken) const {
     return left >= kLeast ? left : Milliseconds(0);
 }
 
-Milliseconds FrameQuality::patience() const {
-    constexpr double kShare = 0.75; // so that frames take less than two budgets
-    constexpr Milliseconds kLongest{25};
-    return std::min(kShare * steady_.budget(), kLongest);
-}
-
 Milliseconds FrameQuality::part_budget() const {
     // Shorter parts would take longer in all; longer parts would delay the answer to the next
     // input.

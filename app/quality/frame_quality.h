@@ -116,8 +116,6 @@ class FrameQuality {
     /// Time that a frame may spend on a picture for later frames; 0: none.
     /// @param taken by the frame itself
     Milliseconds left_of_frame(Milliseconds taken) const;
-    /// Time that a frame may wait for something to draw before it draws.
-    Milliseconds patience() const;
     /// Time that a frame may spend on parts.
     Milliseconds part_budget() const;
     /// Learns from a picture that was made in parts, of the views that were charged.

@@ -87,16 +87,13 @@ bool CellSupply::has_taken_newest() const {
     return !newest || newest == refused_ || newest == sets_.held(use_of(newest));
 }
 
-void CellSupply::take_newest(const Frame& frame, Milliseconds patience) {
+void CellSupply::take_newest(const Frame& frame) {
     FrameReport& report = frame.report;
     const render::UploadCount before = sets_.uploaded();
     StopWatch watch;
     if (!frame.is_live()) {
         sets_.send_whole();
         extractor_.wait();
-        report.wait = watch.lap();
-    } else if (patience.count() > 0 && has_taken_newest()) {
-        extractor_.wait_for_newer(patience);
         report.wait = watch.lap();
     }
     CellsInFrame cells = frame.sharing.cells(extractor_, sets_.shown(), frame.waiting);

@@ -39,8 +39,7 @@ class CellSupply {
 
     void request(const Frame& frame);
     /// Uploads what has been found, and chooses the set to draw.
-    /// @param patience longest time to wait for what is being found, where nothing new is there
-    void take_newest(const Frame& frame, Milliseconds patience = {});
+    void take_newest(const Frame& frame);
     /// Why sets are not shown, each once; taken by the call.
     std::vector<std::string> take_messages();
 

@@ -187,16 +187,6 @@ void PictureChoice::show_last(const Frame& frame) const {
     report.final = false;
 }
 
-Milliseconds PictureChoice::patience(const Frame& frame,
-                                     const interaction::InputState& input) const {
-    const std::optional<Picture>& drawn = frame.drawn;
-    const bool stands = frame.is_live() && !frame.is_kept && frame.sharing.alone() &&
-                        !outputs_.headset() && drawn && drawn->cells &&
-                        drawn->room_from_physical == frame.state.room_from_physical &&
-                        drawn->audience.viewers == pictures_.viewers(input, frame.state);
-    return stands ? quality_.patience() : Milliseconds(0);
-}
-
 /// Takes over rank 0's plan.
 void PictureChoice::agree(const Frame& frame, FramePlan plan) {
     // More cells than a frame can draw come in parts alone, which may begin some frames later. So

@@ -17,10 +17,6 @@ class PictureChoice {
     PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log, const Scene& scene,
                   CellSupply& supply, const PictureMaker& pictures);
 
-    /// Longest time that a frame waits for cells that are being found. A picture that nothing else
-    /// changes would only be shown again meanwhile.
-    Milliseconds patience(const Frame& frame, const interaction::InputState& input) const;
-
     FrameQuality& quality() { return quality_; }
     const FrameQuality& quality() const { return quality_; }
 

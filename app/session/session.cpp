@@ -141,7 +141,7 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .data = data_frame(arrays_.file()->info()),
             .asked = state_,
             .frame = report,
-             .gaps = times_.gaps.steps(),
+            .gaps = times_.gaps.steps(),
             .arrays = arrays_.in_panel(state_),
             .colors = {.range = scale ? scale->range : std::array{0.0, 0.0},
                        .own_maps = config_.color_maps},
@@ -349,7 +349,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
                       .report = report};
     const SessionPanel::Facts facts = [&] { return panel_model(report); };
     supply_.request(frame);
-    supply_.take_newest(frame, choice_.patience(frame, rest));
+    supply_.take_newest(frame);
     show_messages(supply_.take_messages());
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));

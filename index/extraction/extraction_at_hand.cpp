@@ -67,8 +67,8 @@ void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
     if (share < kLeastKept)
         return;
     // Ids alone are found in a step in memory sooner than they are joined with those that stay.
-    if (shading_ == Shading::none && query.coloring != CellColoring::value &&
-        !step_->by_chunks() && share < kPlenty)
+    if (shading_ == Shading::none && query.coloring != CellColoring::value && !step_->by_chunks() &&
+        share < kPlenty)
         finds_anew_ = true;
     staying_.emplace(*step_, from_->query.step, shading_ != Shading::none);
     if (finds_anew_ || enough_stays(share))

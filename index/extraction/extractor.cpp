@@ -348,15 +348,6 @@ bool Extractor::busy() const {
     return state_->wanted && !state_->answered;
 }
 
-bool Extractor::wait_for_newer(std::chrono::duration<double, std::milli> longest) const {
-    std::unique_lock lock(state_->mutex);
-    const Extraction* const known = state_->shown.get(); // not held: it may be freed meanwhile
-    const auto is_newer = [&] { return state_->shown.get() != known; };
-    state_->changed.wait_for(lock, std::chrono::duration_cast<std::chrono::nanoseconds>(longest),
-                             [&] { return is_newer() || !state_->wanted || state_->answered; });
-    return is_newer();
-}
-
 void Extractor::wait() const {
     std::unique_lock lock(state_->mutex);
     state_->changed.wait(

@@ -69,10 +69,6 @@ class Extractor {
     /// True until the newest request has been answered or has failed.
     bool busy() const;
 
-    /// Waits until there is something newer than `newest` gave at the call, or nothing is being
-    /// looked for, but no longer than this. @return whether there is
-    bool wait_for_newer(std::chrono::duration<double, std::milli> longest) const;
-
     /// Blocks until not busy, and until the meshes are made that come later: for fixed-step replay, captures and tests only, never in the live loop.
     void wait() const;
 

@@ -1,7 +1,5 @@
 // Tells whoever prepares a picture of every program that is linked, which may take a driver long.
-//
-//     const render::LinkWatch watch([&] { page.look(0); });
-//     session.emplace(...); // links some dozens of programs
+// While a session is made, some dozens are linked.
 #pragma once
 
 #include <functional>

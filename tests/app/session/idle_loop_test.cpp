@@ -8,6 +8,7 @@
 #include "index/indexing/appended_series.h"
 #include "index/system/growing_file.h"
 #include "index/system/team.h"
+#include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <csignal>
 #include <sys/resource.h>
-#include <thread>
 #include <utility>
 
 namespace isochron::app {
@@ -167,8 +167,7 @@ TEST_F(IdleLoop, AStillWindowHasGivenAllOfItsRecordingToTheSystem) {
     };
     const auto wait_for_all = [&](auto&, Seconds longest) {
         EXPECT_EQ(longest, FrameOutlook::kNever) << "nothing wakes it for that";
-        while (lines() < frames_) // the test's limit ends a hang
-            std::this_thread::yield();
+        EXPECT_TRUE(test_support::eventually([&] { return lines() >= frames_; }));
     };
     run({wait_for_all,
          [&](auto& wake, Seconds longest) {

@@ -75,28 +75,6 @@ TEST(Extractor, WhatIsForgottenIsAnsweredAnewAlsoWhileItIsBeingFound) {
     EXPECT_EQ(held.calls(3), 3);
 }
 
-TEST(Extractor, WaitsForSomethingNewerButNoLongerThanAsked) {
-    HeldExtraction held;
-    Extractor extractor(held.extract());
-    const std::chrono::hours long_time(1); // the test's limit ends a hang
-    EXPECT_FALSE(extractor.wait_for_newer(long_time)) << "nothing is asked for";
-    extractor.request({.query = {1, {1.0}}, .ahead = {}});
-    EXPECT_FALSE(extractor.wait_for_newer(std::chrono::milliseconds(1)));
-    held.let_go();
-    while (!extractor.newest())
-        extractor.wait_for_newer(long_time);
-    EXPECT_FALSE(extractor.wait_for_newer(long_time)) << "all is answered";
-    extractor.request({.query = {2, {1.0}}, .ahead = {}});
-    std::jthread later([&held] {
-        held.wait_until_started();
-        held.wait_until_started();
-        held.let_go();
-    });
-    while (extractor.busy())
-        extractor.wait_for_newer(long_time);
-    EXPECT_EQ(extractor.newest()->query.step, 2u);
-}
-
 TEST(Extractor, FinishesWhatIsNearlyDoneWhereTheLastSearchIsAMeasure) {
     using std::chrono::milliseconds;
     EXPECT_FALSE(is_worth_finishing(milliseconds(9), milliseconds(40)));

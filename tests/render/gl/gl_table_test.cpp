@@ -49,6 +49,7 @@ TEST(GlObjects, AreDeletedOnceHoweverTheyMove) {
 class Shaders : public GlTest {};
 
 TEST_P(Shaders, EveryFileCompilesAndLinksAloneOrWithOneOfTheOtherStage) {
+    const std::string prelude = stereo::Multiplex::shader_prelude() + "#define LAYERS 2\n";
     for (const ShaderSource& file : shader_files()) {
         if (file.name.ends_with(".glsl"))
             continue; // a part of others
@@ -63,7 +64,7 @@ TEST_P(Shaders, EveryFileCompilesAndLinksAloneOrWithOneOfTheOtherStage) {
                 other.name.ends_with(".frag") == file.name.ends_with(".frag"))
                 continue;
             try {
-                link_program(gl_, {file, other}, stereo::Multiplex::shader_prelude());
+                link_program(gl_, {file, other}, prelude);
                 links = true;
             } catch (const Error& error) {
                 complaints += std::string(error.what()) + '\n';

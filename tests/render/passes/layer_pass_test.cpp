@@ -32,9 +32,6 @@ class Layers : public GlTest {
                                              "out vec4 color;\n"
                                              "void main() { color = light; }\n"};
         program_.emplace(link_program(gl_, {shader_file("full_screen.vert"), flat}));
-        target_.bind();
-        target_.clear({0, 0, 0, 1});
-        gl_.Enable(GL_SCISSOR_TEST);
     }
     /// Fills a column of the bound framebuffer as an opaque surface would. @param color sRGB
     void fill(int column, float depth, glm::vec3 color) {
@@ -101,6 +98,7 @@ TEST_P(Layers, LieOverThePictureInTheOrderOfTheirDepthsAndAgainBehind) {
                 SCOPED_TRACE(testing::Message() << count << hidden << linear);
                 target_.bind();
                 target_.clear({0, 0, 0, 1});
+                gl_.Enable(GL_SCISSOR_TEST);
                 std::vector<Column> columns(kColumns);
                 for (Column& column : columns) {
                     column.opaque = hidden ? depth(random_) : 2;

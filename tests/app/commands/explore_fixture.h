@@ -62,9 +62,11 @@ class ExploreTest : public testing::Test {
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
     /// Starts the explorer, waits until its session goes on in its window, and puts the mouse into it.
-    std::unique_ptr<Program> explore(std::vector<std::string> more) {
-        std::vector<std::string> arguments{"explore", file("sphere.isochron"), "--size", "640",
-                                           "480"};
+    /// @param as_last_time the window has the size that it had last
+    std::unique_ptr<Program> explore(std::vector<std::string> more, bool as_last_time = false) {
+        std::vector<std::string> arguments{"explore", file("sphere.isochron")};
+        if (!as_last_time)
+            arguments.insert(arguments.end(), {"--size", "640", "480"});
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto before = remembered();
         auto program = std::make_unique<Program>(std::move(arguments));

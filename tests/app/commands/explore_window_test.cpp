@@ -126,13 +126,11 @@ TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {
     };
     EXPECT_EQ(size_of()[1], 720) << "as configured";
     {
-        const Program program({"explore", file("sphere.isochron"), "--seconds", "300"});
-        wait_for_window("Isochron");
-        await_frame();
+        const auto program = explore({}, true);
         screen_.resize_window(title("sphere.isochron"), 700, 500);
         await_frame();
-        program.signal(SIGTERM);
-        EXPECT_EQ(program.exit_status(), 128 + SIGTERM);
+        program->signal(SIGTERM);
+        EXPECT_EQ(program->exit_status(), 128 + SIGTERM);
     }
     EXPECT_EQ(size_of(), (std::array{700, 500}));
 }
@@ -157,9 +155,12 @@ TEST_F(ExploreWindow, OpensTheSameFilesWithAnotherArrayFromTheListOfAll) {
     const UserMemory memory(state_.path() / "isochron");
     const auto is_chosen_by = [&](const std::string& array, const std::vector<std::string>& keys) {
         return test_support::eventually([&] {
-            for (const std::string& key : keys) {
-                screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "key", key});
-                await_frame();
+            try {
+                for (const std::string& key : keys) {
+                    screen_.xdotool({"search", "--name", "Isochron", "windowfocus", "key", key});
+                    await_frame();
+                }
+            } catch (const std::exception&) { // no window while other data are opened
             }
             return memory.array_of(file("run.zarr")) == array;
         });

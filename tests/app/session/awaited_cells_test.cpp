@@ -78,23 +78,5 @@ TEST_P(AwaitedCells, DoNotKeepOtherChangesFromTheEyes) {
     gate_.open();
 }
 
-TEST_P(AwaitedCells, ThatComeSoonAreShownByTheFrameThatAsksForThem) {
-    const pid_t mine = ::gettid();
-    // Cells are found no sooner than a frame waits for something.
-    const index::Extract extract = [real = index::extract_from(file_),
-                                    mine](const index::SurfacesQuery& query, std::stop_token stop) {
-        while (!test_support::sleeps(mine) && !stop.stop_requested())
-            continue;
-        return real(query, std::move(stop));
-    };
-    Session session(config_with(kPlenty), file_, *context_, extract);
-    start(session);
-    double isovalue = 4;
-    EXPECT_TRUE(test_support::eventually([&] {
-        const FrameReport report = rest(session, 1, asking_for(isovalue += 0.001));
-        return report.shown == report.asked;
-    }));
-}
-
 } // namespace
 } // namespace isochron::app

@@ -104,7 +104,7 @@ TEST_P(MovedPicture, IsGivenUpBeyondAFewCentimetersAndForOtherCells) {
     EXPECT_TRUE(with_head(session, {0.03f, 0, 0}).moved) << "it is there still";
     Commands other;
     other.isovalue = 1.01 * session.state().isovalue();
-    EXPECT_FALSE(with_head(session, {0.03f, 0, 0}, other).moved);
+    EXPECT_FALSE(with_head(session, {0.02f, 0, 0}, other).moved);
 }
 
 TEST_P(MovedPicture, IsNotShownInReplaysNorWhereAnotherQualityIsAsked) {

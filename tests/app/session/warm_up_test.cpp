@@ -64,7 +64,10 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
                     if (number == 1)
                         commands.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, opacity}}};
                     const FrameReport& report = session.frame(input, commands, Waiting::never);
-                    drawn |= report.redrawn && report.cells > 0 && report.footprint == footprint;
+                    // Triangles are taken in motion where quads take about as long.
+                    drawn |= report.redrawn && report.cells > 0 &&
+                             (report.footprint == footprint ||
+                              (moves && report.footprint == render::Footprint::mesh));
                 }
                 return drawn;
             });
@@ -110,7 +113,7 @@ TEST_P(WarmUp, LooksAtTheUserAfterEveryFewDrawsAndEndsWhenAsked) {
     EXPECT_GE(shares.size(), 15u);
     EXPECT_TRUE(std::ranges::is_sorted(shares));
     EXPECT_EQ(shares.front(), 0);
-    begun.erase(begun.begin()); // what stands beside the cells, once
+    begun.erase(begun.begin(), begun.begin() + 2); // what stands beside the cells, and what moves
     EXPECT_LE(std::ranges::max(begun), 4u);
     std::size_t looks = 0;
     session.warm_up([&](float) { return ++looks < 3; });

@@ -77,6 +77,16 @@ bool same_cells(const Picture& a, const Picture& b) {
     return hides_by_depth(a) && hides_by_depth(b) ? without_lines(a) == without_lines(b) : a == b;
 }
 
+Picture drawn_as(Picture picture, const Picture& drawn) {
+    picture.cells = drawn.cells;
+    picture.footprint = drawn.footprint;
+    picture.resolution = drawn.resolution;
+    picture.mesh_level = drawn.mesh_level;
+    picture.moved = drawn.moved;
+    picture.scale = drawn.scale; // whose range may be percentiles of the cells
+    return picture;
+}
+
 /// Color and depth, of all samples.
 void KeptCells::copy(GLuint from, GLuint to, std::span<const render::View> views) const {
     gl_.Disable(GL_SCISSOR_TEST);

@@ -18,6 +18,9 @@ namespace isochron::app {
 /// them: then all must be the same.
 bool same_cells(const Picture& a, const Picture& b);
 
+/// A picture with the cells of another one, drawn as these are.
+Picture drawn_as(Picture picture, const Picture& drawn);
+
 /// Color and depth of the newest picture of the cells, a copy for each viewport: what only changes
 /// over them is drawn without them.
 class KeptCells {

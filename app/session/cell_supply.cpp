@@ -212,16 +212,9 @@ bool CellSupply::may_be_partial(const Frame& frame) const {
 }
 
 bool CellSupply::choose_set(const Frame& frame, const Picture& now) {
-    Picture same = now;
-    if (frame.drawn) {
-        same.cells = frame.drawn->cells;
-        same.footprint = frame.drawn->footprint;
-        same.resolution = frame.drawn->resolution;
-        same.mesh_level = frame.drawn->mesh_level;
-        same.scale = frame.drawn->scale;
-        if (only_panel_differs(now.layout, frame.drawn->layout))
-            same.layout = frame.drawn->layout;
-    }
+    Picture same = frame.drawn ? drawn_as(now, *frame.drawn) : now;
+    if (frame.drawn && only_panel_differs(now.layout, frame.drawn->layout))
+        same.layout = frame.drawn->layout;
     const bool stays = frame.drawn && same_cells(same, *frame.drawn);
     if (!stays) {
         constant_since_ = frame.report.time;

@@ -15,17 +15,6 @@ bool is_translucent(const ExplorerState& state) {
     });
 }
 
-/// A picture with the cells of another one, drawn as these are.
-Picture drawn_as(Picture picture, const Picture& drawn) {
-    picture.cells = drawn.cells;
-    picture.footprint = drawn.footprint;
-    picture.resolution = drawn.resolution;
-    picture.mesh_level = drawn.mesh_level;
-    picture.moved = drawn.moved;
-    picture.scale = drawn.scale; // whose range may be percentiles of the cells
-    return picture;
-}
-
 } // namespace
 
 PictureChoice::PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log,

@@ -55,14 +55,7 @@ bool may_be_moved(const Picture& exact, const Picture& now, const index::Surface
     same.audience.eyes = now.audience.eyes;
     same.layout = now.layout; // which only places the views otherwise
     same.room_from_physical = now.room_from_physical;
-    Picture wanted = now;
-    wanted.cells = exact.cells;
-    wanted.footprint = exact.footprint;
-    wanted.resolution = exact.resolution;
-    wanted.mesh_level = exact.mesh_level;
-    wanted.moved = exact.moved;
-    wanted.scale = exact.scale; // whose range may be percentiles of the cells
-    return same_cells(same, wanted);
+    return same_cells(same, drawn_as(now, exact));
 }
 
 } // namespace isochron::app

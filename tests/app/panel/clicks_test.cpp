@@ -124,14 +124,6 @@ TEST_F(Clicks, AFlagBetweenTwoStepsLeadsBetweenThem) {
 TEST_F(Clicks, SurfacesAreExportedInAFormatThatIsChosen) {
     asked_.play_range = {3, 9};
     frame();
-    const auto click_word = [&](const std::string& word) {
-        for (int i = 0; i < 3; ++i) // a popup takes some to know its size
-            frame();
-        const auto at =
-            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
-        EXPECT_TRUE(at) << word;
-        return at ? click({at->x, at->y}) : Commands();
-    };
     const auto open = [&] {
         for (float x = 0; x < 500; x += 9) {
             click({x, 18});

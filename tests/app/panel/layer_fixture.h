@@ -3,8 +3,10 @@
 
 #include "app/panel/panel_layer.h"
 #include "stereo/context/gl_context.h"
+#include "tests/app/panel/drawn_text.h"
 
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include <memory>
 #include <string>
@@ -52,6 +54,15 @@ class LayerTest : public testing::Test {
         merge(all, frame({MouseButtonEvent{MouseButton::left, false}}));
         merge(all, frame());
         return all;
+    }
+    /// Clicks a word of the panel, wherever it stands. @return the commands that it led to
+    interaction::Commands click_word(const std::string& word) {
+        for (int i = 0; i < 3; ++i) // a popup takes some to know its size
+            frame();
+        const auto at =
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
+        EXPECT_TRUE(at) << word;
+        return at ? click({at->x, at->y}) : interaction::Commands();
     }
     void press(interaction::Key key, std::uint8_t modifiers = 0) {
         frame({interaction::KeyEvent{key, true, modifiers},

@@ -24,15 +24,6 @@ class Lists : public LayerTest {
         offer_three_arrays();
         frame();
     }
-    /// Clicks a word of the panel, wherever it stands. @return the commands that it led to
-    Commands click_word(const std::string& word) {
-        for (int i = 0; i < 3; ++i) // a popup takes some to know its size
-            frame();
-        const auto at =
-            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word);
-        EXPECT_TRUE(at) << word;
-        return at ? click({at->x, at->y}) : Commands();
-    }
     /// Presses a key and lets it go. @return the commands that it led to
     Commands strike(Key key, std::uint8_t modifiers = 0) {
         Commands all = frame({KeyEvent{key, true, modifiers}, KeyEvent{key, false, modifiers}});

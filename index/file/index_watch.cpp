@@ -3,6 +3,10 @@
 
 #include "index/file/index_states.h"
 
+#include "index/system/descriptor.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <utility>
 
 namespace isochron::index {
@@ -16,6 +20,34 @@ bool has_arrays_of(const IndexFile& file, const IndexFile& known) {
             return false;
     return true;
 }
+
+/// What a file's system says of it without a byte being read. Opened first: network file systems ask
+/// their server then.
+struct FileState {
+    dev_t device = 0;
+    ino_t number = 0;
+    off_t bytes = -1;
+    timespec written{};
+
+    static FileState of(const std::filesystem::path& path) {
+        struct stat now{};
+        const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+        if (!file || ::fstat(file.number(), &now) != 0)
+            return {};
+        return {now.st_dev, now.st_ino, now.st_size, now.st_mtim};
+    }
+    /// Nothing can have been written since without another time: clocks of file systems go in steps,
+    /// of two seconds at most.
+    bool is_settled() const {
+        timespec now{};
+        ::clock_gettime(CLOCK_REALTIME, &now);
+        return bytes >= 0 && now.tv_sec - written.tv_sec > 2;
+    }
+    bool operator==(const FileState& other) const {
+        return device == other.device && number == other.number && bytes == other.bytes &&
+               written.tv_sec == other.written.tv_sec && written.tv_nsec == other.written.tv_nsec;
+    }
+};
 
 } // namespace
 
@@ -47,11 +79,15 @@ std::shared_ptr<const IndexFile> IndexWatch::take() {
 }
 
 void IndexWatch::watch(const std::stop_token& stop) {
+    FileState looked_at; // settled, and without anything new
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, stop, kPeriod, [&] { return stop.stop_requested(); })) {
         const std::shared_ptr<const IndexFile> known = known_;
         lock.unlock();
-        auto found = grown(path_, *known);
+        const FileState state = FileState::of(path_);
+        const bool is_settled = state.is_settled();
+        auto found = is_settled && state == looked_at ? nullptr : grown(path_, *known);
+        looked_at = is_settled ? state : FileState{};
         lock.lock();
         if (!found)
             continue;

@@ -167,13 +167,10 @@ bool PictureChoice::only_awaits_cells(const Frame& frame, const Picture& now) co
 void PictureChoice::show_last(const Frame& frame) const {
     FrameReport& report = frame.report;
     frame.plan.holds_finer = true;
-    frame.plan.in_parts.reset();
     report.footprint = frame.drawn->footprint;
     report.resolution = frame.drawn->resolution;
     report.mesh_level = frame.drawn->mesh_level;
     report.moved = frame.drawn->moved;
-    report.in_parts.reset();
-    report.final = false;
 }
 
 /// Takes over rank 0's plan.
@@ -241,9 +238,14 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     now.moved = report.moved;
     rest_in_parts(frame, now);
     frame.plan.holds_finer &= finer;
-    frame.plan.holds_finer |= laid_out && report.in_parts && !report.moved;
-    if (only_awaits_cells(frame, now))
+    if (laid_out && report.in_parts && !report.moved)
         show_last(frame);
+    if (only_awaits_cells(frame, now)) {
+        show_last(frame);
+        frame.plan.in_parts.reset();
+        report.in_parts.reset();
+        report.final = false;
+    }
     if (shows_layer_again(frame, now)) {
         frame.plan.holds_finer = report.moved = true;
         report.final = false;

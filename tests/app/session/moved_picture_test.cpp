@@ -227,9 +227,8 @@ TEST_P(MovedPicture, IsNotOfTranslucentSurfacesWhichStayAsTheyAreUntilTheyAreDra
         EXPECT_TRUE(test_support::eventually([&] {
             const FrameReport report = rest(session, 1, frames++ == 0 ? tab : Commands{});
             const render::Image now = picture();
-            if (report.redrawn)
-                EXPECT_EQ(report.footprint, Footprint::surface);
-            else if (!is_exact(report))
+            EXPECT_EQ(report.footprint, Footprint::surface) << "drawn anew or kept";
+            if (!report.redrawn && !is_exact(report))
                 EXPECT_TRUE(now.rgba == before.rgba && now.height == before.height);
             return is_exact(report);
         }));

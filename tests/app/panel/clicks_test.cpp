@@ -125,7 +125,7 @@ TEST_F(Clicks, SurfacesAreExportedInAFormatThatIsChosen) {
     asked_.play_range = {3, 9};
     frame();
     const auto open = [&] {
-        for (float x = 0; x < 500; x += 9) {
+        for (float x = 12; x < 500; x += 20) { // a tool is wider
             click({x, 18});
             for (int i = 0; i < 2; ++i)
                 frame();

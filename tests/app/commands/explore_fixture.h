@@ -64,9 +64,13 @@ class ExploreTest : public testing::Test {
     /// Starts the explorer, waits until its session goes on in its window, and puts the mouse into it.
     /// @param as_last_time the window has the size that it had last
     std::unique_ptr<Program> explore(std::vector<std::string> more, bool as_last_time = false) {
-        std::vector<std::string> arguments{"explore", file("sphere.isochron")};
         if (!as_last_time)
-            arguments.insert(arguments.end(), {"--size", "640", "480"});
+            more.insert(more.begin(), {"--size", "640", "480"});
+        return explore_sized(std::move(more));
+    }
+    /// The same for a size that is among `more`.
+    std::unique_ptr<Program> explore_sized(std::vector<std::string> more) {
+        std::vector<std::string> arguments{"explore", file("sphere.isochron")};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto before = remembered();
         auto program = std::make_unique<Program>(std::move(arguments));

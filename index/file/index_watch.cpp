@@ -30,7 +30,7 @@ struct FileState {
     timespec written{};
 
     static FileState of(const std::filesystem::path& path) {
-        struct stat now{};
+        struct stat now {};
         const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
         if (!file || ::fstat(file.number(), &now) != 0)
             return {};

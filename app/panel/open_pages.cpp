@@ -137,13 +137,13 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
     }
     lay_out_files();
     if (model.place == PanelPlace::in_room) {
-        if (const KeyCommand* const found = search_.draw_in_room(picture))
+        if (const KeyCommand* const found = search_.draw_in_room(model, picture, commands))
             run(*found);
-    } else if (auto presses = search_.draw(picture); !presses.empty()) {
+    } else if (auto presses = search_.draw(model, picture, commands); !presses.empty()) {
         presses_ = std::move(presses);
     }
     if (lists_arrays_)
-        commands = lay_out_arrays(model, picture);
+        interaction::merge(commands, lay_out_arrays(model, picture));
     if (any() || model.place != PanelPlace::over)
         return commands;
     if (model.ways.undo) // the session has changed: going on now would take that back

@@ -1,10 +1,10 @@
 // The search of commands: the user types what they want, sees its key, and runs it.
 #include "app/panel/parts/key_search.h"
 
+#include "app/panel/file_listing.h"
 #include "app/panel/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/theme.h"
-#include "index/lower_case.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace isochron::app {
@@ -23,6 +22,8 @@ using interaction::Chord;
 using interaction::Key;
 using interaction::KeyEvent;
 using interaction::Modifier;
+
+constexpr const char* kNothing = "no command has these words";
 
 /// What these actions do while their keys are held, or with the mouse; a press alone does nothing.
 constexpr std::array kHeld{Action::walk_forward, Action::walk_back,     Action::walk_left,
@@ -150,16 +151,9 @@ std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command) {
 
 std::vector<const KeyCommand*> found(std::string_view text) {
     std::vector<const KeyCommand*> all;
-    for (const KeyCommand& each : key_commands()) {
-        const std::string in = index::lower_case(each.words + " " + each.name);
-        std::istringstream words(index::lower_case(std::string(text)));
-        std::string word;
-        bool has_all = true;
-        while (words >> word)
-            has_all = has_all && in.find(word) != std::string::npos;
-        if (has_all)
+    for (const KeyCommand& each : key_commands())
+        if (has_words(each.words + " " + each.name, text))
             all.push_back(&each);
-    }
     return all;
 }
 
@@ -169,11 +163,42 @@ void KeySearch::open() {
     chosen_ = 0;
 }
 
-std::vector<interaction::WindowEvent> KeySearch::draw(const PanelBox& picture) {
+/// The lines as a list. @return the one that the user chooses
+KeySearch::Line KeySearch::chosen_line(const std::vector<Line>& lines, bool moved) {
+    Line wanted;
+    if (!lines.empty() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)))
+        wanted = lines[static_cast<std::size_t>(chosen_)];
+    ImGui::BeginChild("lines");
+    for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
+        const Line& line = lines[static_cast<std::size_t>(i)];
+        ImGui::PushID(i);
+        if (ImGui::Selectable(line.words().c_str(), i == chosen_))
+            wanted = line;
+        if (i == chosen_ && moved)
+            ImGui::SetScrollHereY();
+        const std::string name = line.name();
+        const float key = ImGui::CalcTextSize(name.c_str()).x;
+        ImGui::SameLine(ImGui::GetContentRegionMax().x - key - 4.0f);
+        ImGui::TextColored(color_of(i == chosen_ ? Ink::text : Ink::dim), "%s", name.c_str());
+        ImGui::PopID();
+    }
+    if (lines.empty())
+        note(kNothing, color_of(Ink::dim));
+    ImGui::EndChild();
+    return wanted;
+}
+
+std::vector<interaction::WindowEvent>
+KeySearch::draw(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands) {
     if (!shown_)
         return {};
     constexpr float kWidth = 460.0f, kHeight = 340.0f;
-    const std::vector<const KeyCommand*> lines = found(text_);
+    const std::vector<FoundSetting> settings = found_settings(text_, model);
+    std::vector<Line> lines;
+    for (const KeyCommand* key : found(text_))
+        lines.push_back({.key = key});
+    for (const FoundSetting& setting : settings)
+        lines.push_back({.setting = &setting});
     const float line_height = ImGui::GetTextLineHeightWithSpacing();
     const float height =
         58.0f + line_height * static_cast<float>(std::max(lines.size(), std::size_t{1}));
@@ -200,62 +225,46 @@ std::vector<interaction::WindowEvent> KeySearch::draw(const PanelBox& picture) {
     if (pressed(ImGuiKey_UpArrow))
         --chosen_;
     chosen_ = std::clamp(chosen_, 0, last);
-    const KeyCommand* wanted = nullptr;
-    if (!lines.empty() && pressed(ImGuiKey_Enter))
-        wanted = lines[static_cast<std::size_t>(chosen_)];
-    ImGui::BeginChild("lines");
-    for (int i = 0; i < static_cast<int>(lines.size()); ++i) {
-        const KeyCommand& line = *lines[static_cast<std::size_t>(i)];
-        ImGui::PushID(i);
-        if (ImGui::Selectable(line.words.c_str(), i == chosen_))
-            wanted = &line;
-        if (i == chosen_ && moved)
-            ImGui::SetScrollHereY();
-        const float key = ImGui::CalcTextSize(line.name.c_str()).x;
-        ImGui::SameLine(ImGui::GetContentRegionMax().x - key - 4.0f);
-        ImGui::TextColored(color_of(i == chosen_ ? Ink::text : Ink::dim), "%s", line.name.c_str());
-        ImGui::PopID();
-    }
-    if (lines.empty())
-        note("no command has these words", color_of(Ink::dim));
-    ImGui::EndChild();
+    const Line wanted = chosen_line(lines, moved);
     const bool left = !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&
                       ImGui::IsMouseClicked(ImGuiMouseButton_Left);
     ImGui::End();
     if (wanted || left)
         shown_ = false;
-    return wanted ? presses_of(*wanted) : std::vector<interaction::WindowEvent>();
+    if (wanted.setting)
+        interaction::merge(commands, wanted.setting->commands);
+    return wanted.key ? presses_of(*wanted.key) : std::vector<interaction::WindowEvent>();
 }
 
-/// Only what a hand in the room can do: no other data, and no window of the desktop.
-const KeyCommand* KeySearch::lines_in_room() {
+/// The lines, high enough for a ray. @return the one that the user chooses
+KeySearch::Line KeySearch::line_in_room(const std::vector<Line>& lines) {
     constexpr float kLine = 30.0f, kGap = 12.0f;
-    const KeyCommand* wanted = nullptr;
-    bool any = false;
-    for (const KeyCommand* line : found(text_)) {
-        if (!line->in_room)
-            continue;
-        any = true;
-        ImGui::PushID(line);
+    Line wanted;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const Line& line = lines[i];
+        ImGui::PushID(static_cast<int>(i));
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const float width = ImGui::GetContentRegionAvail().x;
         if (ImGui::Selectable("##line", false, 0, {0.0f, kLine}))
             wanted = line;
         ImDrawList& list = *ImGui::GetWindowDrawList();
         const float y = corner.y + (kLine - ImGui::GetFontSize()) / 2;
-        const float words = ImGui::CalcTextSize(line->words.c_str()).x;
-        const float key = ImGui::CalcTextSize(line->name.c_str()).x;
-        list.AddText({corner.x + 4.0f, y}, packed(Ink::text), line->words.c_str());
+        const std::string name = line.name();
+        const float words = ImGui::CalcTextSize(line.words().c_str()).x;
+        const float key = ImGui::CalcTextSize(name.c_str()).x;
+        list.AddText({corner.x + 4.0f, y}, packed(Ink::text), line.words().c_str());
         if (words + key + kGap < width)
-            list.AddText({corner.x + width - key - 4.0f, y}, packed(Ink::dim), line->name.c_str());
+            list.AddText({corner.x + width - key - 4.0f, y}, packed(Ink::dim), name.c_str());
         ImGui::PopID();
     }
-    if (!any)
-        note("no command has these words", color_of(Ink::dim));
+    if (lines.empty())
+        note(kNothing, color_of(Ink::dim));
     return wanted;
 }
 
-const KeyCommand* KeySearch::draw_in_room(const PanelBox& place) {
+/// Only what a hand in the room can do: no other data, and no window of the desktop.
+const KeyCommand* KeySearch::draw_in_room(const PanelModel& model, const PanelBox& place,
+                                          interaction::Commands& commands) {
     if (!shown_)
         return nullptr;
     ImGui::SetNextWindowPos({place.low.x, place.low.y});
@@ -273,13 +282,22 @@ const KeyCommand* KeySearch::draw_in_room(const PanelBox& place) {
     ImGui::SameLine();
     const bool left = ImGui::Button("Close", {kClose, 0.0f});
     ImGui::BeginChild("lines");
-    const KeyCommand* const wanted = lines_in_room();
+    const std::vector<FoundSetting> settings = found_settings(text_, model);
+    std::vector<Line> lines;
+    for (const KeyCommand* key : found(text_))
+        if (key->in_room)
+            lines.push_back({.key = key});
+    for (const FoundSetting& setting : settings)
+        lines.push_back({.setting = &setting});
+    const Line wanted = line_in_room(lines);
     ImGui::EndChild();
     ImGui::End();
     ImGui::PopStyleVar();
     if (wanted || left)
         shown_ = false;
-    return wanted;
+    if (wanted.setting)
+        interaction::merge(commands, wanted.setting->commands);
+    return wanted.key;
 }
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
 // The search of commands: the user types what they want, sees its key, and runs it.
 #pragma once
 
+#include "app/panel/found_settings.h"
 #include "app/panel/parts/places.h"
 #include "interaction/input/actions.h"
 
@@ -38,16 +39,28 @@ class KeySearch {
     void close() { shown_ = false; }
     bool is_open() const { return shown_; }
 
-    /// Lays it out in the current Dear ImGui frame, at the top of the picture.
-    /// @return what is to be pressed for the command that the user chose; then it closes
-    std::vector<interaction::WindowEvent> draw(const PanelBox& picture);
+    /// Lays it out in the current Dear ImGui frame, at the top of the picture. It closes when the user
+    /// chooses a line. @param commands get those of a setting that the user chose
+    /// @return what is to be pressed for the command that the user chose
+    std::vector<interaction::WindowEvent> draw(const PanelModel& model, const PanelBox& picture,
+                                               interaction::Commands& commands);
     /// The same on a panel in the room, which it covers: the text is typed on keys of the panel.
     /// @param place that it covers
-    /// @return the command that the user chose, and then it closes; null: none
-    const KeyCommand* draw_in_room(const PanelBox& place);
+    /// @return the command that the user chose; null: none
+    const KeyCommand* draw_in_room(const PanelModel& model, const PanelBox& place,
+                                   interaction::Commands& commands);
 
   private:
-    const KeyCommand* lines_in_room();
+    /// A line of the search: something that a key does, or a setting.
+    struct Line {
+        const KeyCommand* key = nullptr;
+        const FoundSetting* setting = nullptr;
+        explicit operator bool() const { return key || setting; }
+        const std::string& words() const { return key ? key->words : setting->words; }
+        std::string name() const { return key ? key->name : std::string(); }
+    };
+    Line chosen_line(const std::vector<Line>& lines, bool moved);
+    Line line_in_room(const std::vector<Line>& lines);
 
     bool shown_ = false, fresh_ = false;
     std::string text_;

@@ -15,7 +15,7 @@ class ExploreFaults : public Faults {
   protected:
     ExploreFaults() {
         setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
-        set_growth(1.0);
+        set_growth(2.0);
         EXPECT_EQ(isochron(build_of("t[01].raw")).status, 0);
         const ChildResult explored = isochron(explore_to("walk.jsonl"));
         EXPECT_EQ(explored.status, 0) << explored.err;

@@ -155,7 +155,7 @@ TEST(KeptExtraction, IsTheSameAsOneMadeAnewOnRandomWalksOfAllTypes) {
             Walk walk(random, values);
             const Extract kept = extract_from(file, std::nullopt, shading);
             ExtractionPtr before;
-            for (int i = 0; i < tries(360); ++i) {
+            for (int i = 0; i < tries(240); ++i) {
                 walk.next();
                 walk.query().mesh_room = shading == Shading::cells && walk.chance(2) ? 1 << 28 : 0;
                 const ExtractionPtr found = kept(walk.query(), {});
@@ -172,8 +172,8 @@ TEST(KeptExtraction, IsTheSameAsOneMadeAnewOnRandomWalksOfAllTypes) {
             }
         }
     }
-    EXPECT_GT(reused, static_cast<std::uint64_t>(tries(300'000)));
-    EXPECT_GT(changes, static_cast<std::uint64_t>(tries(1000)));
+    EXPECT_GT(reused, static_cast<std::uint64_t>(tries(200'000)));
+    EXPECT_GT(changes, static_cast<std::uint64_t>(tries(600)));
 }
 
 /// An index with a second array and an array to color by, whose chunks change at other steps.
@@ -209,7 +209,7 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
         ASSERT_EQ(file->better_whole(0), cache > 1 << 20);
         const Extract kept = extract_from_newest(std::make_shared<NewestIndex>(file), shading);
         Walk walk(random, values.view());
-        for (int i = 0; i < 80; ++i) {
+        for (int i = 0; i < tries(80); ++i) {
             walk.next();
             SurfacesQuery& query = walk.query();
             query.mesh_room = shading == Shading::cells && walk.chance(3) > 0 ? 1 << 28 : 0;
@@ -229,9 +229,9 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
                 found->meshed() && query.coloring == CellColoring::value && found->reused() > 0;
         }
     }
-    EXPECT_GT(reused, 10'000u);
-    EXPECT_GT(coarse, 10u);
-    EXPECT_GT(colored, 5u);
+    EXPECT_GT(reused, static_cast<std::uint64_t>(tries(10'000)));
+    EXPECT_GT(coarse, static_cast<std::uint64_t>(tries(8)));
+    EXPECT_GT(colored, static_cast<std::uint64_t>(tries(4)));
 }
 
 TEST(KeptExtraction, DecodesAStepAsAWholeWhereItsIsovalueIsDragged) {

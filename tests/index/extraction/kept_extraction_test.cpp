@@ -209,7 +209,7 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
         ASSERT_EQ(file->better_whole(0), cache > 1 << 20);
         const Extract kept = extract_from_newest(std::make_shared<NewestIndex>(file), shading);
         Walk walk(random, values.view());
-        for (int i = 0; i < tries(80); ++i) {
+        for (int i = 0; i < std::max(40, tries(80)); ++i) {
             walk.next();
             SurfacesQuery& query = walk.query();
             query.mesh_room = shading == Shading::cells && walk.chance(3) > 0 ? 1 << 28 : 0;
@@ -231,7 +231,7 @@ TEST(KeptExtraction, IsTheSameWithArraysColorsLevelsOfDetailAndASmallCache) {
     }
     EXPECT_GT(reused, static_cast<std::uint64_t>(tries(10'000)));
     EXPECT_GT(coarse, static_cast<std::uint64_t>(tries(8)));
-    EXPECT_GT(colored, static_cast<std::uint64_t>(tries(4)));
+    EXPECT_GT(colored, 1u);
 }
 
 TEST(KeptExtraction, DecodesAStepAsAWholeWhereItsIsovalueIsDragged) {

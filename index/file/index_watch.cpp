@@ -7,6 +7,8 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace isochron::index {
@@ -80,8 +82,9 @@ std::shared_ptr<const IndexFile> IndexWatch::take() {
 
 void IndexWatch::watch(const std::stop_token& stop) {
     FileState looked_at; // settled, and without anything new
+    std::chrono::milliseconds period = kPeriod;
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, stop, kPeriod, [&] { return stop.stop_requested(); })) {
+    while (!changed_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {
         const std::shared_ptr<const IndexFile> known = known_;
         lock.unlock();
         const FileState state = FileState::of(path_);
@@ -89,6 +92,7 @@ void IndexWatch::watch(const std::stop_token& stop) {
         auto found = is_settled && state == looked_at ? nullptr : grown(path_, *known);
         looked_at = is_settled ? state : FileState{};
         lock.lock();
+        period = found ? kPeriod : std::min(2 * period, kLongest);
         if (!found)
             continue;
         known_ = newer_ = std::move(found);

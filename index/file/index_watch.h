@@ -17,10 +17,11 @@ namespace isochron::index {
 /// the steps of `known`; else, or if it cannot be read at the moment, null.
 std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const IndexFile& known);
 
-/// Checks every `kPeriod` on a thread of its own.
+/// Checks on a thread of its own: `kPeriod` after it has begun or the index has grown, then less and
+/// less often down to every `kLongest`, as waking up takes processor time.
 class IndexWatch {
   public:
-    static constexpr std::chrono::milliseconds kPeriod{250};
+    static constexpr std::chrono::milliseconds kPeriod{250}, kLongest{1000};
 
     /// @param wake called on its thread when the index has grown; may be null
     IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known,

@@ -5,9 +5,6 @@
 
 #include "index/system/descriptor.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -23,33 +20,19 @@ bool has_arrays_of(const IndexFile& file, const IndexFile& known) {
     return true;
 }
 
-/// What a file's system says of it without a byte being read. Opened first: network file systems ask
-/// their server then.
-struct FileState {
-    dev_t device = 0;
-    ino_t number = 0;
-    off_t bytes = -1;
-    timespec written{};
+/// Opened first: network file systems ask their server then. @throws Error as `open_regular`
+FileState asked_state(const std::filesystem::path& path) {
+    const Descriptor opened(open_regular(path));
+    return state_of(path);
+}
 
-    static FileState of(const std::filesystem::path& path) {
-        struct stat now {};
-        const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-        if (!file || ::fstat(file.number(), &now) != 0)
-            return {};
-        return {now.st_dev, now.st_ino, now.st_size, now.st_mtim};
-    }
-    /// Nothing can have been written since without another time: clocks of file systems go in steps,
-    /// of two seconds at most.
-    bool is_settled() const {
-        timespec now{};
-        ::clock_gettime(CLOCK_REALTIME, &now);
-        return bytes >= 0 && now.tv_sec - written.tv_sec > 2;
-    }
-    bool operator==(const FileState& other) const {
-        return device == other.device && number == other.number && bytes == other.bytes &&
-               written.tv_sec == other.written.tv_sec && written.tv_nsec == other.written.tv_nsec;
-    }
-};
+/// Whether nothing can be written any more without another time: clocks of file systems go in steps,
+/// of two seconds at most.
+bool is_settled(const FileState& state) {
+    constexpr std::chrono::nanoseconds kLongestStep = std::chrono::seconds(2);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return now - std::chrono::nanoseconds(state.written) > kLongestStep;
+}
 
 } // namespace
 
@@ -68,9 +51,24 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
     }
 }
 
+std::shared_ptr<const IndexFile> GrowthLook::look(const IndexFile& known) {
+    try {
+        const FileState state = asked_state(path_);
+        if (state == looked_at_)
+            return nullptr;
+        looked_at_.reset();
+        if (is_settled(state))
+            looked_at_ = state;
+        return grown(path_, known);
+    } catch (const Error&) { // it is being replaced
+        looked_at_.reset();
+        return nullptr;
+    }
+}
+
 IndexWatch::IndexWatch(std::filesystem::path path, std::shared_ptr<const IndexFile> known,
                        std::function<void()> wake)
-    : path_(std::move(path)), wake_(std::move(wake)), known_(std::move(known)),
+    : look_(std::move(path)), wake_(std::move(wake)), known_(std::move(known)),
       worker_([this](const std::stop_token& stop) { watch(stop); }) {}
 
 IndexWatch::~IndexWatch() = default;
@@ -81,16 +79,12 @@ std::shared_ptr<const IndexFile> IndexWatch::take() {
 }
 
 void IndexWatch::watch(const std::stop_token& stop) {
-    FileState looked_at; // settled, and without anything new
     std::chrono::milliseconds period = kPeriod;
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {
         const std::shared_ptr<const IndexFile> known = known_;
         lock.unlock();
-        const FileState state = FileState::of(path_);
-        const bool is_settled = state.is_settled();
-        auto found = is_settled && state == looked_at ? nullptr : grown(path_, *known);
-        looked_at = is_settled ? state : FileState{};
+        auto found = look_.look(*known);
         lock.lock();
         period = found ? kPeriod : std::min(2 * period, kLongest);
         if (!found)

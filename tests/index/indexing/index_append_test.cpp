@@ -20,7 +20,6 @@
 #include <limits>
 #include <random>
 #include <set>
-#include <thread>
 
 namespace isochron::index {
 namespace {
@@ -309,12 +308,12 @@ TEST_F(IndexAppendTest, WhoHasTheIndexOpenGoesOnWithIt) {
     const TestField field({20, 19, 18}, 6, ValueType::u8, moving_sphere);
     built(first_steps(field.view(), 3));
     const auto old = IndexFile::open(path);
-    // Written long ago, and looked at before it grows: twice where this machine is quick enough.
+    // Written long ago, so that it is not read for a second look.
     std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() -
                                                std::chrono::hours(1));
-    std::promise<void> seen_growing;
-    IndexWatch from_before(path, old, [&seen_growing] { seen_growing.set_value(); });
-    std::this_thread::sleep_for(2 * IndexWatch::kPeriod);
+    GrowthLook looks(path);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_FALSE(looks.look(*old));
     GrowingFile file(path, true);
     EXPECT_THROW(GrowingFile(path, true), Error) << "one appends at a time";
     const auto series = append_to(old, "a", series_of(field.view()));
@@ -330,8 +329,9 @@ TEST_F(IndexAppendTest, WhoHasTheIndexOpenGoesOnWithIt) {
     EXPECT_EQ(grown(path, *old)->info().steps(), 6u);
     EXPECT_FALSE(grown(path, *now)) << "it is the same";
     EXPECT_FALSE(grown(folder.path() / "none", *old));
-    seen_growing.get_future().wait(); // the test's limit ends a hang
-    EXPECT_TRUE(from_before.take());
+    ASSERT_TRUE(looks.look(*old));
+    EXPECT_EQ(looks.look(*old)->info().steps(), 6u) << "as long as it is new";
+    EXPECT_FALSE(looks.look(*now));
     std::promise<void> woken;
     IndexWatch watch(path, old, [&woken] { woken.set_value(); });
     woken.get_future().wait(); // the test's limit ends a hang

@@ -1,6 +1,8 @@
 // Formats numbers and text for people.
 #include "app/text.h"
 
+#include "index/lower_case.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace isochron::app {
 namespace {
@@ -126,6 +129,16 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     }
     // A distance above half of the word's length means a different word, not a typing error.
     return best <= std::max<std::size_t>(2, word.size() / 2) ? nearest : std::string();
+}
+
+bool has_words(const std::string& name, std::string_view words) {
+    const std::string in = index::lower_case(name);
+    std::istringstream each(index::lower_case(std::string(words)));
+    std::string word;
+    while (each >> word)
+        if (in.find(word) == std::string::npos)
+            return false;
+    return true;
 }
 
 } // namespace isochron::app

@@ -41,6 +41,9 @@ void print_safely(std::string_view text, std::FILE* out = stdout);
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);
 
+/// Whether a name has all words of a text, upper or lower case.
+bool has_words(const std::string& name, std::string_view words);
+
 /// The word of `words` that is nearest to `word` by edit distance; empty when none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words);
 

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -107,16 +106,6 @@ void sort_lines(std::vector<ListedFile>& lines, ListOrder by, bool descending) {
         return std::tie(a.kind, one.name) < std::tie(b.kind, other.name);
     };
     std::ranges::stable_sort(lines, before);
-}
-
-bool has_words(const std::string& name, std::string_view words) {
-    const std::string in = index::lower_case(name);
-    std::istringstream each(index::lower_case(std::string(words)));
-    std::string word;
-    while (each >> word)
-        if (in.find(word) == std::string::npos)
-            return false;
-    return true;
 }
 
 std::string size_words(const ListedFile& line) {

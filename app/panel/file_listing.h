@@ -37,8 +37,6 @@ Listing listed(std::span<const std::filesystem::path> paths);
 
 /// Folders first, then by one of their columns. Equal ones keep the order of their names.
 void sort_lines(std::vector<ListedFile>& lines, ListOrder by, bool descending);
-/// Whether a name has all words of a text, upper or lower case.
-bool has_words(const std::string& name, std::string_view words);
 
 /// `1.20 MiB`, `12 files`; empty for folders.
 std::string size_words(const ListedFile& line);

@@ -7,6 +7,7 @@
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
+#include "app/text.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -1,14 +1,12 @@
 // Lists the values of the panel's settings, and picks those that have the words of a search.
 #include "app/panel/found_settings.h"
 
-#include "app/panel/file_listing.h"
-#include "app/scene/color_scale.h"
+#include "app/panel/parts/color_section.h"
+#include "app/panel/parts/sections.h"
 #include "app/text.h"
-#include "render/passes/color_map.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -70,11 +68,11 @@ void add_coloring(const PanelModel& model, Found& found) {
         if (changed != now)
             found.add(std::move(line), std::move(commands));
     };
-    const auto by = [&](interaction::ColorBy by, std::string array) {
+    const auto by = [&](interaction::ColorBy what, std::string array) {
         Coloring changed = now;
-        if (changed.by != by || changed.array != array)
+        if (changed.by != what || changed.array != array)
             changed.range.reset();
-        changed.by = by;
+        changed.by = what;
         changed.array = std::move(array);
         return changed;
     };
@@ -85,18 +83,11 @@ void add_coloring(const PanelModel& model, Found& found) {
             !has_values || i != model.arrays.color)
             add(fmt::format("color by: array {}", array), by(interaction::ColorBy::value, array));
     add("color by: first crossing", by(interaction::ColorBy::first_crossing, now.array));
-    for (std::size_t i = 0; i < render::kColorMapNames.size(); ++i) {
-        Coloring changed = now;
-        changed.map = render::kColorMapNames[i];
-        changed.colors.clear();
-        add(fmt::format("color map: {}", render::shown_name_of(static_cast<render::ColorMap>(i))),
-            changed);
-    }
-    for (const LoadedColorMap& map : model.colors.own_maps) {
+    for (const OfferedMap& map : offered_maps(model)) {
         Coloring changed = now;
         changed.map = map.name;
         changed.colors = map.colors;
-        add(fmt::format("color map: {}", map.name), changed);
+        add(fmt::format("color map: {}", map.words), changed);
     }
     Coloring changed = now;
     changed.reversed = !now.reversed;
@@ -107,10 +98,7 @@ void add_coloring(const PanelModel& model, Found& found) {
 }
 
 void add_stereo(const PanelModel& model, Found& found) {
-    for (const stereo::StereoMode mode : stereo::all_stereo_modes()) {
-        if (upright(mode) == stereo::StereoMode::quadbuffer && !model.quad_buffered)
-            continue;
-        const std::string name(stereo::name_of(mode));
+    for (const std::string& name : offered_stereo(model)) {
         Commands commands;
         commands.stereo = name;
         if (name != model.asked.stereo)

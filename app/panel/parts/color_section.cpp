@@ -27,23 +27,6 @@ using interaction::Commands;
 
 constexpr int kMostBandsOfField = 20;
 
-/// A map that the user can choose.
-struct OfferedMap {
-    std::string name, words;
-    std::vector<std::uint32_t> colors; ///< of a map of the configuration
-};
-
-std::vector<OfferedMap> offered_maps(const PanelModel& model) {
-    std::vector<OfferedMap> maps;
-    for (std::size_t i = 0; i < render::kColorMapNames.size(); ++i)
-        maps.push_back({std::string(render::kColorMapNames[i]),
-                        std::string(render::shown_name_of(static_cast<render::ColorMap>(i))),
-                        {}});
-    for (const LoadedColorMap& map : model.colors.own_maps)
-        maps.push_back({map.name, map.name, map.colors});
-    return maps;
-}
-
 void draw_gradient(const ColorScale& scale, const ImVec2& low, const ImVec2& high) {
     constexpr int kStrips = 48;
     const std::vector<glm::vec3> colors = colors_of(scale);
@@ -206,6 +189,17 @@ void what_rows(const PanelModel& model, Coloring& coloring) {
 }
 
 } // namespace
+
+std::vector<OfferedMap> offered_maps(const PanelModel& model) {
+    std::vector<OfferedMap> maps;
+    for (std::size_t i = 0; i < render::kColorMapNames.size(); ++i)
+        maps.push_back({std::string(render::kColorMapNames[i]),
+                        std::string(render::shown_name_of(static_cast<render::ColorMap>(i))),
+                        {}});
+    for (const LoadedColorMap& map : model.colors.own_maps)
+        maps.push_back({map.name, map.name, map.colors});
+    return maps;
+}
 
 void color_section(const PanelModel& model, Commands& commands) {
     Coloring coloring = model.asked.coloring;

@@ -4,7 +4,18 @@
 #include "app/panel/panel_model.h"
 #include "interaction/commands.h"
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace isochron::app {
+
+/// A color map that the user can choose.
+struct OfferedMap {
+    std::string name, words;
+    std::vector<std::uint32_t> colors; ///< of a map of the configuration
+};
+std::vector<OfferedMap> offered_maps(const PanelModel& model);
 
 void color_section(const PanelModel& model, interaction::Commands& commands);
 

@@ -1,10 +1,10 @@
 // The search of commands: the user types what they want, sees its key, and runs it.
 #include "app/panel/parts/key_search.h"
 
-#include "app/panel/file_listing.h"
 #include "app/panel/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/theme.h"
+#include "app/text.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -163,6 +163,19 @@ void KeySearch::open() {
     chosen_ = 0;
 }
 
+/// The keys with the words that were typed, then the settings. In the room only what a hand there can
+/// do: no other data, and no window of the desktop.
+std::vector<KeySearch::Line> KeySearch::lines_of(const std::vector<FoundSetting>& settings,
+                                                 bool in_room) const {
+    std::vector<Line> lines;
+    for (const KeyCommand* key : found(text_))
+        if (key->in_room || !in_room)
+            lines.push_back({.key = key});
+    for (const FoundSetting& setting : settings)
+        lines.push_back({.setting = &setting});
+    return lines;
+}
+
 /// The lines as a list. @return the one that the user chooses
 KeySearch::Line KeySearch::chosen_line(const std::vector<Line>& lines, bool moved) {
     Line wanted;
@@ -194,11 +207,7 @@ KeySearch::draw(const PanelModel& model, const PanelBox& picture, interaction::C
         return {};
     constexpr float kWidth = 460.0f, kHeight = 340.0f;
     const std::vector<FoundSetting> settings = found_settings(text_, model);
-    std::vector<Line> lines;
-    for (const KeyCommand* key : found(text_))
-        lines.push_back({.key = key});
-    for (const FoundSetting& setting : settings)
-        lines.push_back({.setting = &setting});
+    const std::vector<Line> lines = lines_of(settings, false);
     const float line_height = ImGui::GetTextLineHeightWithSpacing();
     const float height =
         58.0f + line_height * static_cast<float>(std::max(lines.size(), std::size_t{1}));
@@ -262,7 +271,6 @@ KeySearch::Line KeySearch::line_in_room(const std::vector<Line>& lines) {
     return wanted;
 }
 
-/// Only what a hand in the room can do: no other data, and no window of the desktop.
 const KeyCommand* KeySearch::draw_in_room(const PanelModel& model, const PanelBox& place,
                                           interaction::Commands& commands) {
     if (!shown_)
@@ -283,13 +291,7 @@ const KeyCommand* KeySearch::draw_in_room(const PanelModel& model, const PanelBo
     const bool left = ImGui::Button("Close", {kClose, 0.0f});
     ImGui::BeginChild("lines");
     const std::vector<FoundSetting> settings = found_settings(text_, model);
-    std::vector<Line> lines;
-    for (const KeyCommand* key : found(text_))
-        if (key->in_room)
-            lines.push_back({.key = key});
-    for (const FoundSetting& setting : settings)
-        lines.push_back({.setting = &setting});
-    const Line wanted = line_in_room(lines);
+    const Line wanted = line_in_room(lines_of(settings, true));
     ImGui::EndChild();
     ImGui::End();
     ImGui::PopStyleVar();

@@ -59,6 +59,7 @@ class KeySearch {
         const std::string& words() const { return key ? key->words : setting->words; }
         std::string name() const { return key ? key->name : std::string(); }
     };
+    std::vector<Line> lines_of(const std::vector<FoundSetting>& settings, bool in_room) const;
     Line chosen_line(const std::vector<Line>& lines, bool moved);
     Line line_in_room(const std::vector<Line>& lines);
 

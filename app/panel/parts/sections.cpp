@@ -173,10 +173,7 @@ void viewpoint_row(const PanelModel& model, Commands& commands) {
 void stereo_rows(const PanelModel& model, Commands& commands) {
     if (model.asked.stereo_mode() == stereo::StereoMode::mono && !model.quad_buffered)
         return;
-    std::vector<std::string> modes;
-    for (const stereo::StereoMode mode : stereo::all_stereo_modes())
-        if (upright(mode) != stereo::StereoMode::quadbuffer || model.quad_buffered)
-            modes.emplace_back(stereo::name_of(mode));
+    const std::vector<std::string> modes = offered_stereo(model);
     row("stereo");
     if (const auto chosen = choice_field("##stereo", model.asked.stereo, modes,
                                          "how both eyes' pictures are shown (V)"))
@@ -260,6 +257,14 @@ bool section_line(const Section& section) {
 }
 
 } // namespace
+
+std::vector<std::string> offered_stereo(const PanelModel& model) {
+    std::vector<std::string> modes;
+    for (const stereo::StereoMode mode : stereo::all_stereo_modes())
+        if (upright(mode) != stereo::StereoMode::quadbuffer || model.quad_buffered)
+            modes.emplace_back(stereo::name_of(mode));
+    return modes;
+}
 
 const std::array<Section, kSections>& sections() {
     static constexpr std::array<Section, kSections> kAll{

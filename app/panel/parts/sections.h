@@ -7,8 +7,13 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 namespace isochron::app {
+
+/// Names of the stereo modes that the user can choose.
+std::vector<std::string> offered_stereo(const PanelModel& model);
 
 /// One section of the panel.
 struct Section {

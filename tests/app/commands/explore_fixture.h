@@ -62,13 +62,11 @@ class ExploreTest : public testing::Test {
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
     /// Starts the explorer, waits until its session goes on in its window, and puts the mouse into it.
-    /// @param as_last_time the window has the size that it had last
-    std::unique_ptr<Program> explore(std::vector<std::string> more, bool as_last_time = false) {
-        if (!as_last_time)
-            more.insert(more.begin(), {"--size", "640", "480"});
+    std::unique_ptr<Program> explore(std::vector<std::string> more) {
+        more.insert(more.begin(), {"--size", "640", "480"});
         return explore_sized(std::move(more));
     }
-    /// The same for a size that is among `more`.
+    /// The same with the size that is among `more`, or else the one that the window had last.
     std::unique_ptr<Program> explore_sized(std::vector<std::string> more) {
         std::vector<std::string> arguments{"explore", file("sphere.isochron")};
         arguments.insert(arguments.end(), more.begin(), more.end());

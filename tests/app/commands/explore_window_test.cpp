@@ -124,7 +124,7 @@ TEST_F(ExploreWindow, HasTheSizeThatItHadLast) {
     };
     EXPECT_EQ(size_of()[1], 720) << "as configured";
     {
-        const auto program = explore({}, true);
+        const auto program = explore_sized({});
         screen_.resize_window(title("sphere.isochron"), 700, 500);
         await_frame();
         program->signal(SIGTERM);

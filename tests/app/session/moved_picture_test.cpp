@@ -1,4 +1,5 @@
 // The last exact picture is moved, by its depth, before a worse one is drawn.
+#include "render/gl/driver.h"
 #include "tests/app/session/quality_session.h"
 
 #include <algorithm>
@@ -178,12 +179,13 @@ TEST_P(MovedPicture, IsTheExactOneInAnotherSizeWhereThePanelComesOrGoes) {
     session.share_frames(std::make_unique<SurfacesTakeLong>());
     start(session);
     rest_until(session, is_exact);
-    // All triangles would be as good where an eye has moved, and they are there.
-    float x = 0;
-    EXPECT_TRUE(test_support::eventually([&] {
-        const FrameReport report = with_head(session, {x = 0.005f - x, 0, 0});
-        return report.footprint == Footprint::mesh && !report.moved;
-    }));
+    // All triangles would be as good where an eye has moved, and they are there: in the ways of a
+    // GPU there are none.
+    if (float x = 0; render::takes_processor_ways(session.outputs().gl()))
+        EXPECT_TRUE(test_support::eventually([&] {
+            const FrameReport report = with_head(session, {x = 0.005f - x, 0, 0});
+            return report.footprint == Footprint::mesh && !report.moved;
+        }));
     rest_until(session, is_exact);
     const auto picture = [&] { return session.outputs().display().read_eye(stereo::Eye::center); };
     for (const bool panel : {false, true, false}) {

@@ -101,7 +101,7 @@ DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& gr
 
 void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
     ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
-    std::vector<bool> seen(ideal_.size());
+    visible_.assign(ideal_.size(), false);
     beside_.assign(ideal_.size(), true);
     const glm::vec3 spacing = placement.spacing();
     for (const render::View& view : views) {
@@ -120,7 +120,7 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
                 view.is_parallel() ? 1.0
                                    : glm::length(glm::mat3(placement.room_from_index) * beside);
             const bool is_seen = may_be_seen(clip_from_index, low, high);
-            seen[i] = seen[i] || is_seen;
+            visible_[i] = visible_[i] || is_seen;
             if (beside_[i] && may_be_seen(wide_from_index, low, high))
                 beside_[i] = false;
             const double level =
@@ -128,8 +128,8 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
             ideal_[i] = std::clamp(std::min(ideal_[i], level), kNearest, kFarthest);
         }
     }
-    seen_ = static_cast<double>(std::ranges::count(seen, true)) /
-            static_cast<double>(std::max<std::size_t>(seen.size(), 1));
+    seen_ = static_cast<double>(std::ranges::count(visible_, true)) /
+            static_cast<double>(std::max<std::size_t>(visible_.size(), 1));
 }
 
 bool DetailChoice::cells_look_small() const {
@@ -165,6 +165,16 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
             kept_[i] = static_cast<std::int8_t>(std::floor(wish));
     }
     return {std::min(cells_of(step_), most_), false, kept_};
+}
+
+bool DetailChoice::lacks_what_is_seen(const index::DetailQuery& chosen) const {
+    constexpr std::ptrdiff_t kPart = 20; // of the regions that are seen
+    if (chosen.wished.size() != ideal_.size())
+        return false;
+    std::ptrdiff_t without = 0;
+    for (std::size_t i = 0; i < ideal_.size(); ++i)
+        without += visible_[i] && chosen.wished[i] >= kParts * kFarthest && ideal_[i] < kFarthest;
+    return kPart * without > std::ranges::count(visible_, true);
 }
 
 index::DetailQuery DetailChoice::at_first_rest(std::uint64_t cells) const {

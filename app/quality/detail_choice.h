@@ -64,6 +64,9 @@ class DetailChoice {
     /// @param least that the picture is recognized by: it has so many at once, whatever fits
     index::DetailQuery for_motion(std::optional<double> fit, std::uint64_t drawn,
                                   std::uint64_t least = 0);
+    /// Whether a picture that moves would lack a part of what is seen: its set was chosen for other
+    /// views, and spent no cells on some of the regions that these views show.
+    bool lacks_what_is_seen(const index::DetailQuery& chosen) const;
     /// For a picture that has just come to rest: level 0 wherever a voxel is larger than half a
     /// pixel, and elsewhere a level whose voxels are at most 0.7 pixels large.
     /// @param cells that it may have
@@ -86,8 +89,9 @@ class DetailChoice {
     std::uint64_t most_;
     bool small_, limited_ = false;
     int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
-    double seen_ = 0;               ///< share of the regions that some view may show
+    double seen_ = 0;               ///< share of the regions that are visible
     double seen_then_ = 0;          ///< the same when the number was chosen
+    std::vector<bool> visible_;     ///< by region: some view may show it
     std::vector<bool> beside_;      ///< by region: no eye sees it, even if it turns a little
     std::vector<double> ideal_;     ///< by region: the level whose voxels are a pixel large
     std::vector<std::int8_t> kept_; ///< wishes of moving pictures

@@ -1,14 +1,19 @@
 // Goes through the meshes from the finest on.
 #include "app/quality/mesh_level_choice.h"
 
+#include <algorithm>
+
 namespace isochron::app {
 
 std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) const {
     constexpr double kFinerFits = 0.75, kSameFits = 0.9; // of the budget
     constexpr double kHardlyLonger = 1.3;                // than quads
+    constexpr double kForLikeness = 1.5; // of the budget, where quads are no more like the surface
     /// By level: the share of the cells as quads that is as much like the surface.
     constexpr std::array<double, index::kMeshLevels> kLikeQuads{2, 2, 0.5, 1.0 / 6};
     const bool scraps = meshes.translucent;
+    const Milliseconds longest =
+        scraps ? meshes.longest : std::min(kForLikeness * meshes.budget, meshes.longest);
     const Milliseconds instead =
         meshes.quads_take > meshes.budget ? kHardlyLonger * meshes.quads_take : Milliseconds(0);
     std::optional<std::size_t> coarsest;
@@ -21,7 +26,7 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
         const bool finer = !level_ || level < *level_;
         if (time && (*time <= (finer ? kFinerFits : kSameFits) * meshes.budget || *time <= instead))
             return level;
-        if (scraps && time && *time <= meshes.longest)
+        if (time && *time <= longest && (scraps || meshes.quads <= kLikeQuads.back()))
             coarsest = level;
     }
     return coarsest;

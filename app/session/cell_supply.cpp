@@ -64,6 +64,8 @@ void CellSupply::request(const Frame& frame) {
         request.meshes_of = sets_.held(*finest);
         request.later_room = config_.memory.mesh_room();
     }
+    const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
+    request.before_meshes = moving && details_.lacks_what_is_seen(moving->query.detail);
     if (frame.state.playback.playing)
         request.ahead = steps_ahead(request.query.step, frame.state,
                                     std::span(frame.file.info().times).first(frame.steps));
@@ -279,7 +281,7 @@ bool CellSupply::may_move_finest(const Frame& frame, const FrameQuality& quality
         return false;
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     const bool lacks =
-        !moving || !shows(moving, frame) ||
+        !moving || !shows(moving, frame) || details_.lacks_what_is_seen(moving->query.detail) ||
         static_cast<double>(moving->cells()) < kNearly * static_cast<double>(quality.least_cells());
     const bool as_mesh = quality.moves_as_mesh() && !resting->coarse();
     return as_mesh || quality.fits_in_motion(resting->cells(), frame.plan.moves_finest) ||
@@ -312,10 +314,21 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
                             held ? held->query.detail.most_cells : 0, quality.least_cells());
     if (shows(held, frame) && !held->coarse() && held->cells() <= moving.most_cells)
         return held->query.detail; // it has all there is
-    if (frame.report.pace == interaction::Pace::moving || !rests_ || !shows(held, frame)) {
+    // Motion may begin at any time: it is recognized before the picture at rest gets its cells. How
+    // many that takes is estimated from few cells.
+    const bool few =
+        held && !shows(sets_.held(CellSets::Use::at_rest), frame) &&
+        held->query.detail.most_cells < std::min(quality.least_cells(), moving.most_cells) / 2;
+    const bool elsewhere = held && moving.most_cells >= held->query.detail.most_cells &&
+                           details_.lacks_what_is_seen(held->query.detail);
+    const bool lacks = held && held->coarse() && (few || elsewhere);
+    if (frame.report.pace == interaction::Pace::moving || !rests_ || !shows(held, frame) || lacks) {
         plan.all_at_rest = false;
         // What is on its way comes first, so that a set comes at all while the view changes.
-        const bool on_its_way = set_comes() && !plan.detail.at_rest && plan.detail.most_cells > 0 &&
+        // The extractor may also be busy with meshes.
+        const bool is_there = shows(held, frame) && held->query.detail == plan.detail;
+        const bool on_its_way = !is_there && set_comes() && !plan.detail.at_rest &&
+                                plan.detail.most_cells > 0 &&
                                 moving.most_cells >= plan.detail.most_cells / 2;
         return on_its_way ? plan.detail : moving;
     }

@@ -62,7 +62,7 @@ struct Extractor::State {
     /// them in each frame that moves: they come first, for a moment, or they would never come.
     bool finishes_meshes(const Request& request) const {
         constexpr std::chrono::seconds kMoment{1};
-        return running && running->meshes_of &&
+        return running && running->meshes_of && !request.before_meshes &&
                running->meshes_of->query.of_cells() == request.query.of_cells() &&
                Clock::now() - running->started < kMoment;
     }

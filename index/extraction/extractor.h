@@ -29,6 +29,9 @@ struct Request {
     /// this extraction (Extraction::later), unless it has them; null: none are.
     ExtractionPtr meshes_of = nullptr;
     std::uint64_t later_room = 0;
+    /// Meshes that are being made of these cells give way to the query. Otherwise they come first for
+    /// a moment.
+    bool before_meshes = false;
 };
 
 /// Whether a search has come so far that it is finished although something else is asked for: that

@@ -70,6 +70,19 @@ TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuads) {
     EXPECT_EQ(beside(1, 100), 3u) << "also before quads of all cells";
 }
 
+TEST(MeshLevelChoice, TheCoarsestMayTakeLongerThanTheBudgetWhereQuadsAreLessLikeTheSurface) {
+    const auto beside = [](double quads, double coarsest_ms, double longest_ms = 100) {
+        MeshesAtHand meshes = taking(20 * coarsest_ms);
+        meshes.quads = quads;
+        meshes.longest = Milliseconds(longest_ms);
+        return MeshLevelChoice().choose(meshes);
+    };
+    EXPECT_EQ(beside(0.15, 14), 3u) << "of a budget of 10 ms";
+    EXPECT_EQ(beside(0.15, 16), std::nullopt);
+    EXPECT_EQ(beside(0.2, 14), std::nullopt) << "quads of a fifth of the cells are more like it";
+    EXPECT_EQ(beside(0.15, 14, 12), std::nullopt) << "no picture may take so long";
+}
+
 TEST(MeshLevelChoice, TakesHardlyLongerThanQuadsThatDoNotFitEither) {
     const auto beside = [](double quads_ms, double all_ms) {
         MeshesAtHand meshes = taking(all_ms);

@@ -238,6 +238,34 @@ TEST(DetailChoice, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
         EXPECT_LT(wished_of(view, 10'000, left), nothing);
 }
 
+TEST(DetailChoice, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
+    const index::Grid grid = cube(513);
+    const auto turned = [&](float degrees) {
+        render::View view = view_from(0.6f, 1000);
+        view.eye_from_room =
+            glm::rotate(glm::mat4(1.0f), glm::radians(degrees), glm::vec3(0, 1, 0)) *
+            view.eye_from_room;
+        return std::array{view};
+    };
+    const auto lacks = [&](float then, float now, std::uint64_t least) {
+        DetailChoice choice(grid, 1'000'000);
+        choice.look(turned(then), a_meter_wide(grid));
+        const index::DetailQuery chosen = choice.for_motion(100'000, 0, least);
+        choice.look(turned(now), a_meter_wide(grid));
+        return choice.lacks_what_is_seen(chosen);
+    };
+    constexpr std::uint64_t kScarce = 100'000;
+    EXPECT_TRUE(lacks(60, -60, kScarce));
+    EXPECT_TRUE(lacks(-60, 0, kScarce));
+    EXPECT_FALSE(lacks(60, 60, kScarce));
+    EXPECT_FALSE(lacks(60, 50, kScarce)) << "heads turn a little";
+    EXPECT_FALSE(lacks(60, -60, 10'000)) << "no region was left out";
+    // A set whose levels were not chosen by views lacks nothing.
+    DetailChoice choice(grid, 1'000'000);
+    choice.look(turned(0), a_meter_wide(grid));
+    EXPECT_FALSE(choice.lacks_what_is_seen({}));
+}
+
 TEST(DetailChoice, CellsThatNobodySeesMakeNoRoomForMore) {
     const index::Grid grid = cube(513);
     DetailChoice choice(grid, 1'000'000);

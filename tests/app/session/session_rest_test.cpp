@@ -130,7 +130,8 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
         EXPECT_GT(coarse, 0) << "all cells take long";
         for (int i = 0; i < 3; ++i)
             report = frame(session, true);
-        EXPECT_GT(report.coarsest, 0u);
+        EXPECT_TRUE(report.coarsest > 0 || report.mesh_level > 0)
+            << "of less detail while it moves";
     }
 }
 

@@ -1,10 +1,8 @@
 // Extractions: the cells of every surface, and all of the volume that they need.
 #include "index/error.h"
 #include "index/extraction/extractor.h"
-#include "index/indexing/index_build.h"
 #include "index/surface/cell_colors.h"
-#include "index/surface/mesh_clusters.h"
-#include "tests/support/eventually.h"
+#include "tests/support/indexed.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/test_field.h"
 #include "tests/support/test_folder.h"
@@ -19,12 +17,6 @@ namespace isochron::index {
 namespace {
 
 using test_support::TestFolder;
-
-std::shared_ptr<const IndexFile> indexed(const TestFolder& folder, const StepValues& values) {
-    MemorySeries series(values);
-    build_index(series, folder.path() / "a.isochron", {});
-    return IndexFile::open(folder.path() / "a.isochron");
-}
 
 /// Blocks of all vertices whose values a cell's central differences take, one by one.
 std::set<BlockId> needed(const Grid& grid, const std::vector<CellSet>& surfaces) {
@@ -258,64 +250,6 @@ TEST(Extraction, MeshesOfAllSurfacesComeWithinTheirRoomOrNot) {
     EXPECT_EQ(extract_from(file)({.isovalues = {30.0}, .mesh_room = bytes}, {})->surfaces[0].mesh,
               nullptr)
         << "a GPU makes its own normals, and draws no mesh";
-}
-
-TEST(Extraction, MeshesAreSimplifiedOnceTheQueryIsAnsweredWhereAskedFor) {
-    const TestFolder folder;
-    const TestField field({40, 40, 40}, 3, ValueType::f32, moving_sphere);
-    const auto file = indexed(folder, field.view());
-    Extractor extractor(extract_from(file, std::nullopt, Shading::cells), 1 << 30);
-    const SurfacesQuery query{.step = 0, .isovalues = {30.0, 1e9}, .mesh_room = 1 << 30};
-    extractor.request({.query = query, .ahead = {}});
-    extractor.wait();
-    const ExtractionPtr set = extractor.newest();
-    ASSERT_TRUE(set->meshed());
-    EXPECT_FALSE(set->later->get()) << "nobody has asked";
-    EXPECT_EQ(set->triangles(1), 0u);
-    constexpr std::uint64_t kRoom = 1 << 30;
-    extractor.request({.query = query, .ahead = {}, .meshes_of = set, .later_room = kRoom});
-    extractor.wait();
-    EXPECT_EQ(extractor.newest(), set) << "it stays";
-    for (std::size_t level = 1; level < kMeshLevels; ++level) {
-        EXPECT_LT(0u, set->triangles(level));
-        EXPECT_LT(set->triangles(level), set->triangles(level - 1));
-        ASSERT_EQ(set->meshes(level).size(), 2u);
-        EXPECT_EQ(*set->meshes(level)[0],
-                  clustered(*set->surfaces[0].mesh, kClusterEdges[level - 1]));
-        EXPECT_FALSE(set->meshes(level)[1]) << "without cells";
-    }
-}
-
-TEST(Extraction, ThatCameWithoutMeshesGetsThoseOfAllLevelsThatFit) {
-    const TestFolder folder;
-    const TestField field({40, 40, 40}, 1, ValueType::f32, moving_sphere);
-    const auto file = indexed(folder, field.view());
-    const SurfacesQuery query{.step = 0, .isovalues = {30.0, 1e9}, .mesh_room = 0};
-    SurfacesQuery with_mesh = query;
-    with_mesh.mesh_room = 1 << 30;
-    const ExtractionPtr meshed =
-        extract_from(file, std::nullopt, Shading::cells)(with_mesh, std::stop_token());
-    const auto made = [&](std::uint64_t room) {
-        Extractor extractor(extract_from(file, std::nullopt, Shading::cells), 1 << 30);
-        extractor.request({.query = query, .ahead = {}});
-        extractor.wait();
-        ExtractionPtr set = extractor.newest();
-        extractor.request({.query = query, .ahead = {}, .meshes_of = set, .later_room = room});
-        extractor.wait();
-        EXPECT_EQ(extractor.newest(), set) << "it stays";
-        return set;
-    };
-    const ExtractionPtr all = made(1 << 30);
-    EXPECT_FALSE(all->meshed()) << "it came without one";
-    ASSERT_EQ(all->meshes(0).size(), 2u);
-    EXPECT_EQ(*all->meshes(0)[0], *meshed->surfaces[0].mesh);
-    EXPECT_EQ(*all->meshes(1)[0], clustered(*meshed->surfaces[0].mesh, kClusterEdges[0]));
-    // Where there is less room, the finest are left out.
-    const ExtractionPtr some = made(all->later->get()->bytes() - 1);
-    EXPECT_TRUE(some->meshes(0).empty());
-    EXPECT_EQ(*some->meshes(1)[0], *all->meshes(1)[0]);
-    const ExtractionPtr none = made(1);
-    EXPECT_TRUE(none->meshes(kMeshLevels - 1).empty());
 }
 
 TEST(Extraction, WithoutActiveCellsThereIsNothingToSend) {

@@ -3,6 +3,7 @@
 #include "index/indexing/appended_series.h"
 #include "index/indexing/index_build.h"
 #include "index/system/growing_file.h"
+#include "tests/support/indexed.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/staying_field.h"
 #include "tests/support/test_folder.h"
@@ -17,13 +18,6 @@ namespace isochron::index {
 namespace {
 
 using test_support::TestFolder;
-
-std::shared_ptr<const IndexFile> indexed(const TestFolder& folder, const StepValues& values,
-                                         const BuildOptions& options = {}) {
-    MemorySeries series(values);
-    build_index(series, folder.path() / "a.isochron", options);
-    return IndexFile::open(folder.path() / "a.isochron");
-}
 
 bool same_points(const std::vector<CellPoint>& a, const std::vector<CellPoint>& b) {
     return std::ranges::equal(a, b, [](const CellPoint& x, const CellPoint& y) {

@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/indexing/index_build.h"
+#include "tests/support/indexed.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
@@ -14,13 +15,6 @@
 
 namespace isochron::index {
 namespace {
-
-std::shared_ptr<const IndexFile> indexed(const TestFolder& folder, const StepValues& values,
-                                         const BuildOptions& options = {}) {
-    MemorySeries series(values);
-    build_index(series, folder.path() / "a.isochron", options);
-    return IndexFile::open(folder.path() / "a.isochron");
-}
 
 constexpr std::array kMethods{SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree,
                               SearchMethod::scan};

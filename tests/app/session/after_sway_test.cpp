@@ -73,5 +73,24 @@ TEST_P(AfterSway, MotionDrawsTheCellsThatFitThoughTheFirstPicturesTookMuchLonger
     }
 }
 
+TEST_P(AfterSway, TheFirstMotionCanBeRecognized) {
+    Config config = config_with(1e-6);
+    config.quality.longest_ms = 5; // an eighth of the cells takes less, all of them more
+    config.memory.mesh_megabytes = 0;
+    const double slower = 1;
+    Session session(config, large_, *context_);
+    session.share_frames(std::make_unique<KnownTimesOfCells>(slower));
+    FrameReport report = first_frame(session, false);
+    ASSERT_TRUE(test_support::eventually([&] {
+        report = at(session, 0);
+        return report.volume_cells.value_or(0) > 0 && report.final;
+    }));
+    const std::uint64_t all = *report.volume_cells;
+    report = at(session, 0.3);
+    ASSERT_EQ(report.pace, interaction::Pace::moving);
+    EXPECT_GT(report.coarsest, 0u);
+    EXPECT_GE(report.cells, all / 12) << "of whole levels, so about an eighth";
+}
+
 } // namespace
 } // namespace isochron::app

@@ -147,23 +147,6 @@ TEST_P(SessionDetail, WhatMovesCanBeRecognizedHoweverSmallTheBudget) {
     }
 }
 
-TEST_P(SessionDetail, TheFirstMotionCanBeRecognized) {
-    Config config = config_with(1e-6);
-    config.quality.longest_ms = 1000;
-    Session session(config, large_, *context_);
-    FrameReport report = first_frame(session, false);
-    ASSERT_TRUE(test_support::eventually([&] {
-        report = frame(session, false);
-        return report.volume_cells.value_or(0) > 0 && report.final;
-    }));
-    const std::uint64_t all = *report.volume_cells;
-    interaction::InputState input = head_at_rest(frame_ / 60.0);
-    input.devices[0].pose->position.x = 0.3f;
-    report = session.frame(input, {}, Waiting::never);
-    ASSERT_EQ(report.pace, interaction::Pace::moving);
-    EXPECT_GE(report.cells, all / 12) << "of whole levels, so about an eighth";
-}
-
 /// Pixels of the first window that are not the background's.
 double lit_of(const Session& session) {
     const auto rgba = session.outputs().display().read_window().rgba;

@@ -116,6 +116,8 @@ bool EventTaker::operator()(const TextEvent& event) {
 bool EventTaker::operator()(const MouseButtonEvent& event) {
     const auto button = static_cast<std::size_t>(event.button);
     const std::uint32_t bit = 1u << button;
+    // Before the button is down: whose it was when it was pressed last says nothing of this press.
+    const bool taken = event.down && captures_mouse();
     // ImGui sees the state once per frame: delay the release of a click within one frame.
     begun = begun || event.down;
     (event.down ? pressed : released) |= bit;
@@ -123,7 +125,6 @@ bool EventTaker::operator()(const MouseButtonEvent& event) {
         late_releases |= bit;
     else
         io.MouseDown[button] = event.down;
-    const bool taken = event.down && captures_mouse();
     clicked = clicked || taken;
     return taken;
 }

@@ -212,6 +212,8 @@ TEST_F(Clicks, APressThatComesWithAJumpIntoThePictureBelongsToThePicture) {
     EXPECT_TRUE(press_after_jump(column, picture));
     EXPECT_FALSE(press_after_jump(picture, column));
     EXPECT_FALSE(press_after_jump(picture, on_hint));
+    EXPECT_TRUE(press_after_jump(on_hint, picture)) << "also after one on the panel";
+    EXPECT_TRUE(press_after_jump(picture, picture));
 }
 
 TEST_F(Clicks, ACommandIsFoundByItsWordsAndRunByItsKey) {

@@ -87,4 +87,15 @@ ChildResult run_child(const std::string& program, const std::vector<std::string>
     return result;
 }
 
+std::vector<std::string> of_processes(std::size_t count, const std::vector<std::string>& command) {
+    // The MPI library leaks. Looking for graphics cards it connects to all displays of this machine, also
+    // to those of other tests, and ends where one of them does.
+    std::vector<std::string> arguments{
+        "ASAN_OPTIONS=detect_leaks=0", "HWLOC_COMPONENTS=-gl", "mpirun",
+        "--allow-run-as-root",         "--oversubscribe",      "-n",
+        std::to_string(count)};
+    arguments.insert(arguments.end(), command.begin(), command.end());
+    return arguments;
+}
+
 } // namespace isochron::app

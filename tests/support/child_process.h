@@ -4,6 +4,7 @@
 #include "tests/support/test_folder.h"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -30,5 +31,8 @@ struct ChildResult {
 /// Runs the program and waits for its end. @throws std::runtime_error when it cannot be started
 ChildResult run_child(const std::string& program, const std::vector<std::string>& arguments,
                       const std::filesystem::path& folder, const ChildOptions& options = {});
+
+/// Arguments of `env` that start a job of MPI. @param command of each process
+std::vector<std::string> of_processes(std::size_t count, const std::vector<std::string>& command);
 
 } // namespace isochron::app

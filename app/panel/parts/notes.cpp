@@ -96,8 +96,8 @@ void gap_window(const PanelModel& model, const PanelBox& picture) {
     const std::string held = held_text(model);
     if (held.empty())
         return;
-    ImGui::SetNextWindowPos({picture.low.x + kMargin, picture.high.y - kMargin}, ImGuiCond_Always,
-                            {0.0f, 1.0f});
+    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2, picture.high.y - kMargin},
+                            ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::Begin("###gap", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav);
     text(held);
     ImGui::End();

@@ -24,8 +24,8 @@ std::string quality_line(const FrameReport& frame);
 /// @return the right end of the chip
 float state_chip(const PanelModel& model, const PanelBox& picture, bool& open);
 
-/// At the lower left of the picture, near the bar of the time: between which steps the moment
-/// lies, or that a gap is held.
+/// At the lower edge of the picture, between its scale bar and its legend: between which steps the
+/// moment lies, or that a gap is held.
 void gap_window(const PanelModel& model, const PanelBox& picture);
 
 /// What is said at the top of the picture.

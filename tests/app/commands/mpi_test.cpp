@@ -53,16 +53,9 @@ class MpiBuild : public testing::Test {
     }
     ChildResult build_of(int processes, const std::vector<std::string>& given,
                          const std::string& out) {
-        // The MPI library itself leaks.
-        std::vector<std::string> arguments{"ASAN_OPTIONS=detect_leaks=0",
-                                           "mpirun",
-                                           "--allow-run-as-root",
-                                           "--oversubscribe",
-                                           "-n",
-                                           std::to_string(processes),
-                                           test_support::binary_root() + "/isochron"};
-        if (processes == 0)
-            arguments = {test_support::binary_root() + "/isochron"};
+        std::vector<std::string> arguments{test_support::binary_root() + "/isochron"};
+        if (processes > 0)
+            arguments = of_processes(static_cast<std::size_t>(processes), arguments);
         arguments.insert(arguments.end(), {"build", "-o", out});
         arguments.insert(arguments.end(), given.begin(), given.end());
         return run_child("/usr/bin/env", arguments, folder.path());
@@ -140,9 +133,7 @@ TEST_F(MpiBuild, ReadsInAReaderOfEveryProcess) {
         return run_child("/usr/bin/env", arguments, folder.path());
     };
     ASSERT_EQ(build_vti({}, "alone").status, 0);
-    const ChildResult job = build_vti({"ASAN_OPTIONS=detect_leaks=0", "mpirun",
-                                       "--allow-run-as-root", "--oversubscribe", "-n", "2"},
-                                      "job");
+    const ChildResult job = build_vti(of_processes(2, {}), "job");
     ASSERT_EQ(job.status, 0) << job.err;
     EXPECT_EQ(folder.read("job"), folder.read("alone"));
 }
@@ -175,13 +166,12 @@ ChildResult struck_job(TestFolder& folder, const std::string& signal) {
         std::ranges::generate(noise, [&] { return static_cast<char>(random()); });
         folder.write("n" + std::to_string(step) + ".raw", noise);
     }
-    return run_child(
-        "/usr/bin/env",
-        {"ASAN_OPTIONS=detect_leaks=0", "mpirun", "--allow-run-as-root", "--oversubscribe", "-n",
-         "2", "/bin/sh", "-c",
-         // One command for both: mpirun 5.0.7 crashes if there are several.
-         "if [ $OMPI_COMM_WORLD_RANK = 0 ]; then exec " + build + "; fi; " + when_under_way},
-        folder.path());
+    return run_child("/usr/bin/env",
+                     // One command for both: mpirun 5.0.7 crashes if there are several.
+                     of_processes(2, {"/bin/sh", "-c",
+                                      "if [ $OMPI_COMM_WORLD_RANK = 0 ]; then exec " + build +
+                                          "; fi; " + when_under_way}),
+                     folder.path());
 }
 
 std::vector<std::string> lines_of_ours(const ChildResult& result) {

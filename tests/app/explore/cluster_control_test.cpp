@@ -30,9 +30,7 @@ class ClusterControlTest : public testing::Test {
             fmt::format("exec {}/isochron explore sphere.isochron --config lab.toml --no-panel "
                         "--control {} --record walk.jsonl --report timing.json",
                         test_support::binary_root(), socket());
-        return run_child("/usr/bin/env",
-                         {"ASAN_OPTIONS=detect_leaks=0", "mpirun", "--allow-run-as-root",
-                          "--oversubscribe", "-n", "2", "/bin/sh", "-c", explore},
+        return run_child("/usr/bin/env", of_processes(2, {"/bin/sh", "-c", explore}),
                          folder_.path());
     }
     ChildResult tell(std::vector<std::string> words) const {

@@ -3,12 +3,15 @@
 
 #include "interaction/field.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace isochron::app {
 namespace {
 
 using interaction::Commands;
+
+constexpr std::size_t kRemembered = 4 * ControlDesk::kMostBatches; ///< frames that obeyed something
 
 /// Whether a frame may obey both as if the later ones had come a frame later.
 bool go_together(const Commands& earlier, const Commands& later) {
@@ -62,6 +65,12 @@ std::shared_ptr<const ShownFrame> ControlDesk::shown() const {
     return shown_;
 }
 
+std::uint64_t ControlDesk::frame_of(std::uint64_t request) const {
+    const std::lock_guard lock(mutex_);
+    const auto first = std::ranges::lower_bound(first_to_obey_, request, {}, &FirstToObey::request);
+    return first != first_to_obey_.end() ? first->frame : shown_ ? shown_->number : 0;
+}
+
 std::shared_ptr<const ControlPicture> ControlDesk::picture() const {
     const std::lock_guard lock(mutex_);
     return picture_;
@@ -90,6 +99,10 @@ void ControlDesk::show(ShownFrame frame) {
     auto shown = std::make_shared<const ShownFrame>(std::move(frame));
     {
         const std::lock_guard lock(mutex_);
+        if (shown->obeyed > (shown_ ? shown_->obeyed : 0))
+            first_to_obey_.push_back({shown->obeyed, shown->number});
+        if (first_to_obey_.size() > kRemembered)
+            first_to_obey_.pop_front();
         std::swap(shown_, shown); // the frame before is freed behind the lock
     }
     if (interested_ && socket_wake_)

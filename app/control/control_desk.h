@@ -58,6 +58,8 @@ class ControlDesk {
     /// @return the wish's number, in its kind
     std::uint64_t want_picture(bool now);
     std::shared_ptr<const ShownFrame> shown() const;
+    /// Number of the first frame that obeyed a request; of the newest, if that is long ago.
+    std::uint64_t frame_of(std::uint64_t request) const;
     std::shared_ptr<const ControlPicture> picture() const;
     std::shared_ptr<const index::IndexFile> file() const;
     /// Whether the socket's thread is to be woken by frames.
@@ -81,6 +83,9 @@ class ControlDesk {
     void set_socket_wake(std::function<void()> wake) { socket_wake_ = std::move(wake); }
 
   private:
+    struct FirstToObey {
+        std::uint64_t request, frame;
+    };
     void wake_loop();
 
     mutable std::mutex mutex_;
@@ -88,6 +93,7 @@ class ControlDesk {
     std::uint64_t posted_ = 0;
     PictureWishes wishes_;
     std::shared_ptr<const ShownFrame> shown_;
+    std::deque<FirstToObey> first_to_obey_; ///< ascending
     std::shared_ptr<const ControlPicture> picture_;
     std::shared_ptr<const index::IndexFile> file_;
     std::atomic<bool> interested_{false};

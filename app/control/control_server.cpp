@@ -244,7 +244,8 @@ void ControlServer::answer_waiting(Connection& client, const ShownFrame& shown,
     std::erase_if(client.waits, [&](const Unanswered& one) {
         if (!is_done(one))
             return false;
-        client.send(one.what == Unanswered::For::frame ? done(one.id, shown.number)
+        // Another frame may have been shown since.
+        client.send(one.what == Unanswered::For::frame ? done(one.id, desk_.frame_of(one.number))
                                                        : picture_answer(one.id, *picture));
         return true;
     });

@@ -157,6 +157,17 @@ TEST_F(ControlServerTest, AnswersACommandWithTheFrameThatObeysIt) {
     EXPECT_EQ(state.at("state").at("step"), 2);
 }
 
+TEST_F(ControlServerTest, TheFrameThatObeysIsTheFirstAlsoOnceOthersHaveBeenShown) {
+    ControlDesk desk;
+    std::uint64_t number = 0;
+    for (const std::uint64_t obeyed : {0u, 3u, 3u, 5u, 5u})
+        desk.show({.number = ++number, .obeyed = obeyed, .state = state_, .report = {}});
+    EXPECT_EQ(desk.frame_of(1), 2u);
+    EXPECT_EQ(desk.frame_of(3), 2u);
+    EXPECT_EQ(desk.frame_of(4), 4u);
+    EXPECT_EQ(desk.frame_of(5), 4u);
+}
+
 TEST_F(ControlServerTest, RefusesWhatTheDataDoNotHave) {
     listen();
     ControlClient client(server_->address());

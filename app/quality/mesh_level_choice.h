@@ -30,11 +30,10 @@ struct MeshesAtHand {
 };
 
 /// The finest mesh that is expected to fit or, where quads do not fit either, to take hardly longer
-/// than they do. A finer one than before has to fit with room to
-/// spare. The coarsest may take half as long again as the budget where quads are of so few cells that
-/// they are less like the surface. Of translucent surfaces it is taken before quads, as long as it takes
-/// no longer than any picture may. Half a second passes between two changes, so that the choice does not
-/// go to and fro.
+/// than they do. A finer one than before has to fit with room to spare. The coarsest may take half as
+/// long again as the budget where quads are of so few cells that they are less like the surface. Of
+/// translucent surfaces it is taken before quads, as long as it takes no longer than any picture may.
+/// Half a second passes between two changes, so that the choice does not go to and fro.
 class MeshLevelChoice {
   public:
     /// @return its level; empty: none fits, there is none, or quads of all cells are more like the

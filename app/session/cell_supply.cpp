@@ -325,10 +325,7 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
     if (frame.report.pace == interaction::Pace::moving || !rests_ || !shows(held, frame) || lacks) {
         plan.all_at_rest = false;
         // What is on its way comes first, so that a set comes at all while the view changes.
-        // The extractor may also be busy with meshes.
-        const bool is_there = shows(held, frame) && held->query.detail == plan.detail;
-        const bool on_its_way = !is_there && set_comes() && !plan.detail.at_rest &&
-                                plan.detail.most_cells > 0 &&
+        const bool on_its_way = set_comes() && !plan.detail.at_rest && plan.detail.most_cells > 0 &&
                                 moving.most_cells >= plan.detail.most_cells / 2;
         return on_its_way ? plan.detail : moving;
     }

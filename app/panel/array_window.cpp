@@ -64,11 +64,9 @@ bool ArrayWindow::draw_lines(const std::vector<ListedArray>& arrays, const char*
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::PushID(static_cast<int>(i));
-        if (ImGui::Selectable("##line", i == chosen_,
-                              ImGuiSelectableFlags_SpanAllColumns |
-                                  ImGuiSelectableFlags_AllowDoubleClick)) {
+        if (const LinePress press = table_line(i == chosen_); press != LinePress::none) {
             chosen_ = i;
-            opened = can && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            opened = can && press == LinePress::twice;
         }
         if (!can)
             tip(line.fault.c_str());

@@ -147,11 +147,9 @@ const ListedFile* FileWindow::draw_table(const std::vector<const ListedFile*>& s
         ImGui::TableNextColumn();
         ImGui::PushID(i);
         const std::string name = line.kind == Kind::folder ? line.name + "/" : line.name;
-        if (ImGui::Selectable("##line", i == chosen_,
-                              ImGuiSelectableFlags_SpanAllColumns |
-                                  ImGuiSelectableFlags_AllowDoubleClick)) {
+        if (const LinePress press = table_line(i == chosen_); press != LinePress::none) {
             chosen_ = i;
-            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+            if (press == LinePress::twice)
                 opened = &line;
         }
         if (i == chosen_ && moved)

@@ -143,7 +143,9 @@ void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float n
 }
 
 void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
-    constexpr double kShortest = 1e-4, kLongest = 0.1; // ImGui requires a time above 0
+    // ImGui requires a time above 0. A window at rest has no frames: two clicks with a pause between
+    // them are no double click, so the longest time is longer than that of one.
+    constexpr double kShortest = 1e-4, kLongest = 0.5;
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(picture.x) / scale_,

@@ -178,6 +178,15 @@ bool tick_field(const char* id, bool& on, const char* words) {
     return changed;
 }
 
+LinePress table_line(bool chosen) {
+    ImGui::Selectable("##line", chosen, ImGuiSelectableFlags_SpanAllColumns);
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) ||
+        !ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        return LinePress::none;
+    const bool even = ImGui::GetMouseClickedCount(ImGuiMouseButton_Left) % 2 == 0;
+    return even ? LinePress::twice : LinePress::once;
+}
+
 std::string format_with(const std::string& unit) {
     std::string format = unit.empty() ? "%.6g" : "%.6g ";
     for (char c : unit)

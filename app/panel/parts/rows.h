@@ -47,6 +47,14 @@ std::optional<std::size_t> choice_field(const char* id, const std::string& curre
 /// A box to tick. @return whether it has changed
 bool tick_field(const char* id, bool& on, const char* words = "");
 
+/// What the mouse does with a line of a list.
+enum class LinePress { none, once, twice };
+
+/// A line over all columns of its table: a press chooses it, a second one soon after opens it, and
+/// a third one is a first one again. A press counts also in the frame in which a field of the same
+/// window takes the keyboard, where ImGui's own lines miss it.
+LinePress table_line(bool chosen);
+
 /// The format of a number with its unit, with the unit's percent signs escaped.
 std::string format_with(const std::string& unit);
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <utility>
 #include <variant>
@@ -233,6 +234,35 @@ TEST_F(Clicks, ACommandIsFoundByItsWordsAndRunByItsKey) {
             keys.emplace_back(key->key, key->down);
     EXPECT_EQ(keys, (std::vector<std::pair<Key, bool>>{{Key{'0'}, true}, {Key{'0'}, false}}));
     EXPECT_FALSE(layer_.pages().any()) << "the search closes";
+}
+
+TEST_F(Clicks, TwoWithAPauseBetweenThemOpenNothing) {
+    const std::string lately = "/lately.vti"; // of what was open lately, nothing is read yet
+    layer_.pages().offer_files([&] { return std::vector<std::filesystem::path>{lately}; });
+    layer_.pages().open_files();
+    const auto show = [&](double after, const std::vector<interaction::WindowEvent>& events) {
+        time_ += interaction::Seconds(after);
+        layer_.feed(events, true);
+        layer_.lay_out_files(kSize, {}, time_);
+        return layer_.pages().take_chosen().has_value();
+    };
+    for (int i = 0; i < 5; ++i)
+        show(0.1, {});
+    const auto place =
+        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), lately);
+    ASSERT_TRUE(place);
+    show(0.1, {interaction::MouseMoveEvent{place->x / float(kSize.x), place->y / float(kSize.y),
+                                           kSize.x, kSize.y}});
+    const auto click = [&](double after) {
+        using interaction::MouseButton;
+        using interaction::MouseButtonEvent;
+        const bool pressed = show(after, {MouseButtonEvent{MouseButton::left, true}});
+        return show(0.01, {MouseButtonEvent{MouseButton::left, false}}) || pressed;
+    };
+    EXPECT_FALSE(click(1));
+    EXPECT_FALSE(click(10)); // the window had no frame in between
+    EXPECT_FALSE(click(10));
+    EXPECT_TRUE(click(0.15));
 }
 
 } // namespace

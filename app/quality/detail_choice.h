@@ -67,6 +67,10 @@ class DetailChoice {
     /// Whether a picture that moves would lack a part of what is seen: its set was chosen for other
     /// views, and spent no cells on some of the regions that these views show.
     bool lacks_what_is_seen(const index::DetailQuery& chosen) const;
+    /// Whether that set is to be made anew as it would be now, even if that has fewer cells.
+    bool is_for_other_views(const index::DetailQuery& chosen, const index::DetailQuery& now) const {
+        return chosen != now && lacks_what_is_seen(chosen);
+    }
     /// For a picture that has just come to rest: level 0 wherever a voxel is larger than half a
     /// pixel, and elsewhere a level whose voxels are at most 0.7 pixels large.
     /// @param cells that it may have

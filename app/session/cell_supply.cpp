@@ -319,8 +319,7 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
     const bool few =
         held && !shows(sets_.held(CellSets::Use::at_rest), frame) &&
         held->query.detail.most_cells < std::min(quality.least_cells(), moving.most_cells) / 2;
-    const bool elsewhere = held && moving.most_cells >= held->query.detail.most_cells &&
-                           details_.lacks_what_is_seen(held->query.detail);
+    const bool elsewhere = held && details_.is_for_other_views(held->query.detail, moving);
     const bool lacks = held && held->coarse() && (few || elsewhere);
     if (frame.report.pace == interaction::Pace::moving || !rests_ || !shows(held, frame) || lacks) {
         plan.all_at_rest = false;

@@ -260,6 +260,16 @@ TEST(DetailChoice, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
     EXPECT_FALSE(lacks(60, 60, kScarce));
     EXPECT_FALSE(lacks(60, 50, kScarce)) << "heads turn a little";
     EXPECT_FALSE(lacks(60, -60, 10'000)) << "no region was left out";
+    // It is made anew for the views of now, also where fewer cells fit than then; once.
+    DetailChoice dearer(grid, 1'000'000);
+    dearer.look(turned(60), a_meter_wide(grid));
+    const index::DetailQuery then = dearer.for_motion(200'000, 0, kScarce);
+    dearer.look(turned(-60), a_meter_wide(grid));
+    const index::DetailQuery now = dearer.for_motion(50'000, 0, kScarce);
+    EXPECT_LT(now.most_cells, then.most_cells);
+    EXPECT_TRUE(dearer.is_for_other_views(then, now));
+    EXPECT_FALSE(dearer.is_for_other_views(now, now));
+    EXPECT_FALSE(dearer.is_for_other_views(then, then)) << "another one would be the same";
     // A set whose levels were not chosen by views lacks nothing.
     DetailChoice choice(grid, 1'000'000);
     choice.look(turned(0), a_meter_wide(grid));

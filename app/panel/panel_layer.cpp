@@ -39,6 +39,7 @@ PanelLayer::PanelLayer(const render::Gl& gl, float scale)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    io.MouseDoubleClickTime = 0.4f; // as in the picture
     for (const auto& [imgui_key, key] : keys_of_imgui())
         io.KeyMap[imgui_key] = static_cast<int>(key);
     use_theme(Theme::dark);

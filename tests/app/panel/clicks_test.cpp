@@ -262,7 +262,7 @@ TEST_F(Clicks, TwoWithAPauseBetweenThemOpenNothing) {
     EXPECT_FALSE(click(1));
     EXPECT_FALSE(click(10)); // the window had no frame in between
     EXPECT_FALSE(click(10));
-    EXPECT_TRUE(click(0.15));
+    EXPECT_TRUE(click(0.35));
 }
 
 } // namespace

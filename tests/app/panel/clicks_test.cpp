@@ -236,33 +236,55 @@ TEST_F(Clicks, ACommandIsFoundByItsWordsAndRunByItsKey) {
     EXPECT_FALSE(layer_.pages().any()) << "the search closes";
 }
 
-TEST_F(Clicks, TwoWithAPauseBetweenThemOpenNothing) {
-    const std::string lately = "/lately.vti"; // of what was open lately, nothing is read yet
-    layer_.pages().offer_files([&] { return std::vector<std::filesystem::path>{lately}; });
-    layer_.pages().open_files();
-    const auto show = [&](double after, const std::vector<interaction::WindowEvent>& events) {
+/// The list of the data that were open lately, of one line, with the mouse at that line.
+class ClicksOnALine : public LayerTest {
+  protected:
+    ClicksOnALine() {
+        layer_.pages().offer_files([this] { return std::vector<std::filesystem::path>{lately_}; });
+        open();
+    }
+    void open() {
+        layer_.pages().open_files();
+        for (int i = 0; i < 5; ++i)
+            show(0.5, {});
+        const auto place =
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), lately_);
+        ASSERT_TRUE(place);
+        show(0.1, {interaction::MouseMoveEvent{place->x / float(kSize.x), place->y / float(kSize.y),
+                                               kSize.x, kSize.y}});
+    }
+    /// A frame so many seconds after the last. @return whether data have been chosen in it
+    bool show(double after, const std::vector<interaction::WindowEvent>& events) {
         time_ += interaction::Seconds(after);
         layer_.feed(events, true);
         layer_.lay_out_files(kSize, {}, time_);
         return layer_.pages().take_chosen().has_value();
-    };
-    for (int i = 0; i < 5; ++i)
-        show(0.1, {});
-    const auto place =
-        place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), lately);
-    ASSERT_TRUE(place);
-    show(0.1, {interaction::MouseMoveEvent{place->x / float(kSize.x), place->y / float(kSize.y),
-                                           kSize.x, kSize.y}});
-    const auto click = [&](double after) {
-        using interaction::MouseButton;
-        using interaction::MouseButtonEvent;
+    }
+    /// @return whether it has chosen data
+    bool click(double after) {
         const bool pressed = show(after, {MouseButtonEvent{MouseButton::left, true}});
         return show(0.01, {MouseButtonEvent{MouseButton::left, false}}) || pressed;
-    };
+    }
+
+    const std::string lately_ = "/lately.vti"; ///< nothing of it is read
+};
+
+TEST_F(ClicksOnALine, OpenNothingWithAPauseBetweenThem) {
     EXPECT_FALSE(click(1));
     EXPECT_FALSE(click(10)); // the window had no frame in between
     EXPECT_FALSE(click(10));
     EXPECT_TRUE(click(0.35));
+}
+
+TEST_F(ClicksOnALine, OpenItInWhateverFramesTheyFall) {
+    // The filter takes the keyboard two frames after a click on a line, maybe with the second one.
+    for (int between = 0; between < 8; ++between) {
+        EXPECT_FALSE(click(1));
+        for (int i = 0; i < between; ++i)
+            EXPECT_FALSE(show(0.01, {}));
+        EXPECT_TRUE(click(0.01)) << between << " frames from release to press";
+        open();
+    }
 }
 
 } // namespace

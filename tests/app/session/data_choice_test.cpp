@@ -106,25 +106,6 @@ TEST_F(DataChoiceTest, TakesOfTheRecentDataWhatIsClickedTwice) {
     EXPECT_THAT(asked_, testing::ElementsAre("lately.isochron"));
 }
 
-TEST_F(DataChoiceTest, TakesWhatIsClickedTwiceInWhateverFramesTheClicksFall) {
-    good_ = folder_.path() / "lately.isochron";
-    // The filter takes the keyboard two frames after a click on a line, maybe with the second one.
-    for (int between = 1; between < 8; ++between) {
-        const auto chosen = choose(
-            [between, n = 0](std::vector<WindowEvent>& events, auto&) mutable {
-                events.emplace_back(MouseMoveEvent{0.5f, 150.0f / kPlayed.y, kPlayed.x, kPlayed.y});
-                constexpr int kThere = 5;
-                for (const int from : {kThere, kThere + 1 + between})
-                    for (const int after : {0, 1})
-                        if (n == from + after)
-                            events.emplace_back(MouseButtonEvent{MouseButton::left, after == 0});
-                ++n;
-            },
-            30, "no index");
-        EXPECT_EQ(chosen, good_) << between << " frames from release to press";
-    }
-}
-
 TEST_F(DataChoiceTest, AKeyboardAloneGoesThroughTheFolders) {
     // The recent data are listed first: Backspace leads to their folder, a second one around it.
     std::vector<WindowEvent> typed(2, KeyEvent{Key::backspace, true});

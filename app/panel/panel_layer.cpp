@@ -5,6 +5,7 @@
 #include "app/panel/parts/notes.h"
 #include "app/panel/parts/theme.h"
 #include "app/scene/font.h"
+#include "interaction/controls/controls.h"
 #include "render/gl/limits.h"
 #include "render/gl/shader.h"
 
@@ -39,7 +40,7 @@ PanelLayer::PanelLayer(const render::Gl& gl, float scale)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    io.MouseDoubleClickTime = 0.4f; // as in the picture
+    io.MouseDoubleClickTime = static_cast<float>(interaction::kDoubleClick.count());
     for (const auto& [imgui_key, key] : keys_of_imgui())
         io.KeyMap[imgui_key] = static_cast<int>(key);
     use_theme(Theme::dark);
@@ -146,7 +147,7 @@ void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float n
 void PanelLayer::begin_frame(glm::ivec2 picture, Seconds time) {
     // ImGui requires a time above 0. A window at rest has no frames: two clicks with a pause between
     // them are no double click, so the longest time is longer than that of one.
-    constexpr double kShortest = 1e-4, kLongest = 0.5;
+    constexpr double kShortest = 1e-4, kLongest = interaction::kDoubleClick.count() + 0.1;
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(picture.x) / scale_,

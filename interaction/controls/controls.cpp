@@ -25,7 +25,6 @@ constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full defl
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
 constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
 constexpr float kEyeStep = 0.001f;       ///< [m]
-constexpr Seconds kDoubleClick{0.4};     ///< from one click to the next
 
 } // namespace
 

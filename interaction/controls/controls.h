@@ -12,6 +12,9 @@
 
 namespace isochron::interaction {
 
+/// From one click of a double click to the next, at most.
+constexpr Seconds kDoubleClick{0.4};
+
 /// Depends only on the device states and contexts that it was given: the same sequence gives the
 /// same commands.
 class Controls {

@@ -9,6 +9,7 @@
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/changing_series.h"
+#include "tests/bench/measures/data_sets.h"
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/measures/work_folder.h"
@@ -38,6 +39,7 @@ struct ChangeCase {
     std::string what;
     index::SurfacesQuery before, after;
     double floor = 0;
+    index::SearchMethod anew = index::SearchMethod::bricks; ///< the fastest with nothing at hand
 };
 
 /// What the sets are for: cells for a GPU, cells with planes, and the same with a mesh.
@@ -91,8 +93,7 @@ ChangeTime time_change(const render::Gl& gl, const fs::path& path, const ChangeU
     const auto file = index::IndexFile::open(path);
     // A method that is asked for takes nothing over.
     const index::Extract extract = index::extract_from(
-        file, how == How::kept ? std::nullopt : std::optional(index::SearchMethod::bricks),
-        use.shading);
+        file, how == How::kept ? std::nullopt : std::optional(of.anew), use.shading);
     index::SurfacesQuery before = of.before, after = of.after;
     before.mesh_room = after.mesh_room = use.mesh_room;
     before.coloring = after.coloring = use.coloring;
@@ -186,6 +187,22 @@ std::string load_now() {
     return getloadavg(&load, 1) == 1 ? fmt::format("{:.1f}", load) : "unknown";
 }
 
+/// Builds an index of the paper's sphere with cells and deltas, which are for series such as this.
+std::vector<ChangeCase> next_steps_of_sphere(const fs::path& path, unsigned repeats,
+                                             const index::Progress& progress) {
+    const auto file = build_file(data_set("sphere-55", index::ValueType::u8, {}), path, progress);
+    const double isovalue = 112.5; // the middle of its values
+    std::vector<ChangeCase> alike;
+    const auto steps = static_cast<std::uint32_t>(file->info().times.size());
+    for (std::uint32_t step = 0; step + 1 < steps; step += std::max(1u, steps / (6 * repeats)))
+        alike.push_back({"sphere-55, with deltas",
+                         {.step = step, .isovalues = {isovalue}},
+                         {.step = step + 1, .isovalues = {isovalue}},
+                         0.8,
+                         index::SearchMethod::cells});
+    return alike;
+}
+
 void run_bench_change(const ChangeArguments& arguments) {
     const app::CancelOnSignal signals;
     const WorkFolder folder(arguments.work);
@@ -201,18 +218,37 @@ void run_bench_change(const ChangeArguments& arguments) {
     fmt::print("{:<28} {:<20} {:<6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6}\n", "", "",
                "look", "cells", "kept ms", "sent ms", "anew ms", "alone ms", "/anew", "/alone",
                "floor");
+    const auto building = [&] {
+        return [&signals, bar = std::make_shared<app::ProgressBar>()](std::string_view phase,
+                                                                      double done) {
+            signals.check();
+            bar->show(phase, done);
+        };
+    };
+    const auto measure_cases = [&](const fs::path& path,
+                                   const std::vector<std::vector<ChangeCase>>& cases) {
+        for (const ChangeUse& use : kUses)
+            for (const std::vector<ChangeCase>& alike : cases)
+                for (const bool again : {false, true}) {
+                    const bool wanted =
+                        alike.front().what.find(arguments.only) != std::string::npos;
+                    const bool has_colors = alike.front().anew == index::SearchMethod::bricks;
+                    if (!wanted || (use.coloring != index::CellColoring::none && !has_colors))
+                        continue;
+                    signals.check();
+                    rows.push_back(measure(gl, path, use, alike, again));
+                    fmt::print("{}", table_line(rows.back()));
+                    std::fflush(stdout);
+                }
+    };
     for (const Changing changing : {Changing::together, Changing::scattered}) {
         ChangingSeries series(arguments.size, arguments.cells, stay, changing);
         ChangingSeries colors(arguments.size, arguments.cells, stay, changing);
         colors.call("color");
         const fs::path path = folder.path() / "change.isochron";
-        app::ProgressBar bar;
         index::build_index(series, path,
                            {.tiers = index::TierSet().with(index::Tier::bricks), .color = &colors},
-                           [&](std::string_view phase, double done) {
-                               signals.check();
-                               bar.show(phase, done);
-                           });
+                           building());
         const char* const how = changing == Changing::together ? "in one place" : "scattered";
         std::vector<std::vector<ChangeCase>> cases;
         std::uint32_t step = 0;
@@ -234,17 +270,10 @@ void run_bench_change(const ChangeArguments& arguments) {
                                  {.step = i, .isovalues = {moved}},
                                  0.8});
         }
-        for (const ChangeUse& use : kUses)
-            for (const std::vector<ChangeCase>& alike : cases)
-                for (const bool again : {false, true}) {
-                    if (alike.front().what.find(arguments.only) == std::string::npos)
-                        continue;
-                    signals.check();
-                    rows.push_back(measure(gl, path, use, alike, again));
-                    fmt::print("{}", table_line(rows.back()));
-                    std::fflush(stdout);
-                }
+        measure_cases(path, cases);
     }
+    const fs::path path = folder.path() / "sphere.isochron";
+    measure_cases(path, {next_steps_of_sphere(path, arguments.repeats, building())});
     const std::string load = load_now();
     fmt::print("load of the machine: {}\n", load);
     if (!arguments.json.empty())

@@ -72,7 +72,10 @@ std::string change_section(const std::string& json, const std::string& path) {
             "has "
             "the reasons. *colored*: by a second "
             "array, whose "
-            "chunks change where those of the first do.\n\n"
+            "chunks change where those of the first do. *sphere-55*: the moving sphere of 61 x 50 "
+            "x 60 "
+            "vertices of u8 over 55 steps, its index with cells and deltas, as `--tiers` asks for "
+            "them.\n\n"
             "| change | set | look | cells | from the set at hand, ms | / anew | / alone | floor "
             "|\n"
             "|---|---|---|---|---|---|---|---|\n",

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -26,7 +25,8 @@ static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
 /// The parent of a process, or 0 where that cannot be read.
 pid_t parent_of(pid_t process) {
     std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-    const std::string fields{std::istreambuf_iterator<char>(file), {}};
+    std::string fields;
+    std::getline(file, fields, '\0'); // an iterator would throw where the process ends meanwhile
     const std::size_t name_ends = fields.rfind(')'); // the name itself may hold anything
     pid_t parent = 0;
     if (name_ends != fields.npos)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -13,7 +12,9 @@ namespace {
 
 std::string contents(pid_t process, const char* name) {
     std::ifstream file(fmt::format("/proc/{}/{}", process, name));
-    return {std::istreambuf_iterator<char>(file), {}};
+    std::string text;
+    std::getline(file, text, '\0'); // an iterator would throw where the process ends meanwhile
+    return text;
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <sys/types.h>
@@ -13,7 +12,8 @@ namespace isochron::test_support {
 /// others wait for, the thread has found no work. @param thread the number that `gettid` gave it
 inline bool sleeps(pid_t thread) {
     std::ifstream file("/proc/self/task/" + std::to_string(thread) + "/stat");
-    const std::string stat{std::istreambuf_iterator<char>(file), {}};
+    std::string stat;
+    std::getline(file, stat, '\0'); // an iterator would throw where the thread ends meanwhile
     const std::size_t name_end = stat.rfind(')'); // number (name) state ...
     return name_end != std::string::npos && stat.substr(name_end, 3) == ") S";
 }

@@ -36,7 +36,7 @@ its isosurfaces at display rate: on a desktop, in a CAVE, or in a headset.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libisochron-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "libfmt-dev, libglm-dev, libbz2-dev, zlib1g-dev, liblz4-dev, libzstd-dev, libxxhash-dev, libhwy-dev, pkg-config")
+  "libfmt-dev, libglm-dev, libbz2-dev, zlib1g-dev, liblz4-dev, libzstd-dev, libxxhash-dev, libhwy-dev, pkgconf")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
 "Isochron's index of time-varying volumes as a static library with its headers
 and its package for CMake: find the active cells of an isosurface at any step.")

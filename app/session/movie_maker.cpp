@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 
 using interaction::Seconds;
 
+constexpr std::string_view kProgramsName = "isochron: ";
+
 /// The first name that no file has yet. @return without its suffix
 fs::path free_movie_name(const fs::path& folder) {
     for (int number = 1;; ++number) {
@@ -131,6 +133,7 @@ void MovieMaker::give_up() {
 }
 
 void MovieMaker::start() {
+    error_.clear();
     try {
         written_.get();
     } catch (const std::exception& error) {
@@ -193,7 +196,7 @@ void MovieMaker::read_words() {
         if (const auto progress = progress_in(line))
             progress_ = *progress;
         else if (!line.empty())
-            last_ = line;
+            (line.starts_with(kProgramsName) ? error_ : last_) = line;
     }
 }
 
@@ -218,9 +221,9 @@ void MovieMaker::end(int status) {
     std::error_code ignored;
     if (status != 0)
         fs::remove(recording_, ignored);
-    constexpr std::string_view kProgramsName = "isochron: ";
-    if (last_.starts_with(kProgramsName))
-        last_.erase(0, kProgramsName.size());
+    // Drivers may say something, too, and later.
+    if (!error_.empty() && (status != 0 || last_.empty()))
+        last_ = error_.substr(kProgramsName.size());
     if (status == 0)
         messages_.push_back(last_);
     else if (given_up_)

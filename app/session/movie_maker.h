@@ -72,9 +72,10 @@ class MovieMaker {
     bool given_up_ = false;
     MovieManner manner_; ///< of the one that is being made
     pid_t process_ = -1;
-    int words_ = -1;   ///< the end of the pipe from the process
-    std::string said_; ///< an incomplete line from the process
-    std::string last_; ///< the newest line that does not report progress
+    int words_ = -1;    ///< the end of the pipe from the process
+    std::string said_;  ///< an incomplete line from the process
+    std::string last_;  ///< the newest line that does not report progress
+    std::string error_; ///< the newest one that begins with the program's name
     float progress_ = 0;
     std::vector<std::string> messages_;
 };

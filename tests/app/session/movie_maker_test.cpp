@@ -91,7 +91,8 @@ TEST_F(MovieMakerTest, TheProgramGetsTheRecordingAndItsWordsAreProgressAndOutcom
 }
 
 TEST_F(MovieMakerTest, WhatKeepsItFromBeingMadeIsOneLineAndNothingIsLeft) {
-    MovieMaker complains(orders("echo 'making ...'; echo 'isochron: no ffmpeg' >&2; exit 1\n"));
+    MovieMaker complains(orders("echo 'making ...'; echo 'isochron: no ffmpeg' >&2\n"
+                                "echo 'a driver: bye'; exit 1\n"));
     complains.make(write, writing_);
     EXPECT_EQ(outcome(complains), "no ffmpeg");
     MovieMaker dies(orders("kill -9 $$\n"));

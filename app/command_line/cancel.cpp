@@ -1,10 +1,11 @@
 // Ctrl-C ends long work at its next report of progress.
 #include "app/command_line/cancel.h"
 
+#include "index/reader/process_text.h"
+
 #include <array>
 #include <atomic>
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <utility>
 
@@ -24,9 +25,7 @@ static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
 
 /// The parent of a process, or 0 where that cannot be read.
 pid_t parent_of(pid_t process) {
-    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-    std::string fields;
-    std::getline(file, fields, '\0'); // an iterator would throw where the process ends meanwhile
+    const std::string fields = index::process_text("/proc/" + std::to_string(process) + "/stat");
     const std::size_t name_ends = fields.rfind(')'); // the name itself may hold anything
     pid_t parent = 0;
     if (name_ends != fields.npos)

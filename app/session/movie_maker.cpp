@@ -133,6 +133,8 @@ void MovieMaker::give_up() {
 }
 
 void MovieMaker::start() {
+    said_.clear();
+    last_.clear();
     error_.clear();
     try {
         written_.get();
@@ -174,8 +176,6 @@ void MovieMaker::start() {
         posix_spawn(&process, orders_.program.c_str(), &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     close(ends[1]);
-    said_.clear();
-    last_.clear();
     if (error != 0) {
         close(ends[0]);
         last_ = fmt::format("{}: {}", orders_.program.string(), std::strerror(error));

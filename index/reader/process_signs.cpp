@@ -1,9 +1,10 @@
 // Reads /proc/PID/io and /proc/PID/stat, see proc(5).
 #include "index/reader/process_signs.h"
 
+#include "index/reader/process_text.h"
+
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -11,10 +12,7 @@ namespace isochron::index {
 namespace {
 
 std::string contents(pid_t process, const char* name) {
-    std::ifstream file(fmt::format("/proc/{}/{}", process, name));
-    std::string text;
-    std::getline(file, text, '\0'); // an iterator would throw where the process ends meanwhile
-    return text;
+    return process_text(fmt::format("/proc/{}/{}", process, name));
 }
 
 } // namespace

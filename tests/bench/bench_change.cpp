@@ -40,6 +40,7 @@ struct ChangeCase {
     index::SurfacesQuery before, after;
     double floor = 0;
     index::SearchMethod anew = index::SearchMethod::bricks; ///< the fastest with nothing at hand
+    bool colors = true;                                     ///< of a second array
 };
 
 /// What the sets are for: cells for a GPU, cells with planes, and the same with a mesh.
@@ -188,9 +189,10 @@ std::string load_now() {
 }
 
 /// Builds an index of the paper's sphere with cells and deltas, which are for series such as this.
-std::vector<ChangeCase> next_steps_of_sphere(const fs::path& path, unsigned repeats,
-                                             const index::Progress& progress) {
-    const auto file = build_file(data_set("sphere-55", index::ValueType::u8, {}), path, progress);
+std::vector<ChangeCase> next_steps_of_sphere(const fs::path& path, unsigned repeats) {
+    app::ProgressBar bar;
+    const auto file =
+        build_file(data_set("sphere-55", index::ValueType::u8, {}), path, bar.progress());
     const double isovalue = 112.5; // the middle of its values
     std::vector<ChangeCase> alike;
     const auto steps = static_cast<std::uint32_t>(file->info().times.size());
@@ -199,7 +201,8 @@ std::vector<ChangeCase> next_steps_of_sphere(const fs::path& path, unsigned repe
                          {.step = step, .isovalues = {isovalue}},
                          {.step = step + 1, .isovalues = {isovalue}},
                          0.8,
-                         index::SearchMethod::cells});
+                         index::SearchMethod::cells,
+                         false});
     return alike;
 }
 
@@ -218,13 +221,6 @@ void run_bench_change(const ChangeArguments& arguments) {
     fmt::print("{:<28} {:<20} {:<6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>6}\n", "", "",
                "look", "cells", "kept ms", "sent ms", "anew ms", "alone ms", "/anew", "/alone",
                "floor");
-    const auto building = [&] {
-        return [&signals, bar = std::make_shared<app::ProgressBar>()](std::string_view phase,
-                                                                      double done) {
-            signals.check();
-            bar->show(phase, done);
-        };
-    };
     const auto measure_cases = [&](const fs::path& path,
                                    const std::vector<std::vector<ChangeCase>>& cases) {
         for (const ChangeUse& use : kUses)
@@ -232,8 +228,8 @@ void run_bench_change(const ChangeArguments& arguments) {
                 for (const bool again : {false, true}) {
                     const bool wanted =
                         alike.front().what.find(arguments.only) != std::string::npos;
-                    const bool has_colors = alike.front().anew == index::SearchMethod::bricks;
-                    if (!wanted || (use.coloring != index::CellColoring::none && !has_colors))
+                    if (!wanted ||
+                        (use.coloring != index::CellColoring::none && !alike.front().colors))
                         continue;
                     signals.check();
                     rows.push_back(measure(gl, path, use, alike, again));
@@ -246,9 +242,13 @@ void run_bench_change(const ChangeArguments& arguments) {
         ChangingSeries colors(arguments.size, arguments.cells, stay, changing);
         colors.call("color");
         const fs::path path = folder.path() / "change.isochron";
+        app::ProgressBar bar;
         index::build_index(series, path,
                            {.tiers = index::TierSet().with(index::Tier::bricks), .color = &colors},
-                           building());
+                           [&](std::string_view phase, double done) {
+                               signals.check();
+                               bar.show(phase, done);
+                           });
         const char* const how = changing == Changing::together ? "in one place" : "scattered";
         std::vector<std::vector<ChangeCase>> cases;
         std::uint32_t step = 0;
@@ -273,7 +273,7 @@ void run_bench_change(const ChangeArguments& arguments) {
         measure_cases(path, cases);
     }
     const fs::path path = folder.path() / "sphere.isochron";
-    measure_cases(path, {next_steps_of_sphere(path, arguments.repeats, building())});
+    measure_cases(path, {next_steps_of_sphere(path, arguments.repeats)});
     const std::string load = load_now();
     fmt::print("load of the machine: {}\n", load);
     if (!arguments.json.empty())

@@ -2,6 +2,7 @@
 #include "stereo/image_file.h"
 
 #include "index/error.h"
+#include "index/reader/process_text.h"
 #include "render/gl/gl.h"
 #include "tests/support/drawing/image_compare.h"
 #include "tests/support/paths.h"
@@ -246,9 +247,7 @@ TEST_F(ImageFile, IsReadByAReaderBehindTheFence) {
     const std::string parent = "PPid:\t" + std::to_string(::getpid()) + "\n";
     int readers = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-        std::ifstream file(entry.path() / "status");
-        std::string status;
-        std::getline(file, status, '\0'); // an iterator would throw where a process ends
+        const std::string status = index::process_text(entry.path() / "status");
         if (!status.starts_with("Name:\tisochron-reader") || status.find(parent) == status.npos)
             continue;
         ++readers;

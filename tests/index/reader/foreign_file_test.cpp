@@ -4,6 +4,7 @@
 
 #include "index/reader/file_fence.h"
 #include "index/reader/process_signs.h"
+#include "index/reader/process_text.h"
 #include "tests/support/eventually.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
@@ -293,9 +294,7 @@ TEST(Readers, EndWithTheProgramHoweverItEnds) {
     ASSERT_EQ(::read(told[0], &reader, sizeof reader), ssize_t{sizeof reader});
     ::waitpid(child, nullptr, 0);
     EXPECT_TRUE(eventually([&] {
-        std::ifstream file(fmt::format("/proc/{}/stat", reader));
-        std::string stat;
-        std::getline(file, stat); // an iterator would throw where the reader ends meanwhile
+        const std::string stat = process_text(fmt::format("/proc/{}/stat", reader));
         return stat.empty() || stat.find(") Z") != stat.npos;
     }));
     ::close(told[0]);

@@ -21,6 +21,9 @@ constexpr double kGrown = 1.1;  ///< times the measured cost: above it the load 
 constexpr double kRoom = 0.75;  ///< share of the budget below which motion takes up a footprint
 constexpr double kLeast = 0.95; ///< share of the budget above which motion leaves it again
 
+/// Measurements of quads, before others are not tried because of a multiple of them.
+constexpr unsigned kSure = 3;
+
 /// Most budgets that a trial may take if nothing but the time since the last trial speaks for it.
 constexpr double kBounded = 3;
 
@@ -84,10 +87,15 @@ bool QualityController::surface_is_guessed(const QualityInput& input) const {
 }
 
 void QualityController::learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+    // Drivers compile for the first pictures, not for the first one alone.
+    if (candidate.sampled == load && 2 * cost < *candidate.cost.predict(load))
+        candidate.outdated = true;
     if (std::exchange(candidate.outdated, false)) {
         candidate.cost.forget();
         candidate.beside.forget();
+        candidate.measurements = 0;
     }
+    ++candidate.measurements;
     candidate.cost.add(load, cost);
     if (const auto quads = of(Footprint::quad).cost.predict(load))
         candidate.beside.add(load, *quads);
@@ -315,6 +323,11 @@ QualityChoice QualityController::describe(const QualityInput& input) const {
             (bearable(better, input) || !of(Footprint::quad).cost.predict(input.load)))
             choice.final = false;
         const Candidate& candidate = of(better);
+        if (current_ == Footprint::quad && now.measurements < kSure &&
+            !candidate.cost.predict(input.load) && !bearable(better, input)) {
+            choice.final = false;
+            choice.measure = true;
+        }
         choice.retries |= candidate.failed && bearable(better, input) &&
                           std::max(candidate.wait, kShortestWait) <= candidate.age + kSoon;
         if (!choice.better_cost)

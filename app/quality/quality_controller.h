@@ -103,7 +103,8 @@ class QualityController {
   private:
     struct Candidate {
         DrawCost cost;
-        DrawCost beside; ///< what quads were expected to cost when this one was measured
+        DrawCost beside;           ///< what quads were expected to cost when this one was measured
+        unsigned measurements = 0; ///< that `cost` is of
         std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
         DrawLoad failed_at;              ///< least load of the failures
         Milliseconds failed_cost{0};

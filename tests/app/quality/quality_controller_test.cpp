@@ -114,6 +114,31 @@ TEST_F(QualityControllerTest, AStillPictureIsDrawnNoMoreThanItTakesToMeasureIt) 
     EXPECT_NEAR(display.frames.back().choice.cost->count(), 3, 0.01);
 }
 
+TEST_F(QualityControllerTest,
+       WhatCompilingTookOfTheFirstPicturesDoesNotKeepAnythingFromBeingTried) {
+    for (const int compiled : {1, 2, 3}) {
+        int quads = 0;
+        SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad&) {
+            return footprint != Footprint::quad ? 4.0 : quads++ < compiled ? 120.0 : 2.0;
+        });
+        EXPECT_EQ(display.run(60).choice.footprint, Footprint::surface) << compiled << " pictures";
+        EXPECT_TRUE(display.frames.back().choice.final);
+    }
+}
+
+TEST_F(QualityControllerTest, WhatQuadsThatAreSlowSpeakAgainstIsNotTriedAfterThreeMeasurements) {
+    for (int latency = 0; latency < 5; ++latency) {
+        SimulatedDisplay display(kBudget, constant({120, 4, 4}));
+        display.latency = latency;
+        const QualityChoice choice = display.run(60).choice;
+        EXPECT_EQ(display.at(Footprint::quad), 60);
+        EXPECT_TRUE(choice.final);
+        EXPECT_EQ(choice.reason, QualityReason::over_budget);
+        const auto drawn = std::ranges::count_if(display.frames, &SimulatedDisplay::Frame::drawn);
+        EXPECT_LE(drawn, 4 + latency) << "the first one does not count";
+    }
+}
+
 TEST_F(QualityControllerTest, AMeasurementOverTheBudgetEndsItAtOnce) {
     for (int latency = 0; latency < 5; ++latency) {
         Costs costs{1, 2, 3};

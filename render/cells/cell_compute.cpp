@@ -78,6 +78,9 @@ CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, const AxisTable&
       volume_(gl), work_(gl) {}
 
 void CellCompute::use_volume(const index::Extraction& set, const BlockPool& blocks) const {
+    // Mesa 25.0's zink looks for the textures of a program where it put those of what was drawn last,
+    // unless a program without textures ran in between or they have changed.
+    run(places_, 0, {}, [](std::size_t, std::size_t) {});
     const auto& n = grid_.vertices;
     const auto tiles = index::BlockTiling(grid_).blocks;
     VolumeBlock block{.from_difference = from_difference(grid_),

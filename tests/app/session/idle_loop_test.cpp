@@ -14,8 +14,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <csignal>
-#include <sys/resource.h>
+#include <fcntl.h>
+#include <filesystem>
+#include <string>
+#include <unistd.h>
 #include <utility>
 
 namespace isochron::app {
@@ -28,6 +30,15 @@ using interaction::Seconds;
 using interaction::WindowEvent;
 
 constexpr Seconds kFrame{1.0 / 60};
+
+/// The number by which this process has a file open; -1: it has not.
+int open_as(const std::filesystem::path& path) {
+    std::error_code gone; // a file that another thread closes meanwhile
+    for (int number = 0; number < 1024; ++number)
+        if (std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(number), gone) == path)
+            return number;
+    return -1;
+}
 
 /// A window that counts what it presents. What happens while the loop waits is up to the test.
 class CountingWindow final : public stereo::GlContext {
@@ -132,16 +143,16 @@ TEST_F(IdleLoop, WaitsForGoodOnceThePictureIsFinalAndPresentsNothingUntilSomethi
 
 TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
     const LiveLoop* loop = nullptr;
-    rlimit before{};
-    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, SIG_IGN);
     prepare_ = [&](LiveLoop& live) {
         loop = &live;
         live.record(folder_.path() / "walk.jsonl", {});
         EXPECT_TRUE(live.records());
-        rlimit small = before;
-        small.rlim_cur = 4096; // as if the disk were full then
-        EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+        // As if the disk were full from here on.
+        const int recording = open_as(folder_.path() / "walk.jsonl.part");
+        const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+        ASSERT_TRUE(recording >= 0 && full >= 0);
+        EXPECT_EQ(::dup3(full, recording, O_CLOEXEC), recording);
+        ::close(full);
     };
     start_ = [](ExplorerState state) {
         state.playback.playing = true; // so that there are frames all the time
@@ -154,8 +165,6 @@ TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
         return stopped || frames_ > kMany;
     };
     EXPECT_ANY_THROW(run({})) << "the end says it, too";
-    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, SIG_DFL);
     EXPECT_TRUE(stopped);
 }
 

@@ -55,7 +55,7 @@ CancelOnSignal::CancelOnSignal() {
         came = 0;
         launcher = find_launcher(); // before the end of a shell between the two leaves no trace
     }
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_sigaction = note_signal;
     action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {

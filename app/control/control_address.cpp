@@ -87,7 +87,7 @@ fs::path control_folder() {
 
 /// Removes a socket that nobody listens at any more. @throws interaction::Error: something else
 void remove_left_socket(const fs::path& path) {
-    struct stat there {};
+    struct stat there{};
     if (lstat(path.c_str(), &there) != 0)
         return;
     expect_place_for_socket({.path = path});
@@ -167,7 +167,7 @@ ControlAddress control_address(const std::string& text) {
 }
 
 void expect_place_for_socket(const ControlAddress& address) {
-    struct stat there {};
+    struct stat there{};
     if (!address.is_tcp() && lstat(address.path.c_str(), &there) == 0 && !S_ISSOCK(there.st_mode))
         throw interaction::Error(fmt::format(
             "{}: exists and is no socket; --control=PATH takes the path of a new one, and stands "

@@ -39,7 +39,7 @@ void add_look(const Look& look, Found& found) {
         if (changed != look)
             found.add(std::move(line), std::move(commands));
     };
-    const auto add_each = [&](const char* setting, auto Look::*member) {
+    const auto add_each = [&](const char* setting, auto Look::* member) {
         using Value = std::decay_t<decltype(look.*member)>;
         const std::vector<std::string> names = interaction::all_names<Value>();
         for (std::size_t i = 0; i < names.size(); ++i) {

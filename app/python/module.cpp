@@ -92,10 +92,8 @@ py::array values(const RunArray& array, std::int64_t step, std::int64_t fraction
         shape.push_back(static_cast<py::ssize_t>(end) - first);
     if (fraction == 0)
         return owned(unlocked([&] { return array.values({step, 0}, box); }), shape, type_of(array));
-    return owned(unlocked([&] {
-                     return array.blended_values({step, fraction}, box);
-                 }),
-                 shape, py::dtype::of<double>());
+    return owned(unlocked([&] { return array.blended_values({step, fraction}, box); }), shape,
+                 py::dtype::of<double>());
 }
 
 py::object read_bytes(const RunArray& array) {

@@ -32,7 +32,7 @@ bool is_of_the_system(std::string_view path) {
 
 void note(const char* path) {
     const int error = errno;
-    struct stat status {};
+    struct stat status{};
     // Landlock hides contents, not whether there is a file and who may read it.
     if (error == EACCES && path && !is_of_the_system(path) && ::access(path, R_OK) == 0 &&
         ::stat(path, &status) == 0 && S_ISREG(status.st_mode)) {

@@ -72,7 +72,7 @@ class FileFence {
         const int place = ::open(path, O_PATH | O_CLOEXEC);
         if (place < 0)
             return true;
-        struct stat status {};
+        struct stat status{};
         const bool there = ::fstat(place, &status) == 0;
         const PathRule rule{there && S_ISDIR(status.st_mode) ? kReadFile | kReadFolder
                                                              : std::uint64_t{kReadFile},
@@ -271,7 +271,7 @@ bool refuse_all_other_calls() {
 
 bool fence_in(std::span<const std::filesystem::path> readable) {
     bool good = ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
-    const struct rlimit none {};
+    const struct rlimit none{};
     for (const auto resource : {RLIMIT_CORE, RLIMIT_FSIZE})
         good &= ::setrlimit(resource, &none) == 0;
     good &= hide_files(readable);

@@ -19,7 +19,7 @@ namespace isochron::index {
 namespace {
 
 void limit(decltype(RLIMIT_DATA) resource, std::uint64_t most) {
-    struct rlimit limits {};
+    struct rlimit limits{};
     ::getrlimit(resource, &limits);
     limits.rlim_cur = std::min<rlim_t>(most, limits.rlim_max);
     ::setrlimit(resource, &limits);
@@ -133,7 +133,7 @@ void ReaderBudget::expect(std::uint64_t decoded_bytes) {
 }
 
 void ReaderBudget::renew_time() const {
-    struct rusage used {};
+    struct rusage used{};
     ::getrusage(RUSAGE_SELF, &used);
     if (!kReaderIsWatched)
         limit(RLIMIT_CPU, static_cast<std::uint64_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +

@@ -28,7 +28,7 @@ bool nobody_is_there() {
 
 /// Ends this process as soon as the program closes the socket, even while a library is at work.
 void end_with_the_program() {
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = [](int) {
         if (nobody_is_there())
             ::_exit(0);

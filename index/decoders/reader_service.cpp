@@ -157,8 +157,7 @@ std::uint32_t slices_worth_asking(const SeriesInfo& info) {
 }
 
 std::string in_one_line(std::string message) {
-    std::ranges::replace_if(
-        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    std::ranges::replace_if(message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     return message;
 }
 

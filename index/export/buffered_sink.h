@@ -25,7 +25,7 @@ class BufferedSink {
     void text(std::string_view text) { bytes(std::as_bytes(std::span(text))); }
     /// Numbers are little-endian.
     template <class T>
-    requires std::is_trivially_copyable_v<T>
+        requires std::is_trivially_copyable_v<T>
     void put(const T& value) {
         static_assert(std::endian::native == std::endian::little && sizeof(T) <= kMost);
         std::memcpy(&bytes_[waiting_], &value, sizeof value);

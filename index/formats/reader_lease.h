@@ -92,8 +92,7 @@ class ReaderLease {
             throw ReaderEnded("its reader sent another reply than was asked for",
                               ReaderEnded::How::by_our_hand);
         std::string line = refused->message;
-        std::ranges::replace_if(
-            line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+        std::ranges::replace_if(line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
         throw Error(line);
     }
 

@@ -31,9 +31,7 @@ concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
 /// A structure that lists its fields.
 template <class T>
-concept WithFields = requires(T value) {
-    value.fields();
-};
+concept WithFields = requires(T value) { value.fields(); };
 
 /// Writes numbers as they are in memory: both ends are on one machine and of one build.
 class MessageWriter {

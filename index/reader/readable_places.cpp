@@ -11,7 +11,7 @@ namespace isochron::index {
 namespace fs = std::filesystem;
 
 ReadablePlaces::Which ReadablePlaces::which(const fs::path& place) {
-    struct stat status {};
+    struct stat status{};
     return ::stat(place.c_str(), &status) == 0 ? Which{status.st_dev, status.st_ino} : Which{};
 }
 

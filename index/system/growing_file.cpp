@@ -20,7 +20,7 @@ GrowingFile::GrowingFile(std::filesystem::path path, bool alone) : path_(std::mo
     file_ = ::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file_ < 0)
         fail(errno);
-    struct stat status {};
+    struct stat status{};
     const char* refused = nullptr;
     if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode))
         refused = "not a regular file";
@@ -55,7 +55,7 @@ void GrowingFile::flush() {
 }
 
 void GrowingFile::cut(std::uint64_t bytes) {
-    struct stat status {};
+    struct stat status{};
     if (::fstat(file_, &status) != 0)
         fail(errno);
     if (static_cast<std::uint64_t>(status.st_size) > bytes &&

@@ -33,7 +33,7 @@ void expect_regular(const std::filesystem::path& path, const struct stat& status
 }
 
 struct stat status_of(const std::filesystem::path& path, int file) {
-    struct stat status {};
+    struct stat status{};
     if (::fstat(file, &status) != 0)
         refuse(path, errno);
     return status;
@@ -42,7 +42,7 @@ struct stat status_of(const std::filesystem::path& path, int file) {
 } // namespace
 
 FileState state_of(const std::filesystem::path& path) {
-    struct stat status {};
+    struct stat status{};
     if (::stat(path.c_str(), &status) != 0)
         refuse(path, errno);
     expect_regular(path, status);

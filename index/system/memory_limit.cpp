@@ -40,7 +40,7 @@ std::uint64_t whole_memory() {
 
 /// The limit of the address space [bytes] (`ulimit -v`), or kNone.
 std::uint64_t limit_of_addresses() {
-    struct rlimit space {};
+    struct rlimit space{};
     const bool limited = ::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
     return limited ? space.rlim_cur : kNone;
 }

@@ -46,7 +46,7 @@ std::string path_of_open(int file) {
 /// Whether nobody writes a file or a folder, which no longer grows. One that was just made may not
 /// be locked yet.
 bool is_abandoned(int file) {
-    struct stat status {};
+    struct stat status{};
     constexpr time_t kOld = 60; // [s]
     return ::fstat(file, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
            status.st_uid == ::geteuid() && status.st_mtime + kOld < std::time(nullptr) &&

@@ -24,7 +24,7 @@ SharedMemory::SharedMemory(std::size_t bytes)
 }
 
 SharedMemory::SharedMemory(Descriptor theirs, std::size_t bytes) : descriptor_(std::move(theirs)) {
-    struct stat status {};
+    struct stat status{};
     if (::fstat(descriptor_.number(), &status) != 0 ||
         static_cast<std::size_t>(status.st_size) < bytes)
         throw Error(fmt::format("shared memory of {} bytes, expected {}", status.st_size, bytes));

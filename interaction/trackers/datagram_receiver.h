@@ -41,8 +41,8 @@ class DatagramReceiver {
 
     /// Of the datagrams since the last call that `admits` accepts, the newest `kept` of each worth,
     /// all in the order of their arrival.
-    std::vector<Datagram> take(
-        std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
+    std::vector<Datagram>
+    take(std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
     /// Throws away all that is waiting, uncounted.
     void drain();
     /// As UdpSocket::hear_only.

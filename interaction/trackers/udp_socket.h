@@ -48,8 +48,8 @@ class UdpSocket {
     /// Takes the waiting datagrams, at most `kMostTaken`, and returns the newest `kept` of them,
     /// oldest first. Datagrams longer than `kLongest` bytes are counted and thrown away. Those that
     /// `admits` refuses are dropped uncounted, so that they take no place among the newest.
-    std::vector<Datagram> take(
-        std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
+    std::vector<Datagram>
+    take(std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
     /// Waits until a datagram is waiting, or `wake` is called. May be called beside any other
     /// function of another thread.
     void wait() const;

@@ -32,13 +32,11 @@ std::size_t rounded_to_units(std::size_t bytes) {
 CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
     : gl_(&gl), grid_(grid), axes_(std::make_unique<AxisTable>(gl, grid)),
       ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
-      points_(ArrivingSet::points_array(gl)), corners_{corner_values_array(gl),
-                                                       corner_gradients_array(gl)},
-      corner_colors_(corner_colors_array(gl)),
-      arriving_colors_(corner_colors_array(gl)), meshes_{KeptMeshes{MeshBuffers(gl)},
-                                                         KeptMeshes{MeshBuffers(gl)},
-                                                         KeptMeshes{MeshBuffers(gl)},
-                                                         KeptMeshes{MeshBuffers(gl)}},
+      points_(ArrivingSet::points_array(gl)),
+      corners_{corner_values_array(gl), corner_gradients_array(gl)},
+      corner_colors_(corner_colors_array(gl)), arriving_colors_(corner_colors_array(gl)),
+      meshes_{KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)},
+              KeptMeshes{MeshBuffers(gl)}},
       surroundings_(gl), arriving_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {

@@ -79,9 +79,9 @@ std::string name_of(Hand hand) {
 }
 
 OpenXrInput::OpenXrInput()
-    : head_(options_of("head")), hands_{interaction::TrackedDevice(options_of(name_of(Hand::wand))),
-                                        interaction::TrackedDevice(
-                                            options_of(name_of(Hand::other)))} {}
+    : head_(options_of("head")),
+      hands_{interaction::TrackedDevice(options_of(name_of(Hand::wand))),
+             interaction::TrackedDevice(options_of(name_of(Hand::other)))} {}
 
 void OpenXrInput::forget() {
     const auto seen = seen_;

@@ -212,7 +212,9 @@ void run_bench_change(const ChangeArguments& arguments) {
     const auto context =
         stereo::make_context(stereo::ContextKind::egl, {.size = {16, 16}, .vsync = false});
     const render::Gl gl(context->loader());
-    const struct { double stay, floor; } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
+    const struct {
+        double stay, floor;
+    } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
     std::vector<double> stay;
     for (const auto& share : shares)
         for (unsigned i = 0; i < arguments.repeats; ++i)

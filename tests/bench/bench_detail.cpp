@@ -131,7 +131,7 @@ void run_bench_detail(const DetailArguments& arguments) {
         say("control", minute.control);
         for (const std::string& line : minute.late)
             fmt::print("  late at {}\n", line);
-        const auto beyond = [&](std::size_t MinuteFrames::*over) {
+        const auto beyond = [&](std::size_t MinuteFrames::* over) {
             return std::max(0.0, minute.scripted.percent(minute.scripted.*over) -
                                      minute.control.percent(minute.control.*over));
         };

@@ -50,7 +50,7 @@ struct ScaleArguments {
 
 /// Bytes that this process has read from disks.
 std::uint64_t bytes_from_disk() {
-    struct rusage usage {};
+    struct rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_inblock) * 512;
 }

@@ -182,7 +182,7 @@ TEST_F(FencedArguments, OfDescriptorsReachNobodyElse) {
                   {},
                   [&] {
                       const f_owner_ex owner{F_OWNER_PID, ::getppid()};
-                      struct flock lock {};
+                      struct flock lock{};
                       lock.l_type = F_RDLCK;
                       int on = 1;
                       return false_of({
@@ -209,11 +209,9 @@ TEST_F(FencedArguments, OfDescriptorsReachNobodyElse) {
 
 // The answer is that it is locked, and yet another can lock it.
 TEST_F(FencedArguments, OfLocksHoldNobodyUp) {
-    EXPECT_EQ(surprises_inside({},
-                               [&] {
-                                   return false_of({{"flock", ::flock(open_, LOCK_EX) == 0}});
-                               }),
-              "");
+    EXPECT_EQ(
+        surprises_inside({}, [&] { return false_of({{"flock", ::flock(open_, LOCK_EX) == 0}}); }),
+        "");
     // A lock of the child would be one of the same open file: this is another.
     const int again = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
     EXPECT_EQ(surprises_inside({}, [&] { return ::flock(open_, LOCK_EX) == 0 ? "" : "no"; }), "");
@@ -226,7 +224,7 @@ TEST_F(FencedArguments, OfLimitsAndSignalsAreForThisProcess) {
         surprises_inside(
             {},
             [&] {
-                struct rlimit limit {};
+                struct rlimit limit{};
                 std::string lines = false_of({
                     {"read", ::prlimit(0, RLIMIT_NOFILE, nullptr, &limit) == 0},
                     {"no other process's",
@@ -304,10 +302,10 @@ TEST_F(FencedArguments, OfReadingTimeAndThreadsDoWhatTheyAreFor) {
                   [&] {
                       std::array<char, 256> bytes{};
                       iovec part{bytes.data(), 4};
-                      struct stat status {};
+                      struct stat status{};
                       timespec time{0, 1};
-                      struct utsname machine {};
-                      struct rusage usage {};
+                      struct utsname machine{};
+                      struct rusage usage{};
                       cpu_set_t processors{};
                       const int folder = ::open(folder_().path().c_str(), O_RDONLY | O_DIRECTORY);
                       const int null = ::open("/dev/null", O_RDONLY);

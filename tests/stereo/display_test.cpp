@@ -193,9 +193,8 @@ TEST_P(DisplayTest, DisparityOfAFittedScreenFollowsItsFittedWidth) {
 TEST_P(DisplayTest, WithoutSeparationBothEyesSeeTheSame) {
     Display display = display_of({});
     for (const StereoMode mode : {StereoMode::side_by_side, StereoMode::top_bottom}) {
-        draw_each_eye(gl_, display, kViewerHead, 0.0f, mode, [&](const render::View& view, Eye) {
-            dot_.draw(view, {0.3f, 1.7f, -2.0f});
-        });
+        draw_each_eye(gl_, display, kViewerHead, 0.0f, mode,
+                      [&](const render::View& view, Eye) { dot_.draw(view, {0.3f, 1.7f, -2.0f}); });
         const auto [left, right] = cut_eyes(display.read_window(), mode);
         EXPECT_EQ(left.rgba, right.rgba);
         EXPECT_EQ(display.read_eye(Eye::left).rgba, left.rgba);
@@ -247,9 +246,7 @@ TEST_P(DisplayTest, TheAnaglyphHoldsTheLeftPictureInRedAndTheRightOneInGreenAndB
     window.viewports.front().size = {0.5f, 0.5f};
     Display display = display_of(window);
     draw_each_eye(gl_, display, kViewerHead, kSeparation, StereoMode::anaglyph_red_cyan,
-                  [&](const render::View& view, Eye) {
-                      dot_.draw(view, {0.1f, 1.5f, -3.0f});
-                  });
+                  [&](const render::View& view, Eye) { dot_.draw(view, {0.1f, 1.5f, -3.0f}); });
     const Image left = display.read_eye(Eye::left), right = display.read_eye(Eye::right);
     const Image both = part(display.read_window(), 200, 240, 400, 300);
     EXPECT_NE(left.rgba, right.rgba);

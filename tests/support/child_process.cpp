@@ -34,7 +34,7 @@ std::string file_contents(const fs::path& path) {
         ::dup2(file, STDOUT_FILENO);
         ::dup2(err, STDERR_FILENO);
         if (options.largest_file > 0) {
-            const struct rlimit limit { options.largest_file, options.largest_file };
+            const struct rlimit limit{options.largest_file, options.largest_file};
             ::setrlimit(RLIMIT_FSIZE, &limit);
             ::signal(SIGXFSZ, SIG_IGN); // so that a write fails, without a signal
         }

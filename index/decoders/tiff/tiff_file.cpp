@@ -120,12 +120,11 @@ TiffFile::TiffFile(const std::filesystem::path& path) : name_(path.string()) {
 
 TiffFile::TiffFile(TiffFile&& other) noexcept
     : name_(std::move(other.name_)), file_(std::exchange(other.file_, nullptr)),
-      shape_(other.shape_),
-      description_(std::move(other.description_)), resolution_{other.resolution_[0],
-                                                               other.resolution_[1]},
-      offsets_(std::move(other.offsets_)), appended_at_(other.appended_at_), page_(other.page_),
-      piece_(std::move(other.piece_)), halves_(std::move(other.halves_)),
-      resolution_unit_(other.resolution_unit_), notes_(std::move(other.notes_)) {}
+      shape_(other.shape_), description_(std::move(other.description_)),
+      resolution_{other.resolution_[0], other.resolution_[1]}, offsets_(std::move(other.offsets_)),
+      appended_at_(other.appended_at_), page_(other.page_), piece_(std::move(other.piece_)),
+      halves_(std::move(other.halves_)), resolution_unit_(other.resolution_unit_),
+      notes_(std::move(other.notes_)) {}
 
 TiffFile::~TiffFile() {
     if (file_)

@@ -23,7 +23,7 @@ namespace {
 
 /// Values near the highest f32, which f32 and f64 have exactly.
 constexpr float kHighest = std::numeric_limits<float>::max();
-constexpr std::array<float, 3> kStandIns{kHighest, kHighest*(1 - 0x1p-23f), -kHighest};
+constexpr std::array<float, 3> kStandIns{kHighest, kHighest * (1 - 0x1p-23f), -kHighest};
 constexpr std::array<double, 3> kStoodFor{std::numeric_limits<double>::quiet_NaN(),
                                           std::numeric_limits<double>::infinity(),
                                           -std::numeric_limits<double>::infinity()};

@@ -106,8 +106,7 @@ class NumberScan {
 
     static double value_of(std::string text) {
         std::ranges::replace(text, ',', '.');
-        std::ranges::replace_if(
-            text, [](char c) { return c == 'd' || c == 'D'; }, 'e');
+        std::ranges::replace_if(text, [](char c) { return c == 'd' || c == 'D'; }, 'e');
         if (text.front() == '+')
             text.erase(0, 1);
         double value = 0;

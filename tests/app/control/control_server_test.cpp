@@ -126,7 +126,7 @@ class ControlServerTest : public testing::Test {
 TEST_F(ControlServerTest, IsASocketThatItsUserAloneMayOpenAndIsGoneAtTheEnd) {
     listen();
     const auto path = default_control_path();
-    struct stat socket {};
+    struct stat socket{};
     ASSERT_EQ(stat(path.c_str(), &socket), 0);
     EXPECT_EQ(socket.st_mode & 0777, 0600u);
     EXPECT_THROW(ControlServer(control_address(""), desk_, {}), interaction::Error)
@@ -137,7 +137,9 @@ TEST_F(ControlServerTest, IsASocketThatItsUserAloneMayOpenAndIsGoneAtTheEnd) {
 
 TEST_F(ControlServerTest, ReplacesASocketThatWasLeftBehindAndNothingElse) {
     ControlAddress address = control_address("");
-    { const ControlSocket left = listen_at(address); }
+    {
+        const ControlSocket left = listen_at(address);
+    }
     ASSERT_TRUE(std::filesystem::exists(address.path)) << "nobody has removed it";
     EXPECT_NO_THROW(listen());
     folder_.write("run42.isochron", "data");
@@ -315,7 +317,7 @@ TEST_F(ControlServerTest, EventsTellWhatChangesAndNoMoreOftenThanAsked) {
 TEST_F(ControlServerTest, LoopbackAsksForATokenThatOnlyTheUserCanRead) {
     listen("127.0.0.1:0");
     const auto token = control_token_file(server_->address().port);
-    struct stat file {};
+    struct stat file{};
     ASSERT_EQ(stat(token.c_str(), &file), 0);
     EXPECT_EQ(file.st_mode & 0777, 0600u);
     EXPECT_NE(answer_to("{\"verb\":\"state\"}\n{\"verb\":\"state\"}\n").find("token is wrong"),

@@ -215,9 +215,7 @@ TEST_F(IdleLoop, CellsThatAreAskedForAreShownBeforeItWaitsAgain) {
 }
 
 TEST_F(IdleLoop, ACursorThatMovesIsFollowed) {
-    run({[&](auto&, Seconds) {
-             window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480});
-         },
+    run({[&](auto&, Seconds) { window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480}); },
          [&](auto&, Seconds) {
              EXPECT_GE(since_wait_.frames, 2 + IdleWait::kFramesAfter);
              EXPECT_LE(since_wait_.presents, since_wait_.frames);

@@ -18,8 +18,9 @@
 namespace isochron::bench {
 
 template <class AnyRow, class Field>
-void each_field(AnyRow& row,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, ArtifactRow> {
+void each_field(AnyRow& row, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyRow>, ArtifactRow>
+{
     field("data", row.data);
     field("footprint", row.footprint);
     field("l", row.l);

@@ -101,9 +101,8 @@ void time_searches(const StepValues& values, const Structure& structure,
         return step + 1 < steps ? step + 1 : step - 1;
     };
     std::vector<Operation> operations = compared;
-    operations.push_back([&, out = Ids()](std::uint32_t step) mutable {
-        structure.ids({step, isovalue}, out);
-    });
+    operations.push_back(
+        [&, out = Ids()](std::uint32_t step) mutable { structure.ids({step, isovalue}, out); });
     operations.push_back([&](std::uint32_t step) {
         CellSet set;
         set.query = {step, isovalue};

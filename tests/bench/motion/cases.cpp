@@ -41,7 +41,7 @@ app::Config with_budget(app::Config config, double budget_ms) {
 struct Likenesses {
     std::vector<Likeness> all;
 
-    double mean(double Likeness::*figure) const {
+    double mean(double Likeness::* figure) const {
         double sum = 0;
         for (const Likeness& each : all)
             sum += each.*figure;

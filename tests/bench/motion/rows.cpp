@@ -15,8 +15,9 @@ std::string of(const std::optional<double>& number) {
 } // namespace
 
 template <class AnyRow, class Field>
-void each_field(AnyRow& row,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, MotionRow> {
+void each_field(AnyRow& row, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyRow>, MotionRow>
+{
     each_field_of_motion(row, field);
 }
 

@@ -6,8 +6,9 @@
 namespace isochron::bench {
 
 template <class AnyRow, class Field>
-void each_field(AnyRow& row,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, AgreementRow> {
+void each_field(AnyRow& row, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyRow>, AgreementRow>
+{
     field("data", row.data);
     field("footprint", row.footprint);
     field("shape", row.shape);

@@ -13,7 +13,7 @@ namespace {
 
 /// The largest share of pixels over all rows of one MaxVariation.
 double most(const std::vector<ArtifactRow>& rows, std::uint32_t max_variation,
-            double ArtifactRow::*figure) {
+            double ArtifactRow::* figure) {
     double largest = 0;
     for (const ArtifactRow& row : rows)
         if (row.max_variation == max_variation)

@@ -126,7 +126,7 @@ void add_search(const FirstPageInput& input, std::vector<PageFigure>& figures) {
     if (cells == none || bricks == none)
         return;
     // As in the tables: the median over the rows, each of which has its own measurement.
-    const auto compared = [&](double Row::*figure) {
+    const auto compared = [&](double Row::* figure) {
         std::vector<double> all;
         for (const Row& row : input.index->rows)
             if (row.data == cells->data && row.type == cells->type)

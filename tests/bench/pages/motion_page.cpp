@@ -75,7 +75,7 @@ std::string loads(const std::vector<MotionRow>& rows) {
 }
 
 /// The data of which there is a row of pictures on the sheet, or the motions that are its columns.
-std::string on_sheet(const std::vector<MotionRow>& rows, std::string MotionRow::*name) {
+std::string on_sheet(const std::vector<MotionRow>& rows, std::string MotionRow::* name) {
     std::vector<std::string> names;
     for (const MotionRow& row : rows)
         if (is_on_sheet(row) && std::ranges::find(names, row.*name) == names.end())

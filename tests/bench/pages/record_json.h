@@ -21,8 +21,9 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 template <class AnyHeader, class Field>
-void each_field(AnyHeader& header,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyHeader>, Header> {
+void each_field(AnyHeader& header, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyHeader>, Header>
+{
     field("commit", header.commit);
     field("processor", header.processor);
     field("threads", header.threads);

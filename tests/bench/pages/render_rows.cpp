@@ -8,8 +8,9 @@ namespace isochron::bench {
 
 /// Calls `field(key, member)` for all figures of a row, in the order of the keys.
 template <class AnyRow, class Field>
-void each_field(AnyRow& row,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, RenderRow> {
+void each_field(AnyRow& row, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyRow>, RenderRow>
+{
     field("data", row.data);
     field("footprint", row.footprint);
     field("size", row.size);

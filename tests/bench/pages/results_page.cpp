@@ -146,7 +146,7 @@ std::string structure_line(const Row& row, const ErrorDetail& detail) {
 }
 
 /// The median over the rows of a series, each of which has its own measurement of the comparison.
-std::string compared(std::span<const Row> rows, double Row::*figure) {
+std::string compared(std::span<const Row> rows, double Row::* figure) {
     std::vector<double> all;
     for (const Row& row : rows)
         all.push_back(row.*figure);

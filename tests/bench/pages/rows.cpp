@@ -11,8 +11,9 @@ namespace isochron::bench {
 
 /// Calls `field(key, member)` for all figures of a row, in the order of the keys.
 template <class AnyRow, class Field>
-void each_field(AnyRow& row,
-                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, Row> {
+void each_field(AnyRow& row, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyRow>, Row>
+{
     field("data", row.data);
     field("type", row.type);
     field("steps", row.steps);
@@ -43,8 +44,9 @@ void each_field(AnyRow& row,
 }
 
 template <class AnyDetail, class Field>
-void each_field(AnyDetail& detail, Field&& field) requires
-    std::is_same_v<std::remove_const_t<AnyDetail>, ErrorDetail> {
+void each_field(AnyDetail& detail, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyDetail>, ErrorDetail>
+{
     field("queries", detail.queries);
     field("active", detail.active);
     field("percent_at_isovalue", detail.percent_at_isovalue);

@@ -15,8 +15,7 @@ class MotionPlay : public app::BenchCommands {
         PlayOptions options;
         options.seconds = 0.6;
         options.longest_rest = 600; // however long it takes here
-        return play_case(
-            of, folder.path(), options, [] {}, [](std::string_view, double) {});
+        return play_case(of, folder.path(), options, [] {}, [](std::string_view, double) {});
     }
 };
 

@@ -33,10 +33,10 @@ int first_that_fails(const std::string& file) {
     const std::filesystem::path readable[]{file};
     if (open < 0 || !fence_in(readable))
         return 1;
-    struct rlimit limit {};
+    struct rlimit limit{};
     ::getrlimit(RLIMIT_CPU, &limit);
     const f_owner_ex owner{F_OWNER_PID, ::getppid()};
-    struct flock lock {};
+    struct flock lock{};
     lock.l_type = F_RDLCK;
     int on = 1;
     char name[] = "true";

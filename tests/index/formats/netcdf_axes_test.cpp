@@ -324,9 +324,7 @@ TEST(NetcdfTimes, OfSeveralFilesFollowEachOther) {
     for (std::size_t step = 0; step < 4; ++step)
         EXPECT_EQ(values_of<float>(*series, step)[0], series->info().times[step]);
     EXPECT_THAT(
-        error_of([&] {
-            open_series({at_times(folder, "a.nc", {1, 1})});
-        }),
+        error_of([&] { open_series({at_times(folder, "a.nc", {1, 1})}); }),
         HasSubstr(
             "a.nc: time 1 (2000-01-01 00:00:01) of its step 1 is that of the step before it"));
     EXPECT_THAT(error_of([&] { open_series({at_times(folder, "a.nc", {})}); }),

@@ -216,15 +216,12 @@ TEST(MissingValues, LieOutsideTheValidRange) {
                 ElementsAre(0, 1));
     EXPECT_THAT(gaps([](NetcdfWriter& out) { out.number<Short>("v", "valid_max", {21}); }),
                 ElementsAre(22, 23));
-    EXPECT_THAT(gaps([](NetcdfWriter& out) {
-                    out.number<Short>("v", "valid_range", {1, 22});
-                }),
+    EXPECT_THAT(gaps([](NetcdfWriter& out) { out.number<Short>("v", "valid_range", {1, 22}); }),
                 ElementsAre(0, 23));
     // Real limits of integers are those of the unpacked values, which run from 0 down to -2.3.
-    EXPECT_THAT(gaps([](NetcdfWriter& out) {
-                    out.number<float>("v", "valid_range", {-2.1f, -0.2f});
-                }),
-                ElementsAre(0, 1, 22, 23));
+    EXPECT_THAT(
+        gaps([](NetcdfWriter& out) { out.number<float>("v", "valid_range", {-2.1f, -0.2f}); }),
+        ElementsAre(0, 1, 22, 23));
 }
 
 TEST(MissingValues, OfUnsignedBytesAreWrittenWithASign) {

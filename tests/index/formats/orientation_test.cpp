@@ -238,9 +238,7 @@ TEST(Disagreement, OfNiftiScalingNamesBothFiles) {
     const auto a = folder.path() / "a.nii", b = folder.path() / "b.nii";
     std::filesystem::rename(Nifti().put(112, 2.0f).write(folder), a);
     std::filesystem::rename(Nifti().put(112, 3.0f).write(folder), b);
-    EXPECT_THAT(error_of([&] {
-                    open_series({a, b});
-                }),
+    EXPECT_THAT(error_of([&] { open_series({a, b}); }),
                 testing::AllOf(HasSubstr("b.nii: scaling 3 x + 0, "), HasSubstr("a.nii has 2")));
     std::filesystem::copy_file(a, folder.path() / "c.nii");
     EXPECT_EQ(open_series({a, folder.path() / "c.nii"})->info().times, (std::vector<double>{0, 1}));

@@ -168,13 +168,10 @@ TEST_F(WrittenSeries, NamesBothFilesWhenTwoDisagree) {
         change(info_);
         write("b", {1.0});
         info_ = before;
-        return error_of([&] {
-            open_series({folder_.path() / "a_0000.vti", folder_.path() / "b_0000.vti"});
-        });
+        return error_of(
+            [&] { open_series({folder_.path() / "a_0000.vti", folder_.path() / "b_0000.vti"}); });
     };
-    EXPECT_THAT(b_differs([](SeriesInfo& info) {
-                    info.grid.vertices = {37, 41, 5};
-                }),
+    EXPECT_THAT(b_differs([](SeriesInfo& info) { info.grid.vertices = {37, 41, 5}; }),
                 testing::AllOf(HasSubstr("b_0000.vti: dimensions 37x41x5, "),
                                HasSubstr("a_0000.vti has 41x37x5")));
     EXPECT_THAT(b_differs([](SeriesInfo& info) { info.grid.spacing.x = 0.2; }),
@@ -213,9 +210,7 @@ TEST(SeriesOfTypes, IsConvertedToOne) {
     const auto a = nrrd("a.nrrd", "float", text_of(floats)),
                b = nrrd("b.nrrd", "short", text_of(shorts)),
                c = nrrd("c.nrrd", "double", text_of(doubles));
-    EXPECT_THAT(error_of([&] {
-                    open_series({a, b});
-                }),
+    EXPECT_THAT(error_of([&] { open_series({a, b}); }),
                 HasSubstr("b.nrrd: type i16, " + a.string() + " has f32; --type f32"));
     ReadOptions options;
     options.type = ValueType::f32;

@@ -82,10 +82,11 @@ struct RandomValue {
             (*this)(field, into.emplace_back());
     }
     template <class T>
-    void operator()(const Field&, T& part) requires requires {
+    void operator()(const Field&, T& part)
+        requires requires { each_field(*this, part); }
+    {
         each_field(*this, part);
     }
-    { each_field(*this, part); }
 };
 
 inline Commands random_commands(Random& random) {

@@ -61,9 +61,8 @@ Coverage coverage(glm::ivec2 picture, const std::function<bool(int, int)>& cover
 }
 
 Coverage expected_coverage(const PinholeEye& eye, glm::dvec3 center, double radius) {
-    return coverage(eye.picture(), [&](int x, int y) {
-        return eye.sees({x + 0.5, y + 0.5}, center, radius);
-    });
+    return coverage(eye.picture(),
+                    [&](int x, int y) { return eye.sees({x + 0.5, y + 0.5}, center, radius); });
 }
 
 std::vector<glm::dvec3> points_on_edges(double extent, int per_edge) {

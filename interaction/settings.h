@@ -20,8 +20,16 @@ namespace isochron::interaction {
 
 /// The first value of a setting where `Holds<T>` is a value; nothing where `Holds<T>` is a change.
 template <template <class> class Holds, class T>
-constexpr Holds<T> at_first(T value) {
+constexpr Holds<T> at_first(const T& value) {
     if constexpr (std::same_as<Holds<T>, T>)
+        return value;
+    else
+        return {};
+}
+/// The same of a text: clang 19 makes no constant of a std::string of GCC 12's library.
+template <template <class> class Holds>
+constexpr Holds<std::string> at_first(const char* value) {
+    if constexpr (std::same_as<Holds<std::string>, std::string>)
         return value;
     else
         return {};
@@ -55,8 +63,8 @@ struct SettingsOf {
     Holds<Similarity> room_from_physical{}; ///< navigation's result
     Holds<std::vector<Viewpoint>> views{};  ///< all saved ones, at most kMostViews
     Holds<QualityMode> quality{};
-    Holds<float> eye_separation = at_first<Holds>(0.063f);            ///< meters, 0 to kWidestEyes
-    Holds<std::string> stereo = at_first<Holds>(std::string("mono")); ///< a stereo mode's name
+    Holds<float> eye_separation = at_first<Holds>(0.063f); ///< meters, 0 to kWidestEyes
+    Holds<std::string> stereo = at_first<Holds>("mono");   ///< a stereo mode's name
     Holds<bool> orthographic{}; ///< desktop screens show the data in parallel projection
     Holds<bool> grid{};         ///< floor grid shown
 

@@ -38,9 +38,9 @@ void expect_shallow_json(std::string_view text) {
     }
 }
 
-template <std::size_t N>
+template <std::size_t kCount>
 std::size_t number_of(const json& value, std::string_view where,
-                      const std::array<std::string_view, N>& names) {
+                      const std::array<std::string_view, kCount>& names) {
     const auto found = std::ranges::find(names, interaction::text(value, where));
     if (found == names.end())
         interaction::fail(where, fmt::format("{}", fmt::join(names, ", ")), value);

@@ -109,6 +109,7 @@ struct OscInput::State {
 
     explicit State(const OscOptions& options)
         : receiver({.endpoint = options.endpoint,
+                    .ages = options.ages,
                     .worth = [prefix = options.prefix + "/"](std::string_view bytes) {
                         return worth_of(bytes, prefix);
                     }}) {

@@ -27,6 +27,7 @@ struct OscOptions {
     Endpoint endpoint{"127.0.0.1", 9000};
     std::string prefix = "/isochron";
     std::vector<OscDevice> devices;
+    DatagramAges ages = DatagramAges::measured;
 };
 
 class OscInput final : public TrackedInput {

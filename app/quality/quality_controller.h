@@ -62,12 +62,13 @@ struct QualityChoice {
 ///   16 frames once the footprint has lasted 256 frames.
 /// A footprint is not tried if it may take longer than `kDearestTrial` (while moving, and beside
 /// parts: than the budget), judged by its earlier times at other loads, or by a multiple of the
-/// time of quads. If quads get faster, so do its earlier times, as other programs may have slowed
-/// both down. If it failed by less than three budgets, its times are halved every 2048 frames, so
-/// that it is tried again. An exact surface that is not tried because of that multiple alone is drawn
-/// in parts, which make no frame longer, see `surface_is_guessed`; again after 2048 frames. So one
-/// load causes few frames over the budget, at least 16 frames lie between a step
-/// down and a step up, and a footprint that fits is back after at most 2048 settled frames.
+/// time of quads, which is measured three times before that. If quads get faster, so do its earlier
+/// times, as other programs may have slowed both down. If it failed by less than three budgets, its
+/// times are halved every 2048 frames, so that it is tried again. An exact surface that is not
+/// tried because of that multiple alone is drawn in parts, which make no frame longer, see
+/// `surface_is_guessed`; again after 2048 frames. So one load causes few frames over the budget, at
+/// least 16 frames lie between a step down and a step up, and a footprint that fits is back after
+/// at most 2048 settled frames.
 class QualityController {
   public:
     static constexpr unsigned kShortestWait = 16, kLongestWait = 2048, kProven = 256; ///< frames

@@ -18,18 +18,12 @@
 
 namespace isochron::interaction {
 
-/// The first value of a setting where `Holds<T>` is a value; nothing where `Holds<T>` is a change.
+/// The first value of a setting, of type T, where `Holds<T>` is a value; nothing where `Holds<T>` is
+/// a change. A text comes as characters: clang 19 makes no constant of a std::string of GCC 12's
+/// library.
 template <template <class> class Holds, class T>
-constexpr Holds<T> at_first(const T& value) {
+constexpr Holds<T> at_first(const auto& value) {
     if constexpr (std::same_as<Holds<T>, T>)
-        return value;
-    else
-        return {};
-}
-/// The same of a text: clang 19 makes no constant of a std::string of GCC 12's library.
-template <template <class> class Holds>
-constexpr Holds<std::string> at_first(const char* value) {
-    if constexpr (std::same_as<Holds<std::string>, std::string>)
         return value;
     else
         return {};
@@ -40,12 +34,12 @@ template <template <class> class Holds>
 struct SettingsOf {
     // What is shown.
     Holds<std::string> array{}; ///< of the surfaces, by name; empty: the index's first
-    Holds<std::vector<Isosurface>> isosurfaces =
-        at_first<Holds>(std::vector<Isosurface>{{}}); ///< all of them, 1 to kMostIsosurfaces
-    Holds<std::uint32_t> picked{}; ///< the surface whose isovalue is moved, counted from 0
+    Holds<std::vector<Isosurface>> isosurfaces = at_first<Holds, std::vector<Isosurface>>(
+        std::vector<Isosurface>{{}}); ///< all of them, 1 to kMostIsosurfaces
+    Holds<std::uint32_t> picked{};    ///< the surface whose isovalue is moved, counted from 0
     Holds<Coloring> coloring{};
     Holds<Look> look{};
-    Holds<bool> bounding_box = at_first<Holds>(true); ///< the box with its ticks and numbers
+    Holds<bool> bounding_box = at_first<Holds, bool>(true); ///< the box with its ticks and numbers
 
     // Time.
     Holds<std::uint32_t> steps{}; ///< number that the session shows; 0: all that the index has
@@ -63,13 +57,13 @@ struct SettingsOf {
     Holds<Similarity> room_from_physical{}; ///< navigation's result
     Holds<std::vector<Viewpoint>> views{};  ///< all saved ones, at most kMostViews
     Holds<QualityMode> quality{};
-    Holds<float> eye_separation = at_first<Holds>(0.063f); ///< meters, 0 to kWidestEyes
-    Holds<std::string> stereo = at_first<Holds>("mono");   ///< a stereo mode's name
+    Holds<float> eye_separation = at_first<Holds, float>(0.063f);     ///< meters, 0 to kWidestEyes
+    Holds<std::string> stereo = at_first<Holds, std::string>("mono"); ///< a stereo mode's name
     Holds<bool> orthographic{}; ///< desktop screens show the data in parallel projection
     Holds<bool> grid{};         ///< floor grid shown
 
     // Panels and tools.
-    Holds<bool> panel = at_first<Holds>(true); ///< the operator's panel is shown
+    Holds<bool> panel = at_first<Holds, bool>(true); ///< the operator's panel is shown
     Holds<RoomPanel> room_panel{};
     Holds<Mark> mark{};
     Holds<Tools> tools{};

@@ -124,7 +124,8 @@ HWY_INLINE auto boxes(const SquareProjection& p, const std::uint32_t* words) {
     if constexpr (kKind == CellKind::uneven || kKind == CellKind::mixed_uneven) {
         const hn::Vec<decltype(di)> cell[3] = {hn::BitCast(di, x), hn::BitCast(di, y),
                                                hn::BitCast(di, z)};
-        return uneven_boxes < kKind == CellKind::mixed_uneven > (p, cell);
+        constexpr bool kMixed = kKind == CellKind::mixed_uneven;
+        return uneven_boxes<kMixed>(p, cell);
     } else if constexpr (kKind == CellKind::even) {
         const auto middle = [&](hn::Vec<decltype(du)> cell) { return hn::Add(number(cell), half); };
         return Boxes<EvenSides>{{middle(x), middle(y), middle(z)}, {one}};

@@ -13,7 +13,6 @@ void add_change(app::Command& program);
 void add_artifacts(app::Command& program);
 void add_detail(app::Command& program);
 void add_motion(app::Command& program);
-void add_results(app::Command& program);
 void add_scale(app::Command& program);
 
 } // namespace isochron::bench

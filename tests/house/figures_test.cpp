@@ -34,8 +34,7 @@ const std::vector<KnownConstant>& known_constants() {
         {"docs/guide/export.md", "128 MiB", "app/commands/command_export.cpp",
          "kMostKept = std::uint64_t{128} << 20"},
         {"docs/guide/headsets.md", "100 ms", "app/quality/frame_quality.h", "kStillAfter{0.1}"},
-        {"docs/guide/limits.md", "90 Hz", "tests/bench/pages/results_page.cpp",
-         "a display of 90 Hz"},
+        {"docs/guide/limits.md", "90 Hz", "tests/bench/results_page.md", "a display of 90 Hz"},
         {"docs/guide/tracking.md", "2 %", "interaction/trackers/calibration.cpp",
          "kNearlyOrthogonal = 0.02"},
         {"docs/guide/walls.md", "2 %", "app/config/check_config.cpp", "kSquare = 0.02f"}};

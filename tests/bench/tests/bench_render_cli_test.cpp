@@ -20,7 +20,7 @@ class BenchRenderCommand : public BenchCommands {};
 TEST_F(BenchRenderCommand, MeasuresEveryRowOfATinySeries) {
     const ChildResult result = bench({"render", "--quick", "--work", ".", "--json", "a.json"});
     ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_THAT(result.out, HasSubstr("| what | goal | floor | measured | |"));
+    EXPECT_THAT(result.out, HasSubstr("series       footprint picture"));
     EXPECT_THAT(folder.names(), ElementsAre("a.json")) << "nothing else is left behind";
     const auto j = nlohmann::json::parse(folder.read("a.json"));
     EXPECT_FALSE(j.at("header").at("processor").get<std::string>().empty());

@@ -11,7 +11,6 @@ void add_between(app::Command& program);
 void add_building(app::Command& program);
 void add_change(app::Command& program);
 void add_artifacts(app::Command& program);
-void add_detail(app::Command& program);
 void add_motion(app::Command& program);
 void add_scale(app::Command& program);
 

@@ -86,7 +86,7 @@ TEST_F(BenchCommand, SaysWhatIsWrong) {
          std::vector<std::tuple<std::vector<std::string>, int, std::string>>{
              {{},
               2,
-              "expected index, render, artifacts, between, building, change, detail, motion, "
+              "expected index, render, artifacts, between, building, change, motion, "
               "scale"},
              {{"index", "no.isochron"}, 1, "no.isochron"},
              {{"index", "--data", "cube"}, 2, "cube"},

@@ -336,7 +336,8 @@ def median_of(rows, key):
 def search_time(index):
     """Searches of one step in memory: the largest series of bytes."""
     rows = [row for row in index.rows if (row.data, row.type) == ("fourier256", "u8")]
-    cells, bricks = (next(row for row in rows if row.structure == name) for name in ("cells", "bricks"))
+    of_structure = {row.structure: row for row in rows}
+    cells, bricks = of_structure["cells"], of_structure["bricks"]
     return Row(active=int(cells.active), logarithmic=True, bars=[
         us("ids: cells", cells.search_ids_us, True), us("ids: bricks", bricks.search_ids_us, True),
         us("ids: plain scan", median_of(rows, "scan_us"), False),
@@ -576,8 +577,12 @@ def main():
                         help="the page; its charts lie in pictures/charts beside it (default: docs/RESULTS.md)")
     parser.add_argument("--check", action="store_true", help="write nothing; fail where a file would be another")
     arguments = parser.parse_args()
+    try:
+        files = files_of({name: getattr(arguments, name) for name in RESULTS})
+    except (KeyError, ValueError) as error:
+        sys.exit(f"the results lack what the page shows: {error!r}")
     others = []
-    for name, text in files_of({name: getattr(arguments, name) for name in RESULTS}).items():
+    for name, text in files.items():
         path = arguments.out if name == "RESULTS.md" else arguments.out.parent / name
         if arguments.check:
             others += [str(path)] if path.read_text(encoding="utf-8") != text else []

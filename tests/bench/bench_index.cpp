@@ -1,14 +1,13 @@
 // `isochron-bench index`: measures the search structures against their rivals.
 #include "app/command_line/cancel.h"
 #include "app/command_line/progress_bar.h"
-#include "index/error.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/data_sets.h"
 #include "tests/bench/measures/isovalues.h"
 #include "tests/bench/measures/measure.h"
 #include "tests/bench/measures/work_folder.h"
-#include "tests/bench/pages/results_page.h"
+#include "tests/bench/rows/rows.h"
 #include "tests/bench/text_file.h"
 
 #include <fmt/format.h>

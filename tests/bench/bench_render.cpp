@@ -9,7 +9,7 @@
 #include "tests/bench/measures/isovalues.h"
 #include "tests/bench/measures/render_measure.h"
 #include "tests/bench/measures/work_folder.h"
-#include "tests/bench/pages/render_goals.h"
+#include "tests/bench/rows/render_rows.h"
 #include "tests/bench/text_file.h"
 
 #include <fmt/format.h>
@@ -195,7 +195,6 @@ void run_bench_render(RenderArguments arguments) {
                 if (!arguments.json.empty())
                     write_text(arguments.json, to_json_text(results));
             }
-    fmt::print("\n{}", render_goals_table(results.rows));
 }
 
 } // namespace
@@ -271,7 +270,8 @@ void add_render(app::Command& program) {
         "Every frame is waited\nfor. Times are wall-clock medians over the frames, each in turn "
         "with what it is compared with. Columns: fps of\nwhole frames; vtk: the same steps with "
         "VTK; bare: drawing alone of plain quads as large as the largest cells;\np99: 99th "
-        "percentile of frame over static draw while time plays and the isovalue is dragged.");
+        "percentile of frame over static draw while time plays and the isovalue is dragged. `./run "
+        "bench results --render FILE -o\nPAGE.md` compares what --json wrote with the goals.");
     command.on_run([arguments] { run_bench_render(*arguments); });
 }
 

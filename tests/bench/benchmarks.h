@@ -11,9 +11,7 @@ void add_between(app::Command& program);
 void add_building(app::Command& program);
 void add_change(app::Command& program);
 void add_artifacts(app::Command& program);
-void add_detail(app::Command& program);
 void add_motion(app::Command& program);
-void add_results(app::Command& program);
 void add_scale(app::Command& program);
 
 } // namespace isochron::bench

@@ -1,7 +1,7 @@
 // The build and the machine that a benchmark measures.
 #pragma once
 
-#include "tests/bench/pages/rows.h"
+#include "tests/bench/rows/rows.h"
 
 namespace isochron::bench {
 

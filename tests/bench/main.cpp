@@ -8,7 +8,6 @@ int main(int argc, char** argv) {
                              .version_details = nullptr},
                             {bench::add_index, bench::add_render, bench::add_artifacts,
                              bench::add_between, bench::add_building, bench::add_change,
-                             bench::add_detail, bench::add_motion, bench::add_results,
-                             bench::add_scale},
+                             bench::add_motion, bench::add_scale},
                             argc, argv);
 }

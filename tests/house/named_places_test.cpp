@@ -152,7 +152,7 @@ TEST(NamedPlaces, OfTheDevelopersPagesAreThere) {
 }
 
 TEST(NamedPlaces, WhatHasMovedIsFound) {
-    const PlantedTree tree("moved_names");
+    const PlantedTree tree;
     tree.plant("index/formats/known.h", "class Known;\nint count_of();\n");
     tree.plant("index/other.cpp", "int kTable = 1;\n");
     tree.plant("CONTRIBUTING.md",

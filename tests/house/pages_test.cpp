@@ -111,7 +111,7 @@ TEST(Pages, EveryLinkLeadsSomewhere) {
 }
 
 TEST(Pages, DeadLinksAndAnchorsAreFound) {
-    const PlantedTree tree("dead_links");
+    const PlantedTree tree;
     tree.plant("README.md", "# Page\n[good](docs/a.md#one-two) [page](#page)\n"
                             "[gone](docs/b.md) ![no picture](docs/p.png)\n[no anchor](#two)\n"
                             "```\n[in code](nowhere)\n```\n[far](https://example.org)\n");
@@ -176,7 +176,7 @@ TEST(Pages, EveryOptionThatTheyNameIsThere) {
 }
 
 TEST(Pages, OptionsThatNothingHasAreFound) {
-    const PlantedTree tree("unknown_options");
+    const PlantedTree tree;
     tree.plant("app/a.cpp", "option(\"-o,--out\"); flag(\"--quiet\");\n");
     tree.plant("README.md",
                "`--out FILE`, `--quiet`, `--loud`\n```sh\nisochron build --in x\n```\n");
@@ -192,33 +192,6 @@ TEST(Pages, OfTheGuideAreAllInItsContentsAndInTheSite) {
             EXPECT_NE(contents.find("(" + name + ")"), std::string::npos) << name;
             EXPECT_NE(site.find(": " + name + "\n"), std::string::npos) << name;
         }
-}
-
-/// Pages of the guide that take more than two screens to read.
-Findings long_pages(const std::filesystem::path& root) {
-    Findings found;
-    for (const std::string& page : pages_of(root)) {
-        const std::string text = text_of_page(root / page);
-        if (page.starts_with("docs/guide/") &&
-            (std::ranges::count(text, '\n') > 150 || text.size() > 7500))
-            found.push_back(page);
-    }
-    return found;
-}
-
-TEST(Pages, OfTheGuideTakeAtMostTwoScreens) {
-    EXPECT_EQ(long_pages(checkout()), Findings{});
-    const PlantedTree tree("long_pages");
-    tree.plant("docs/guide/long.md", std::string(151, '\n'));
-    tree.plant("docs/guide/wide.md", std::string(7501, 'x'));
-    tree.plant("docs/guide/short.md", std::string(150, '\n'));
-    EXPECT_EQ(long_pages(tree.root()), (Findings{"docs/guide/long.md", "docs/guide/wide.md"}));
-}
-
-TEST(Pages, TheReadmeIsAFrontPage) {
-    const std::string page = text_of_page(checkout() / "README.md");
-    EXPECT_LE(std::ranges::count(page, '\n'), 150);
-    EXPECT_LE(page.size(), 9000u);
 }
 
 } // namespace

@@ -138,50 +138,27 @@ TEST(Wings, AllOfTheOrderAreThere) {
             }
 }
 
-TEST(Wings, AnIncludeOfWhatStandsInFrontIsFound) {
-    const PlantedTree tree("in_front");
+TEST(Wings, WhatBreaksTheOrderIsFound) {
+    const PlantedTree tree;
+    // What stands in front, and a neighbor.
     tree.plant("app/config/bad.h", "#pragma once\n#include \"app/frame/frame_log.h\"\n");
-    tree.plant("index/system/bad.cpp", "#include \"index/file/index_file.h\"\n");
-    tree.plant("stereo/context/bad.h", "#include \"stereo/screen.h\"\n");
     tree.plant("app/text.cpp", "#include \"app/text.h\"\n#include \"app/panel/panel.h\"\n");
-    EXPECT_EQ(includes_against_the_order(tree.root()),
-              (Found{"index/system/bad.cpp:1 includes index/file/index_file.h",
-                     "stereo/context/bad.h:1 includes stereo/screen.h",
-                     "app/config/bad.h:2 includes app/frame/frame_log.h",
-                     "app/text.cpp:2 includes app/panel/panel.h"}));
-}
-
-TEST(Wings, AnIncludeOfANeighborIsFound) {
-    const PlantedTree tree("neighbors");
-    tree.plant("render/cells/bad.cpp", "#include \"render/passes/line_pass.h\"\n");
     tree.plant("index/scan/good.cpp", "#include \"index/scan/bricks.h\"\n"
                                       "#include \"index/volume/grid.h\"\n");
-    EXPECT_EQ(includes_against_the_order(tree.root()),
-              Found{"render/cells/bad.cpp:1 includes render/passes/line_pass.h"});
-}
-
-TEST(Wings, AnIncludeOfWhatStandsApartIsFound) {
-    const PlantedTree tree("apart");
-    tree.plant("app/session/bad.cpp", "#include \"app/generate/demo_series.h\"\n");
+    tree.plant("render/cells/bad.cpp", "#include \"render/passes/line_pass.h\"\n");
+    // What stands apart.
     tree.plant("app/commands/command_generate.cpp", "#include \"app/generate/demo_series.h\"\n");
-    tree.plant("app/scene/bad.cpp", "#include \"app/command_line/cancel.h\"\n");
-    tree.plant("app/output/bad.cpp", "#include \"stereo/image_module/image_module.h\"\n");
+    tree.plant("app/session/bad.cpp", "#include \"app/generate/demo_series.h\"\n");
     tree.plant("stereo/image_file.cpp", "#include \"stereo/image_module/image_module.h\"\n");
     tree.plant("stereo/screen.cpp", "#include \"stereo/image_module/image_module.h\"\n");
-    EXPECT_EQ(includes_against_the_order(tree.root()),
-              (Found{"stereo/screen.cpp:1 includes stereo/image_module/image_module.h",
-                     "app/output/bad.cpp:1 includes stereo/image_module/image_module.h",
-                     "app/scene/bad.cpp:1 includes app/command_line/cancel.h",
-                     "app/session/bad.cpp:1 includes app/generate/demo_series.h"}));
-}
-
-TEST(Wings, AFileInNoWingIsFound) {
-    const PlantedTree tree("no_wing");
-    tree.plant("render/loose.h", "#pragma once\n");
     tree.plant("app/attic/box.h", "#pragma once\n");
     EXPECT_EQ(includes_against_the_order(tree.root()),
-              (Found{"render/loose.h stands in no wing of the order",
-                     "app/attic/box.h stands in no wing of the order"}));
+              (Found{"render/cells/bad.cpp:1 includes render/passes/line_pass.h",
+                     "stereo/screen.cpp:1 includes stereo/image_module/image_module.h",
+                     "app/attic/box.h stands in no wing of the order",
+                     "app/config/bad.h:2 includes app/frame/frame_log.h",
+                     "app/session/bad.cpp:1 includes app/generate/demo_series.h",
+                     "app/text.cpp:2 includes app/panel/panel.h"}));
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
-#include "tests/bench/pages/agreement_rows.h"
+#include "tests/bench/rows/agreement_rows.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,13 +1,12 @@
 // Measures the paper's two sources of error in pixels.
 #include "tests/bench/measures/artifacts.h"
 
-#include "index/error.h"
 #include "index/scan/scan.h"
 #include "index/search/id_sort.h"
 #include "render/gl/render_target.h"
 #include "tests/bench/measures/render_camera.h"
 #include "tests/bench/measures/render_measure.h"
-#include "tests/bench/pages/record_json.h"
+#include "tests/bench/rows/record_json.h"
 
 #include <algorithm>
 #include <array>
@@ -79,10 +78,6 @@ const std::vector<NamedFootprint>& splats() {
 
 std::string to_json_text(const ArtifactResults& results) {
     return results_text(results);
-}
-
-ArtifactResults artifacts_from_json(const std::string& text, const std::string& name) {
-    return results_from_text<ArtifactResults>(text, name, "isochron-bench artifacts");
 }
 
 PixelDifference difference(const render::Image& a, const render::Image& b) {

@@ -6,8 +6,8 @@
 #include "index/thi/thi_tree.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/image.h"
-#include "tests/bench/pages/rows.h"
 #include "tests/bench/rivals/span_normals.h"
+#include "tests/bench/rows/rows.h"
 
 #include <cstdint>
 #include <string>
@@ -41,8 +41,6 @@ struct ArtifactResults {
     std::vector<ArtifactRow> rows;
 };
 std::string to_json_text(const ArtifactResults& results);
-/// @throws index::Error when a field is missing or has the wrong type
-ArtifactResults artifacts_from_json(const std::string& text, const std::string& name);
 
 /// The sets of cells that are drawn for one step.
 struct ArtifactSets {

@@ -3,7 +3,7 @@
 
 #include "index/file/index_file.h"
 #include "tests/bench/measures/structures.h"
-#include "tests/bench/pages/rows.h"
+#include "tests/bench/rows/rows.h"
 
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "index/file/index_file.h"
 #include "render/drawing/cell_pass.h"
 #include "stereo/context/gl_context.h"
-#include "tests/bench/pages/render_rows.h"
+#include "tests/bench/rows/render_rows.h"
 
 #include <memory>
 #include <string>

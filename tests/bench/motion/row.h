@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 namespace isochron::bench {
 
@@ -48,8 +49,10 @@ inline bool is_on_sheet(const MotionRow& row) {
     return row.place == "windowless" && row.width == 1280 && row.height == 720;
 }
 
-template <class Row, class Field>
-void each_field_of_motion(Row& row, Field&& field) {
+template <class AnyRow, class Field>
+void each_field(AnyRow& row, Field&& field)
+    requires std::is_same_v<std::remove_const_t<AnyRow>, MotionRow>
+{
     field("data", row.data);
     field("motion", row.motion);
     field("place", row.place);

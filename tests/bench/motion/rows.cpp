@@ -1,9 +1,7 @@
 // The rows of the motion benchmark.
 #include "tests/bench/motion/rows.h"
 
-#include "tests/bench/pages/record_json.h"
-
-#include <type_traits>
+#include "tests/bench/rows/record_json.h"
 
 namespace isochron::bench {
 namespace {
@@ -14,19 +12,8 @@ std::string of(const std::optional<double>& number) {
 
 } // namespace
 
-template <class AnyRow, class Field>
-void each_field(AnyRow& row, Field&& field)
-    requires std::is_same_v<std::remove_const_t<AnyRow>, MotionRow>
-{
-    each_field_of_motion(row, field);
-}
-
 std::string to_json_text(const MotionResults& results) {
     return results_text(results);
-}
-
-MotionResults motion_from_json(const std::string& text, const std::string& name) {
-    return results_from_text<MotionResults>(text, name, "isochron-bench motion");
 }
 
 std::string motion_table_head() {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/bench/motion/row.h"
-#include "tests/bench/pages/header.h"
+#include "tests/bench/rows/header.h"
 
 #include <string>
 #include <vector>
@@ -14,8 +14,6 @@ struct MotionResults {
     std::vector<MotionRow> rows;
 };
 std::string to_json_text(const MotionResults& results);
-/// @throws index::Error when a field is missing or has the wrong type
-MotionResults motion_from_json(const std::string& text, const std::string& name);
 
 /// For a terminal: what the columns are, and a row.
 std::string motion_table_head();

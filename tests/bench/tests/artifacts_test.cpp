@@ -1,7 +1,6 @@
 // The pixels that kept normals and false positives change.
 #include "tests/bench/measures/artifacts.h"
 
-#include "index/error.h"
 #include "index/scan/scan.h"
 #include "tests/support/test_field.h"
 
@@ -85,21 +84,6 @@ TEST(Artifacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
     }
     EXPECT_EQ(cells, active.size()) << "each cell is stored once";
     EXPECT_GT(kept, 20u) << "and some for longer than a step";
-}
-
-TEST(Artifacts, GoThroughJsonUnchanged) {
-    ArtifactRow row;
-    row.data = "sphere";
-    row.footprint = "gaussian";
-    row.l = 64;
-    row.max_variation = 2;
-    row.normals_mean = 1.25;
-    row.false_changed_percent = 3.5;
-    const std::string text = to_json_text(ArtifactResults{{"0123abcd", "p", "c", "d", 2}, {row}});
-    const ArtifactResults read = artifacts_from_json(text, "a.json");
-    EXPECT_EQ(to_json_text(read), text);
-    EXPECT_EQ(read.rows.at(0).false_changed_percent, 3.5);
-    EXPECT_THROW(artifacts_from_json("[]", "a.json"), index::Error);
 }
 
 } // namespace

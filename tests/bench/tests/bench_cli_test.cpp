@@ -52,11 +52,6 @@ TEST_F(BenchCommand, MeasuresEveryStructureOnTheSphere) {
         EXPECT_NEAR(row.at("percent_with_volume"),
                     100 * (double(row.at("bytes")) + 5.0 * 183000) / raw, 0.01);
     }
-
-    const ChildResult page = bench({"results", "a.json", "-o", "RESULTS.md"});
-    ASSERT_EQ(page.status, 0) << page.err;
-    EXPECT_THAT(folder.read("RESULTS.md"), HasSubstr("### sphere, u8, 5 steps"));
-    EXPECT_EQ(bench({"results", "a.json"}).out, folder.read("RESULTS.md"));
 }
 
 TEST_F(BenchCommand, MeasuresAGivenIndex) {
@@ -91,12 +86,11 @@ TEST_F(BenchCommand, SaysWhatIsWrong) {
          std::vector<std::tuple<std::vector<std::string>, int, std::string>>{
              {{},
               2,
-              "expected index, render, artifacts, between, building, change, detail, motion, "
-              "results, scale"},
+              "expected index, render, artifacts, between, building, change, motion, "
+              "scale"},
              {{"index", "no.isochron"}, 1, "no.isochron"},
              {{"index", "--data", "cube"}, 2, "cube"},
-             {{"index", "--lattice", "0"}, 2, "lattice"},
-             {{"results", "no.json"}, 1, "no.json: cannot be read"}}) {
+             {{"index", "--lattice", "0"}, 2, "lattice"}}) {
         const ChildResult result = bench(arguments);
         EXPECT_EQ(result.status, status) << result.err;
         EXPECT_THAT(result.err, HasSubstr(what));

@@ -4,9 +4,8 @@
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/structures.h"
 #include "tests/bench/measures/timing.h"
-#include "tests/bench/pages/rows.h"
+#include "tests/bench/rows/rows.h"
 
-#include "index/error.h"
 #include "index/indexing/index_build.h"
 #include "index/scan/scan.h"
 #include "tests/support/memory_series.h"
@@ -25,7 +24,6 @@ using index::Query;
 using index::TestField;
 using index::ValueType;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 double mean_active(const index::StepValues& values, double isovalue) {
     double sum = 0;
@@ -185,31 +183,6 @@ TEST(Rows, HaveTheKeysOfEveryRowAndNullForWhatAStructureDoesNotHave) {
     EXPECT_TRUE(j.at("rows").at(1).at("l").is_null());
     EXPECT_TRUE(j.at("rows").at(0).at("search_runs_us").is_null());
     EXPECT_EQ(j.at("rows").at(0).at("search_ids_us"), 1.2346);
-}
-
-TEST(Rows, ComeBackFromTheirJson) {
-    const std::string text = to_json_text(some_results());
-    EXPECT_EQ(nlohmann::ordered_json::parse(text), to_json(some_results()));
-    EXPECT_EQ(to_json_text(results_from_json(text, "a.json")), text);
-}
-
-TEST(Rows, ThatAreNoneAreNamedWithTheirFile) {
-    const auto error_of = [](const std::string& text) -> std::string {
-        try {
-            results_from_json(text, "a.json");
-        } catch (const index::Error& error) {
-            return error.what();
-        }
-        return "";
-    };
-    EXPECT_THAT(error_of("nonsense"), HasSubstr("a.json: no results of a benchmark"));
-    EXPECT_THAT(error_of("{}"), HasSubstr("header"));
-    auto j = to_json(some_results());
-    j["rows"][0].erase("bytes");
-    EXPECT_THAT(error_of(j.dump()), HasSubstr("bytes"));
-    j = to_json(some_results());
-    j["details"].erase(1);
-    EXPECT_THAT(error_of(j.dump()), HasSubstr("2 rows, but 1 details"));
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 #include "tests/bench/motion/likeness.h"
 #include "tests/bench/motion/rows.h"
 #include "tests/bench/motion/script.h"
-#include "tests/bench/pages/motion_page.h"
 
 #include <gmock/gmock.h>
 
@@ -17,8 +16,6 @@ namespace {
 using render::Image;
 using testing::DoubleNear;
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 
 constexpr std::uint8_t kDark = 10;
 
@@ -246,41 +243,6 @@ TEST(MotionCases, LargeDataAreForAllOfIt) {
         EXPECT_THAT(of.motions, ElementsAre(Motion::orbit));
         EXPECT_THAT(of.budgets, ElementsAre(33));
     }
-}
-
-TEST(MotionRows, AreReadAsTheyWereWritten) {
-    MotionResults results{{"commit", "processor", "compiler", "2020-01-01", 2}, {}};
-    results.rows.push_back({.data = "192", .motion = "sway", .place = "windowless", .cells = 7});
-    results.rows.back().shown_ms = 12.5;
-    results.rows.back().overlap = 0.875;
-    const MotionResults read = motion_from_json(to_json_text(results), "a.json");
-    ASSERT_EQ(read.rows.size(), 1u);
-    EXPECT_EQ(read.rows[0].data, "192");
-    EXPECT_EQ(read.rows[0].cells, 7u);
-    EXPECT_EQ(read.rows[0].overlap, 0.875);
-    EXPECT_EQ(read.rows[0].shown_ms, 12.5);
-    EXPECT_EQ(read.rows[0].exact_ms, std::nullopt);
-    EXPECT_EQ(to_json_text(read), to_json_text(results));
-}
-
-TEST(MotionPage, HasARowForEachMotionAndAVerdictForEachGoal) {
-    MotionResults results{{"commit", "processor", "compiler", "2020-01-01", 2}, {}};
-    MotionRow row{.data = "192", .motion = "sway", .place = "windowless", .cells = 264958};
-    row.width = row.height = 1024;
-    row.budget_ms = 33;
-    row.lit = 1.02;
-    row.overlap = 0.95;
-    row.luminance_off = 0.2;
-    results.rows = {row, row};
-    results.rows[1].motion = "walk-in";
-    results.rows[1].overlap = 0.91;
-    const std::string page = motion_section(results, "a.json", "pictures/a.jpg");
-    EXPECT_THAT(page, HasSubstr("| the same: IoU | 0.94 | 0.9 | 0.91 to 0.95 | above the floor |"));
-    EXPECT_THAT(page, HasSubstr("luminance off | 8 % | 15 % | 20 % | **below the floor** |"));
-    EXPECT_THAT(page, HasSubstr("| 192 | 1024x1024 | 33 | walk-in |"));
-    EXPECT_THAT(page, HasSubstr("264,958"));
-    EXPECT_THAT(page, HasSubstr("(pictures/a.jpg)"));
-    EXPECT_THAT(motion_section(results, "a.json", ""), Not(HasSubstr("![")));
 }
 
 } // namespace

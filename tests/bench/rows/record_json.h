@@ -5,7 +5,7 @@
 #pragma once
 
 #include "index/error.h"
-#include "tests/bench/pages/header.h"
+#include "tests/bench/rows/header.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // The results of `isochron-bench render`: frame rates and stages, as JSON and as a table.
 #pragma once
 
-#include "tests/bench/pages/rows.h"
+#include "tests/bench/rows/rows.h"
 
 #include <cstdint>
 #include <optional>
@@ -52,8 +52,5 @@ RenderResults render_results_from_json(const std::string& text, const std::strin
 
 /// Columns for the terminal.
 std::string table_of(const std::vector<RenderRow>& rows);
-
-/// `1024^2`, `2 x 1024^2`.
-std::string picture_name(const RenderRow& row);
 
 } // namespace isochron::bench

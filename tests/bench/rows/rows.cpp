@@ -1,9 +1,8 @@
 // Rows of figures as JSON and as a table.
-#include "tests/bench/pages/rows.h"
+#include "tests/bench/rows/rows.h"
 
 #include "app/text.h"
-#include "index/error.h"
-#include "tests/bench/pages/record_json.h"
+#include "tests/bench/rows/record_json.h"
 
 #include <fmt/format.h>
 
@@ -92,23 +91,6 @@ ordered_json to_json(const Results& results) {
 
 std::string to_json_text(const Results& results) {
     return json_text(to_json(results));
-}
-
-Results results_from_json(const std::string& text, const std::string& name) {
-    try {
-        const json j = json::parse(text);
-        Results results{record_from_json<Header>(j.at("header")), {}, {}};
-        for (const json& row : j.at("rows"))
-            results.rows.push_back(record_from_json<Row>(row));
-        for (const json& detail : j.at("details"))
-            results.details.push_back(record_from_json<ErrorDetail>(detail));
-        if (results.details.size() != results.rows.size())
-            throw index::Error(fmt::format("{}: {} rows, but {} details", name, results.rows.size(),
-                                           results.details.size()));
-        return results;
-    } catch (const json::exception& error) {
-        throw index::Error(fmt::format("{}: no results of a benchmark: {}", name, error.what()));
-    }
 }
 
 std::string table_of(const Results& results) {

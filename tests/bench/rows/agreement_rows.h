@@ -1,7 +1,7 @@
 // The results of `isochron-bench render --agreement-only`, as JSON and as a table.
 #pragma once
 
-#include "tests/bench/pages/header.h"
+#include "tests/bench/rows/header.h"
 
 #include <cstdint>
 #include <string>
@@ -37,14 +37,6 @@ struct AgreementResults {
 };
 
 std::string to_json_text(const AgreementResults& results);
-
-/// @param name of the file, for errors
-/// @throws index::Error when a field is missing or has the wrong type
-AgreementResults agreement_results_from_json(const std::string& text, const std::string& name);
-
-/// The part of the page of results on footprints compared with the exact surface, as Markdown.
-/// @param source name of the results' file on the page
-std::string agreement_section(const AgreementResults& results, const std::string& source);
 
 /// Columns for the terminal.
 std::string table_of(const std::vector<AgreementRow>& rows);

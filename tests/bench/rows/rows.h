@@ -1,7 +1,7 @@
 // The results of a benchmark: rows of figures and the machine, as JSON and as a table.
 #pragma once
 
-#include "tests/bench/pages/header.h"
+#include "tests/bench/rows/header.h"
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
@@ -56,10 +56,6 @@ struct Results {
 nlohmann::ordered_json to_json(const Results& results);
 /// The same as text, one row per line.
 std::string to_json_text(const Results& results);
-
-/// @param name of the file, for errors
-/// @throws index::Error when a field is missing or has the wrong type
-Results results_from_json(const std::string& text, const std::string& name);
 
 /// Columns for the terminal.
 std::string table_of(const Results& results);

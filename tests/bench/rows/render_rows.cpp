@@ -1,10 +1,26 @@
 // Rows of rendering figures as JSON and as a table.
-#include "tests/bench/pages/render_rows.h"
+#include "tests/bench/rows/render_rows.h"
 
-#include "tests/bench/pages/record_json.h"
-#include "tests/bench/pages/short_number.h"
+#include "tests/bench/rows/record_json.h"
+
+#include <cmath>
 
 namespace isochron::bench {
+namespace {
+
+/// Three digits, or all before the point: `0.0123`, `126`, `1034`; a dash without a value.
+std::string short_number(const std::optional<double>& value) {
+    return !value                     ? "-"
+           : std::abs(*value) < 999.5 ? fmt::format("{:.3g}", *value)
+                                      : fmt::format("{:.0f}", *value);
+}
+
+/// `1024^2`, `2 x 1024^2`.
+std::string picture_name(const RenderRow& row) {
+    return fmt::format("{}{}^2", row.eyes == 2 ? "2 x " : "", row.size);
+}
+
+} // namespace
 
 /// Calls `field(key, member)` for all figures of a row, in the order of the keys.
 template <class AnyRow, class Field>
@@ -45,14 +61,7 @@ RenderResults render_results_from_json(const std::string& text, const std::strin
     return results_from_text<RenderResults>(text, name, "isochron-bench render");
 }
 
-std::string picture_name(const RenderRow& row) {
-    return fmt::format("{}{}^2", row.eyes == 2 ? "2 x " : "", row.size);
-}
-
 std::string table_of(const std::vector<RenderRow>& rows) {
-    const auto number = [](const std::optional<double>& value) {
-        return value ? short_number(*value) : "-";
-    };
     std::string text =
         fmt::format("{:<12} {:<9} {:<10} {:>7} {:<7} {:>6} {:>6} {:>6} {:>6} {:>5} "
                     "{:>8} {:>8} {:>8} {:>8}\n",
@@ -62,9 +71,9 @@ std::string table_of(const std::vector<RenderRow>& rows) {
         text += fmt::format("{:<12} {:<9} {:<10} {:>7} {:<7} {:>6.0f} {:>6} {:>6} {:>6} {:>5.3g} "
                             "{:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}\n",
                             row.data, row.footprint, picture_name(row), row.threads, row.context,
-                            row.cells, number(row.fps), number(row.vtk_fps), number(row.bare_fps),
-                            row.p99_over_static, row.extract_ms, row.order_ms, row.upload_ms,
-                            row.draw_ms);
+                            row.cells, short_number(row.fps), short_number(row.vtk_fps),
+                            short_number(row.bare_fps), row.p99_over_static, row.extract_ms,
+                            row.order_ms, row.upload_ms, row.draw_ms);
     return text;
 }
 

@@ -110,7 +110,7 @@ class Group:
 
 def cases_of(program):
     """The full names of the tests of a program, in their order."""
-    if program["kind"] == "unittest":
+    if program["kind"] != "gtest":
         return [program["name"]]
     said = subprocess.run([*program["command"], "--gtest_list_tests"], capture_output=True, text=True, check=True,
                           stdin=subprocess.DEVNULL, env=environment_of(program))
@@ -241,8 +241,8 @@ def words_of(status):
 
 def run_group(group):
     """Runs the tests of a group. After one that ends the process, the others run in another process."""
-    if group.program["kind"] == "unittest":
-        return run_unittest(group)
+    if group.program["kind"] != "gtest":
+        return run_command(group)
     left = list(group.cases)
     while left:
         with tempfile.TemporaryFile() as output:
@@ -279,7 +279,8 @@ def run_group(group):
     return group
 
 
-def run_unittest(group):
+def run_command(group):
+    """Runs Python's unittest, or another command whose status says all."""
     with tempfile.TemporaryFile() as output:
         status, group.cost.time = run_process(group.program, [], output)
         output.seek(0)
@@ -288,7 +289,7 @@ def run_unittest(group):
     group.cost.claims = int(ran[1]) if ran else 1
     skipped = re.search(r"skipped=(\d+)", text)
     failed = re.findall(r"^(?:FAIL|ERROR): (.*)$", text, re.MULTILINE)
-    if status != 0 or skipped or not ran:
+    if status != 0 or skipped or (group.program["kind"] == "unittest" and not ran):
         names = failed or [words_of(status)]
         group.failed = [(f"{group.suite}: {names[0]}", text[-20000:])]
         group.failed += [(f"{group.suite}: {name}", "see above") for name in names[1:]]

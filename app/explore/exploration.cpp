@@ -2,7 +2,6 @@
 #include "app/explore/exploration.h"
 
 #include "app/config/tracker_setup.h"
-#include "app/config/user_folders.h"
 #include "app/explore/control_options.h"
 #include "app/explore/explore_start.h"
 #include "app/explore/explored_data.h"
@@ -16,6 +15,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
+#include "index/system/user_folders.h"
 #include "interaction/recording/recording.h"
 #include "render/gl/link_watch.h"
 #include "stereo/context/display_loss.h"
@@ -50,7 +50,7 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     PageWindowOptions page = page_options(config);
     page.wake = wake;
     const auto chosen =
-        choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
+        choose_data(windows, {.recent = UserMemory(index::user_state_folder()).recent(),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
                               .window = page});
     signals.check();
@@ -270,7 +270,7 @@ std::optional<NextData> Exploration::run() {
         signals_.check();
         return std::nullopt;
     }
-    UserMemory memory(job_.size() == 1 ? user_state_folder() : std::nullopt);
+    UserMemory memory(job_.size() == 1 ? index::user_state_folder() : std::nullopt);
     BackgroundWork remembering; // no frame waits for that disk
     LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
                   session_->outputs().headset());

@@ -1,9 +1,9 @@
 // Saves and reads sessions.
 #include "app/session/kept/session_file.h"
 
-#include "app/config/user_folders.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
+#include "index/system/user_folders.h"
 #include "interaction/error.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/json_values.h"
@@ -126,7 +126,7 @@ ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
 
 std::optional<std::filesystem::path> session_path(const std::filesystem::path& data,
                                                   const std::string& data_hash) {
-    const std::optional<std::filesystem::path> folder = user_state_folder();
+    const std::optional<std::filesystem::path> folder = index::user_state_folder();
     if (!folder)
         return std::nullopt;
     return *folder / fmt::format("{}-{}.isochron-session", data.stem().string(), data_hash);

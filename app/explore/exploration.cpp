@@ -228,7 +228,7 @@ bool Exploration::prepare_session() {
 
 void Exploration::open_session() {
     if (job_.size() == 1)
-        earlier_ = earlier_session(earlier_kept_in(options_, *file_), options_.resume);
+        earlier_ = earlier_session(options_, *file_);
     else if (options_.resume)
         throw UsageError("--resume is for one process, without mpirun");
     if (!windows_)
@@ -346,19 +346,21 @@ void Exploration::keep(LiveLoop& live) {
                  earlier_ && path == kept_in(options_, *file_));
 }
 
-/// Offers to go on with the session before, if there is one that fits.
+/// Offers to go on with one of the sessions before, if there are any that fit.
 void Exploration::offer_earlier() {
-    const auto path = earlier_kept_in(options_, *file_);
-    if (earlier_ || !path || !std::filesystem::exists(*path))
+    if (earlier_)
         return;
-    try {
-        const SavedSession before = read_session(*path);
-        session_->panel().offer_earlier(state_of(before, session_->state(),
-                                                 held_hash(*file_, before.data_hash),
-                                                 file_->info().steps(), path->string())
-                                            .as_commands());
-    } catch (const std::exception&) { // `--resume` would say what is wrong with it
+    std::vector<OfferedSession> offers;
+    for (const EarlierSession& each : earlier_sessions(options_, *file_)) {
+        try {
+            const std::string hash = held_hash(*file_, each.session.data_hash);
+            offers.push_back({words_of(each), state_of(each.session, session_->state(), hash,
+                                                       file_->info().steps(), each.path.string())
+                                                  .as_commands()});
+        } catch (const std::exception&) { // `--resume` would say what is wrong with it
+        }
     }
+    session_->panel().offer_earlier(std::move(offers));
 }
 
 void Exploration::say(const std::string& message) {

@@ -71,7 +71,10 @@ SavedSession session_from(const json& value) {
     saved.head = place_from(members.at("head"));
     if (const json* arrays = members.find("arrays"))
         saved.arrays = arrays_from(*arrays);
-    members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays"});
+    if (const json* looked = members.find("only_looked"))
+        saved.only_looked = interaction::boolean(*looked, "only_looked");
+    members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays",
+                  "only_looked"});
     return saved;
 }
 
@@ -87,6 +90,8 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
                {"head", place_json(session.head)}};
     if (!session.arrays.empty())
         value["arrays"] = arrays_json(session.arrays);
+    if (session.only_looked)
+        value["only_looked"] = true;
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));

@@ -1,7 +1,7 @@
 // Opens the control socket, and connects to it.
 #include "app/control/control_address.h"
 
-#include "app/config/user_folders.h"
+#include "index/system/user_folders.h"
 #include "interaction/error.h"
 
 #include <fmt/format.h>
@@ -75,7 +75,7 @@ fs::path control_folder() {
     if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime && *runtime == '/')
         folder = fs::path(runtime) / "isochron";
     else
-        folder = user_state_folder();
+        folder = index::user_state_folder();
     if (!folder)
         throw interaction::Error("control socket: there is no XDG_RUNTIME_DIR and no home folder; "
                                  "--control=PATH says where it is to be");

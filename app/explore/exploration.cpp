@@ -2,7 +2,6 @@
 #include "app/explore/exploration.h"
 
 #include "app/config/tracker_setup.h"
-#include "app/config/user_folders.h"
 #include "app/explore/control_options.h"
 #include "app/explore/explore_start.h"
 #include "app/explore/explored_data.h"
@@ -16,6 +15,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
+#include "index/system/user_folders.h"
 #include "interaction/recording/recording.h"
 #include "render/gl/link_watch.h"
 #include "stereo/context/display_loss.h"
@@ -50,7 +50,7 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     PageWindowOptions page = page_options(config);
     page.wake = wake;
     const auto chosen =
-        choose_data(windows, {.recent = UserMemory(user_state_folder()).recent(),
+        choose_data(windows, {.recent = UserMemory(index::user_state_folder()).recent(),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
                               .window = page});
     signals.check();
@@ -228,7 +228,7 @@ bool Exploration::prepare_session() {
 
 void Exploration::open_session() {
     if (job_.size() == 1)
-        earlier_ = earlier_session(earlier_kept_in(options_, *file_), options_.resume);
+        earlier_ = earlier_session(options_, *file_);
     else if (options_.resume)
         throw UsageError("--resume is for one process, without mpirun");
     if (!windows_)
@@ -270,7 +270,7 @@ std::optional<NextData> Exploration::run() {
         signals_.check();
         return std::nullopt;
     }
-    UserMemory memory(job_.size() == 1 ? user_state_folder() : std::nullopt);
+    UserMemory memory(job_.size() == 1 ? index::user_state_folder() : std::nullopt);
     BackgroundWork remembering; // no frame waits for that disk
     LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
                   session_->outputs().headset());
@@ -346,19 +346,21 @@ void Exploration::keep(LiveLoop& live) {
                  earlier_ && path == kept_in(options_, *file_));
 }
 
-/// Offers to go on with the session before, if there is one that fits.
+/// Offers to go on with one of the sessions before, if there are any that fit.
 void Exploration::offer_earlier() {
-    const auto path = earlier_kept_in(options_, *file_);
-    if (earlier_ || !path || !std::filesystem::exists(*path))
+    if (earlier_)
         return;
-    try {
-        const SavedSession before = read_session(*path);
-        session_->panel().offer_earlier(state_of(before, session_->state(),
-                                                 held_hash(*file_, before.data_hash),
-                                                 file_->info().steps(), path->string())
-                                            .as_commands());
-    } catch (const std::exception&) { // `--resume` would say what is wrong with it
+    std::vector<OfferedSession> offers;
+    for (const EarlierSession& each : earlier_sessions(options_, *file_)) {
+        try {
+            const std::string hash = held_hash(*file_, each.session.data_hash);
+            offers.push_back({words_of(each), state_of(each.session, session_->state(), hash,
+                                                       file_->info().steps(), each.path.string())
+                                                  .as_commands()});
+        } catch (const std::exception&) { // `--resume` would say what is wrong with it
+        }
     }
+    session_->panel().offer_earlier(std::move(offers));
 }
 
 void Exploration::say(const std::string& message) {

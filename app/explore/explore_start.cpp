@@ -163,8 +163,7 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job,
     if (job.leads() && options.record)
         outputs.push_back({*options.record, OutputKind::recording});
     if (job.leads() && options.session)
-        for (const char* end : {"", ".before"})
-            outputs.push_back({*options.session + end, OutputKind::session});
+        outputs.push_back({*options.session, OutputKind::session});
     guard_outputs(outputs, reads, options.force);
     index::make_folder(options.screenshots);
     if (!job.leads())

@@ -2,13 +2,13 @@
 #include "app/explore/explored_data.h"
 
 #include "app/config/series_names.h"
-#include "app/config/user_folders.h"
 #include "app/explore/loading.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
 #include "app/session/data_choice.h"
 #include "app/session/kept/user_memory.h"
 #include "index/file/index_series.h"
+#include "index/system/user_folders.h"
 
 #include <fmt/format.h>
 
@@ -89,7 +89,7 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
         throw UsageError(fmt::format("{}: no index, which a job of several processes needs: "
                                      "isochron build makes one",
                                      options.sources.files.front()));
-    const auto folder = user_cache_folder();
+    const auto folder = index::user_cache_folder();
     if (!folder)
         throw UsageError("no folder for indexes: neither HOME nor XDG_CACHE_HOME is set; "
                          "isochron build makes an index anywhere");
@@ -103,7 +103,7 @@ std::unique_ptr<Indexing> begin_indexing(const ExploreOptions& options, const Cl
 std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Windows& windows,
                                           const ExploreOptions& options, const Config& config,
                                           bool& canceled) {
-    UserMemory memory(user_state_folder());
+    UserMemory memory(index::user_state_folder());
     const fs::path data(options.data_name);
     const auto choose = [&](const std::vector<ArrayOffer>& offers, std::size_t chosen) {
         if (chosen < offers.size())

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -21,6 +22,8 @@ std::string data_hash_of(const index::IndexFile& file) {
 }
 
 namespace {
+
+constexpr std::size_t kHash = 16; // of NAME-HASH.isochron-session
 
 /// Whether the data have this hash, or had it when they had fewer steps.
 bool is_held(const index::IndexFile& file, std::string_view hash) {
@@ -42,8 +45,6 @@ std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
     std::error_code error;
     if (fs::exists(path, error))
         return path;
-    // NAME-HASH.isochron-session
-    constexpr std::size_t kHash = 16;
     const std::string stem = path.stem().string();
     const std::string start = stem.substr(0, stem.size() - kHash);
     fs::path newest = path;
@@ -77,16 +78,43 @@ std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& optio
     return options.session || !path ? path : kept_on_fewer_steps(*path, file);
 }
 
-std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
-                                            bool resume) {
+std::vector<EarlierSession> earlier_sessions(const ExploreOptions& options,
+                                             const index::IndexFile& file) {
+    const auto path = earlier_kept_in(options, file);
+    if (!path)
+        return {};
+    const std::string stem = path->stem().string(), end = path->extension().string();
+    const std::string start = stem.substr(0, stem.size() - std::min(stem.size(), kHash));
+    auto all = sessions_in(path->parent_path(), [&](const std::string& name) {
+        if (options.session)
+            return is_session_of(name, *path);
+        return name.starts_with(start) && name.size() > start.size() + kHash &&
+               is_held(file, std::string_view(name).substr(start.size(), kHash)) &&
+               is_session_of(name, name.substr(0, start.size() + kHash) + end);
+    });
+    const auto last = std::ranges::find(all, *path, &EarlierSession::path);
+    if (last != all.end())
+        std::rotate(all.begin(), last, last + 1);
+    return all;
+}
+
+std::optional<SavedSession> earlier_session(const ExploreOptions& options,
+                                            const index::IndexFile& file) {
+    const auto path = earlier_kept_in(options, file);
     const bool there = path && std::filesystem::exists(*path);
-    if (resume && !there)
+    if (options.resume && !there)
         throw interaction::Error(fmt::format("--resume: there is no saved session for these data{}",
                                              path ? " in " + path->string() : ""));
-    if (resume)
+    if (options.resume)
         return read_session(*path);
     if (there)
         fmt::print(stderr, "isochron: --resume goes on with the session in {}\n", path->string());
+    const auto all = earlier_sessions(options, file);
+    if (all.size() > 1)
+        fmt::print(stderr,
+                   "isochron: --resume --session FILE goes on with an earlier one, of which there "
+                   "are {} beside it; the newest is {}\n",
+                   all.size() - 1, all[1].path.filename().string());
     return std::nullopt;
 }
 
@@ -115,7 +143,7 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
         live.keep_session(*path,
                           {std::string(kProgram), std::filesystem::absolute(data).string(),
                            data_hash_of(file), session.state().as_commands(), live.standing(),
-                           session.left_arrays()},
+                           session.left_arrays(), !earlier || earlier->only_looked},
                           resumed);
 }
 

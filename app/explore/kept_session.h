@@ -2,12 +2,14 @@
 #pragma once
 
 #include "app/explore/explore_options.h"
+#include "app/session/kept/earlier_sessions.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -29,11 +31,15 @@ std::optional<std::filesystem::path> kept_in(const ExploreOptions& options,
 std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& options,
                                                      const index::IndexFile& file);
 
-/// The session to resume. Without `resume` it is empty, and stderr tells of an existing session.
-/// @param path of the saved session; empty if there is no place for it
-/// @throws interaction::Error when `resume` is set and there is no session
-std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
-                                            bool resume);
+/// All sessions on these data that were kept in the same folder, newest first, but the one that
+/// `--resume` goes on with before all others.
+std::vector<EarlierSession> earlier_sessions(const ExploreOptions& options,
+                                             const index::IndexFile& file);
+
+/// The session to resume. Without `--resume` it is empty, and stderr tells of existing sessions.
+/// @throws interaction::Error when there is no session to resume
+std::optional<SavedSession> earlier_session(const ExploreOptions& options,
+                                            const index::IndexFile& file);
 
 /// Why a session cannot be kept in this file, in one line; empty: it can.
 /// @param path empty: there is no folder for it

@@ -1,10 +1,10 @@
 // The size of a desktop's window, kept from one session to the next.
 #include "app/explore/window_size.h"
 
-#include "app/config/user_folders.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
+#include "index/system/user_folders.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 constexpr int kSmallestSide = 160, kLargestSide = 16384;
 
 std::optional<std::filesystem::path> file_of_size() {
-    const auto folder = user_state_folder();
+    const auto folder = index::user_state_folder();
     return folder ? std::optional(*folder / "window") : std::nullopt;
 }
 

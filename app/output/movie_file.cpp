@@ -107,13 +107,13 @@ struct MovieFile::State {
     std::size_t frames = 0;
 
     State(fs::path target, glm::ivec2 pixels, double rate, std::string text, bool hurried)
-        : path(std::move(target)), folder(index::end_of_links(path)),
+        : path(std::move(target)), folder(index::end_of_links(path), "movie"),
           temporary(folder.path() / ("movie" + path.extension().string())), size(pixels),
           note(std::move(text)) {
         std::signal(SIGPIPE, SIG_IGN); // so that writing reports an error when ffmpeg has ended
         fs::path metadata;
         if (!note.empty() && path.extension() != ".gif") {
-            metadata = folder.path() / "note";
+            metadata = folder.path() / "movie.note";
             write_metadata(metadata, note);
         }
         std::vector<std::string> words = arguments_for(temporary, size, rate, metadata, hurried);

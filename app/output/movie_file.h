@@ -5,7 +5,7 @@
 //     movie.finish();        // and it has its name
 #pragma once
 
-#include "index/system/temporary_folder.h"
+#include "index/system/temporary/temporary_folder.h"
 #include "render/gl/image.h"
 
 #include <glm/vec2.hpp>
@@ -74,7 +74,6 @@ class MovieFolder final : public Movie {
   private:
     std::filesystem::path path_;
     index::TemporaryFolder temporary_;
-    std::filesystem::path pictures_; ///< in it
     glm::ivec2 size_{0};
     std::size_t frames_ = 0;
 };

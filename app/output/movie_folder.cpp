@@ -11,18 +11,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const char* const kFrameStart = "frame_"; ///< how the names of all frames begin
+
+std::string name_of(std::size_t frame) {
+    return fmt::format("{}{:05}.png", kFrameStart, frame);
+}
+
 bool is_frame(const fs::path& file) {
     const std::string name = file.filename().string();
-    return name.starts_with("frame_") && file.extension() == ".png";
+    return name.starts_with(kFrameStart) && file.extension() == ".png";
 }
 
 } // namespace
 
 MovieFolder::MovieFolder(fs::path path)
-    : path_(index::end_of_links(std::move(path))), temporary_(path_),
-      pictures_(temporary_.path() / "pictures") { // with the rights of any folder
-    index::make_folder(pictures_);
-}
+    : path_(index::end_of_links(std::move(path))), temporary_(path_, kFrameStart) {}
 
 MovieFolder::~MovieFolder() = default;
 
@@ -32,13 +35,12 @@ void MovieFolder::add(const render::Image& image, const std::string& note) {
         throw index::Error(fmt::format("{}: a picture of {} x {}, the movie has {} x {}",
                                        path_.string(), size.x, size.y, size_.x, size_.y));
     size_ = size;
-    stereo::write_image(image, pictures_ / fmt::format("frame_{:05}.png", frames_), note);
+    stereo::write_image(image, temporary_.path() / name_of(frames_), note);
     ++frames_;
 }
 
 void MovieFolder::finish() {
-    std::error_code error;
-    fs::rename(pictures_, path_, error); // where nothing is, or an empty folder: all or nothing
+    std::error_code error = temporary_.take_name(path_);
     if (!error)
         return;
     if (!fs::is_directory(path_))
@@ -48,8 +50,8 @@ void MovieFolder::finish() {
         if (is_frame(entry.path()))
             fs::remove(entry.path(), error);
     for (std::size_t i = 0; i < frames_ && !error; ++i) {
-        const std::string name = fmt::format("frame_{:05}.png", i);
-        fs::rename(pictures_ / name, path_ / name, error);
+        const std::string name = name_of(i);
+        fs::rename(temporary_.path() / name, path_ / name, error);
     }
     if (error)
         throw index::Error(fmt::format("{}: {}", path_.string(), error.message()));

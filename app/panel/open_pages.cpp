@@ -147,17 +147,19 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
     if (any() || model.place != PanelPlace::over)
         return commands;
     if (model.ways.undo) // the session has changed: going on now would take that back
-        earlier_.reset();
-    if (earlier_) {
-        const Answer answer = earlier_card(picture, top);
+        earlier_.clear();
+    if (!earlier_.empty()) {
+        std::size_t chosen = 0;
+        const Answer answer = earlier_card(picture, top, earlier_, chosen);
         if (answer == Answer::yes)
-            commands = *earlier_;
+            commands = earlier_[chosen].commands;
         if (answer != Answer::none)
-            earlier_.reset();
+            earlier_.clear();
     }
     tour_.draw(model, picture);
     introduce(picture, time);
-    const std::size_t cards = 4 * tour_.step() + 2 * (earlier_ ? 1 : 0) + (newcomer_ ? 1 : 0);
+    const std::size_t cards =
+        4 * tour_.step() + 2 * (earlier_.empty() ? 0 : 1) + (newcomer_ ? 1 : 0);
     turned_ = std::exchange(cards_, cards) != cards;
     return commands;
 }

@@ -24,9 +24,9 @@ class OpenPages {
   public:
     /// Shows the lines of introduction from now on, until the user begins.
     void introduce() { newcomer_ = true; }
-    /// Offers to go on with the session before, until the user answers or changes something.
-    /// @param earlier sets all that it had
-    void offer_earlier(interaction::Commands earlier) { earlier_ = std::move(earlier); }
+    /// Offers to go on with a session before, until the user answers or changes something.
+    /// @param earlier the one that is offered first, then those before it
+    void offer_earlier(std::vector<OfferedSession> earlier) { earlier_ = std::move(earlier); }
     /// The user has pressed a key or a button.
     void begin() { begun_ = true; }
     /// Whether those lines have gone since the last call.
@@ -112,8 +112,8 @@ class OpenPages {
     bool newcomer_ = false, begun_ = false, introduced_ = false;
     Tour tour_;
     bool turned_ = false;
-    std::size_t cards_ = 0;                        ///< in the last layout
-    std::optional<interaction::Commands> earlier_; ///< of the session before, while it is offered
+    std::size_t cards_ = 0;               ///< in the last layout
+    std::vector<OfferedSession> earlier_; ///< the sessions before, while they are offered
     std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
 };
 

@@ -27,7 +27,7 @@ class OperatorPanel {
         return over_.pages().introduced();
     } ///< true once, when those lines have gone
     /// See OpenPages.
-    void offer_earlier(interaction::Commands earlier) {
+    void offer_earlier(std::vector<OfferedSession> earlier) {
         over_.pages().offer_earlier(std::move(earlier));
     }
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {

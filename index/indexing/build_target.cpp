@@ -13,7 +13,6 @@ NewTarget::NewTarget(Team& team, const std::filesystem::path& target) : team_(te
         if (team.rank() == 0) {
             file_.emplace(target,
                           team.size() > 1 ? NewFile::Writers::several : NewFile::Writers::one);
-            file_->remove_remains();
             temporary = file_->temporary().string();
         }
     });

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "index/system/byte_sink.h"
+#include "index/system/descriptor.h"
+#include "index/system/temporary/remains.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,17 +27,10 @@ std::filesystem::path end_of_links(std::filesystem::path path);
 /// As ByteSink::begin_flush, for an open file.
 void begin_flush_of(int file);
 
-/// Removes what killed writers have left in a folder, under any name: our temporary files and
-/// folders that nobody has locked and that are older than a minute. Once for each folder and
-/// process, as it reads the whole folder.
-void remove_remains_in(const std::filesystem::path& folder);
-/// A temporary name for that file, beside it, which `remove_remains_in` knows.
-std::filesystem::path temporary_name_of(const std::filesystem::path& file);
-
 /// Writes to a file without a name, which vanishes with its process, in the folder of NAME, which is
-/// the end of the links that the target leads through; `commit` gives it its name. Where NAME exists
-/// already, several processes write, or the file system knows no files without a name, it writes to
-/// a temporary name, which `commit` renames. If it is destroyed before that, it removes the
+/// the end of the links that the target leads through; `commit` gives it its name. Where several
+/// processes write, or the file system knows no files without a name, it writes to a temporary name,
+/// which `commit` renames. If it is destroyed before that, it removes the
 /// temporary file, and an older file of that name stays as it was. Every function throws Error with
 /// the final name and the system's message (disk full, folder not writable, ...).
 class NewFile final : public ByteSink {
@@ -53,16 +48,13 @@ class NewFile final : public ByteSink {
     void reserve(std::uint64_t bytes);
     void write_at(std::uint64_t offset, std::span<const std::byte> bytes) override;
     void begin_flush() override;
-    /// Removes temporary files that killed writers of the same NAME have left.
-    void remove_remains() const;
     /// Flushes to disk, then renames the file to its final name.
     void commit();
     /// Only gives it its name: for files that can be made again, of which there are many. After a
     /// power failure such a file may be short.
     void commit_unflushed();
 
-    /// Its name until then; a file without a name gets it for a moment where another file has taken
-    /// NAME meanwhile.
+    /// Its name until then; a file without a name gets it for a moment where another file has NAME.
     const std::filesystem::path& temporary() const { return temporary_; }
     /// Under which this process can open it.
     std::filesystem::path path_to_open() const;
@@ -70,11 +62,16 @@ class NewFile final : public ByteSink {
   private:
     [[noreturn]] void fail(int error) const;
     void open_unnamed(const std::filesystem::path& folder);
-    void open_named();
+    void create_named();
+    void take_temporary_name();
+    template <class Use>
+    void with_new_name(const Use& use);
+    bool link_to(const std::filesystem::path& name) const;
     void take_name();
     std::filesystem::path target_, temporary_;
-    int file_ = -1;
-    bool owner_ = true, named_ = true;
+    Descriptor file_;
+    bool owner_ = true, named_ = false;
+    LedgerEntry entry_; ///< while it has its temporary name
 };
 
 } // namespace isochron::index

@@ -3,6 +3,7 @@
 #include "app/panel/parts/tour.h"
 
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
 
 #include <fmt/format.h>
@@ -100,10 +101,23 @@ Answer hint_card(const PanelBox& picture, bool& held) {
     return answer;
 }
 
-Answer earlier_card(const PanelBox& picture, float top) {
+Answer earlier_card(const PanelBox& picture, float top, const std::vector<OfferedSession>& earlier,
+                    std::size_t& chosen) {
     begin_card("###earlier", picture, 330.0f, top, 0.0f);
     note("These data were explored before.", color_of(Ink::text));
-    const Answer answer = answer_of("Continue where you left off", "Start anew");
+    Answer answer = answer_of("Continue where you left off", "Start anew");
+    if (earlier.size() > 1) {
+        std::vector<std::string> words;
+        for (const OfferedSession& each : earlier)
+            words.push_back(each.words);
+        ImGui::SetNextItemWidth(-1.0f);
+        const auto other = choice_field("##earlier sessions", words.front(), words,
+                                        "All sessions on these data, by their ends");
+        if (other) {
+            chosen = *other;
+            answer = Answer::yes;
+        }
+    }
     end_card();
     return answer;
 }

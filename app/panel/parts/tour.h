@@ -4,10 +4,13 @@
 
 #include "app/panel/panel_model.h"
 #include "app/panel/parts/places.h"
+#include "interaction/commands.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -17,8 +20,15 @@ enum class Answer : std::uint8_t { none, yes, no };
 /// The hint for newcomers, with the offer of the tour.
 /// @param held the pointer is on it, so that a press there is an answer
 Answer hint_card(const PanelBox& picture, bool& held);
-/// The offer to go on with the session before.
-Answer earlier_card(const PanelBox& picture, float top);
+/// A session on the same data that the user can go on with.
+struct OfferedSession {
+    std::string words;              ///< when it was saved
+    interaction::Commands commands; ///< sets all that it had
+};
+/// The offer to go on with one of the sessions before: the first one, or another one of the list.
+/// @param chosen number of the one that the user wants
+Answer earlier_card(const PanelBox& picture, float top, const std::vector<OfferedSession>& earlier,
+                    std::size_t& chosen);
 
 /// Each step says what to do, and notices when it is done.
 class Tour {

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostWindows = 99;
-
 /// Whether the file is still the one under this name, and not one that its owner has just removed.
 bool is_under(const fs::path& path, int file) {
     struct stat ours, there;

@@ -5,6 +5,9 @@
 
 namespace isochron::app {
 
+/// Most windows that have a session each.
+inline constexpr int kMostWindows = 99;
+
 /// Two windows that show the same data would write the same file. The first of them has NAME, the
 /// second NAME-2, and so on, until each ends.
 class SessionClaim {

@@ -1,9 +1,9 @@
 // Saves and reads sessions.
 #include "app/session/kept/session_file.h"
 
-#include "app/config/user_folders.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
+#include "index/system/user_folders.h"
 #include "interaction/error.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/json_values.h"
@@ -71,7 +71,10 @@ SavedSession session_from(const json& value) {
     saved.head = place_from(members.at("head"));
     if (const json* arrays = members.find("arrays"))
         saved.arrays = arrays_from(*arrays);
-    members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays"});
+    if (const json* looked = members.find("only_looked"))
+        saved.only_looked = interaction::boolean(*looked, "only_looked");
+    members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays",
+                  "only_looked"});
     return saved;
 }
 
@@ -87,6 +90,8 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
                {"head", place_json(session.head)}};
     if (!session.arrays.empty())
         value["arrays"] = arrays_json(session.arrays);
+    if (session.only_looked)
+        value["only_looked"] = true;
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));
@@ -126,7 +131,7 @@ ExplorerState state_of(const SavedSession& saved, const ExplorerState& fallback,
 
 std::optional<std::filesystem::path> session_path(const std::filesystem::path& data,
                                                   const std::string& data_hash) {
-    const std::optional<std::filesystem::path> folder = user_state_folder();
+    const std::optional<std::filesystem::path> folder = index::user_state_folder();
     if (!folder)
         return std::nullopt;
     return *folder / fmt::format("{}-{}.isochron-session", data.stem().string(), data_hash);

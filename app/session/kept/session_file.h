@@ -24,6 +24,9 @@ struct SavedSession {
     /// How arrays of the surfaces that are not shown were left: each sets `array`, `isosurfaces`,
     /// `picked` and `coloring`.
     std::vector<interaction::Commands> arrays = {};
+    /// Nothing was made in it, nor in the one that it goes on with: only view and time differ from
+    /// the first look at the data.
+    bool only_looked = false;
 };
 
 /// Writes readable JSON. The file appears under its name when complete, or not at all.

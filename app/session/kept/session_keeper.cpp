@@ -1,6 +1,8 @@
 // Saves a session at intervals and at its end.
 #include "app/session/kept/session_keeper.h"
 
+#include "app/session/kept/earlier_sessions.h"
+
 #include <utility>
 
 namespace isochron::app {
@@ -8,18 +10,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void save(const fs::path& path, const SavedSession& session, bool moves_earlier) {
+/// Whether nothing differs but where somebody looks from, at which time, and how it is drawn: all
+/// else is work.
+bool only_looks_differ(const interaction::Commands& start, interaction::Commands now) {
+    const auto seen = [&](auto... member) { ((now.*member = start.*member), ...); };
+    using Changes = interaction::SettingChanges;
+    seen(&Changes::steps, &Changes::step, &Changes::fraction, &Changes::follow, &Changes::playback,
+         &Changes::room_from_physical, &Changes::orthographic, &Changes::quality, &Changes::stereo,
+         &Changes::eye_separation, &Changes::panel, &Changes::room_panel, &Changes::exporting,
+         &Changes::leaving);
+    return now == start;
+}
+
+void save(const fs::path& path, const SavedSession& session, bool& moves_earlier) {
     std::error_code error; // save_session reports a folder that cannot be made
     fs::create_directories(path.parent_path(), error);
-    if (moves_earlier && fs::is_regular_file(path))
-        fs::rename(path, path.string() + ".before", error);
+    if (moves_earlier && fs::is_regular_file(path, error))
+        keep_earlier(path);
     save_session(path, session);
+    moves_earlier = false;
 }
 
 } // namespace
 
 SessionKeeper::SessionKeeper(fs::path path, SavedSession kept, bool resumed)
-    : path_(std::move(path)), kept_(std::move(kept)), moves_earlier_(!resumed) {}
+    : path_(std::move(path)), start_(std::move(kept)), kept_(start_),
+      moves_earlier_(std::make_shared<bool>(!resumed)) {}
 
 bool SessionKeeper::keep(const ExplorerState& state, const interaction::StandingPlace& head,
                          const Arrays& arrays) {
@@ -29,6 +45,8 @@ bool SessionKeeper::keep(const ExplorerState& state, const interaction::Standing
     kept_.state = std::move(commands);
     kept_.head = head;
     kept_.arrays = arrays;
+    kept_.only_looked = start_.only_looked && arrays == start_.arrays &&
+                        only_looks_differ(start_.state, kept_.state);
     return true;
 }
 
@@ -39,8 +57,8 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
     next_ = now + kInterval;
     if (!keep(state, head, arrays))
         return;
-    writing_.post([path = path_, session = kept_, moves = std::exchange(moves_earlier_, false)] {
-        save(path, session, moves);
+    writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
+        save(path, session, *moves);
         return std::string();
     });
 }
@@ -48,8 +66,8 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
 void SessionKeeper::save_now(const ExplorerState& state, const interaction::StandingPlace& head,
                              const Arrays& arrays) {
     keep(state, head, arrays);
-    writing_.post([path = path_, session = kept_, moves = std::exchange(moves_earlier_, false)] {
-        save(path, session, moves);
+    writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
+        save(path, session, *moves);
         return "session saved: " + path.string();
     });
 }
@@ -58,7 +76,7 @@ void SessionKeeper::finish(const ExplorerState& state, const interaction::Standi
                            const Arrays& arrays) {
     writing_.finish();
     if (keep(state, head, arrays))
-        save(path_, kept_, std::exchange(moves_earlier_, false));
+        save(path_, kept_, *moves_earlier_);
 }
 
 } // namespace isochron::app

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,12 +15,13 @@
 namespace isochron::app {
 
 /// Writes in the background every 30 s, and at the end, if something has changed. An earlier
-/// session under the same name that was not resumed is renamed to `NAME.before`.
+/// session under the same name that was not resumed gets a name with its date first.
 class SessionKeeper {
   public:
     static constexpr interaction::Seconds kInterval{30.0};
 
-    /// @param kept the session as it began, which needs no saving
+    /// @param kept the session as it began, which needs no saving; `only_looked` of what it goes on
+    /// with, else true
     /// @param resumed it was resumed from the file `path`, which may be replaced
     SessionKeeper(std::filesystem::path path, SavedSession kept, bool resumed);
 
@@ -50,8 +52,10 @@ class SessionKeeper {
               const Arrays& arrays);
 
     std::filesystem::path path_;
+    const SavedSession start_;
     SavedSession kept_;
-    bool moves_earlier_; ///< rename an earlier session before the first save
+    /// An earlier session is to be renamed before the first save. Used where sessions are written.
+    std::shared_ptr<bool> moves_earlier_;
     interaction::Seconds next_ = kInterval;
     BackgroundWork writing_;
 };

@@ -95,7 +95,7 @@ SeriesWriter::SeriesWriter(fs::path dir, std::string name, SeriesInfo info)
         throw Error(fmt::format("{}: a .vti carries no scaling, slope {} and intercept {} given",
                                 name_, info_.scaling.slope, info_.scaling.intercept));
     make_folder(dir_);
-    temporary_.emplace(dir_ / name_);
+    temporary_.emplace(dir_ / name_, name_);
 }
 
 SeriesWriter::~SeriesWriter() = default;

@@ -6,7 +6,7 @@
 //     writer.finish();      // only now do the files appear under their names
 #pragma once
 
-#include "index/system/temporary_folder.h"
+#include "index/system/temporary/temporary_folder.h"
 #include "index/volume/volume_series.h"
 
 #include <cstddef>

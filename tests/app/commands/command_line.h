@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 
@@ -21,6 +22,7 @@ namespace isochron::app {
 class CommandLine : public testing::Test {
   protected:
     CommandLine() {
+        setenv("XDG_STATE_HOME", home_.path().c_str(), 1); // not the user's
         std::mt19937 random(test_seed());
         std::uniform_real_distribution<double> phase(0, 6.28);
         const double a = phase(random), b = phase(random), c = phase(random);
@@ -90,6 +92,9 @@ class CommandLine : public testing::Test {
     static constexpr std::size_t kX = 14, kY = 11, kZ = 9, kSteps = 5;
     TestFolder folder;
     std::vector<std::vector<float>> steps;
+
+  private:
+    TestFolder home_;
 };
 
 } // namespace isochron::app

@@ -20,8 +20,8 @@ class Kills : public CommandLine {
         return times ? std::atoi(times) : 20;
     }
 
-    /// Kills the command at random ones of the calls by which it changes files; `check` sees what
-    /// each left.
+    /// Kills the command at the last calls by which it changes files, which give them their names,
+    /// and at random ones; `check` sees what each left.
     template <class Check>
     void kill(const std::vector<std::string>& command, Check check) {
         std::filesystem::remove(state_.path() / "log");
@@ -33,7 +33,12 @@ class Kills : public CommandLine {
         std::mt19937 random(test_seed());
         int killed = 0;
         for (int i = 0; i < kills(); ++i) {
-            const ChildResult result = run(command, 1 + random() % calls);
+            constexpr unsigned kLast = 5;
+            const auto which = static_cast<unsigned>(i);
+            const ChildResult result =
+                run(command, which < std::min(kLast, calls)
+                                 ? calls - which
+                                 : static_cast<unsigned>(1 + random() % calls));
             killed += result.status == 1000 + SIGKILL;
             EXPECT_TRUE(result.status == 0 || result.status == 1000 + SIGKILL) << result.err;
             check();

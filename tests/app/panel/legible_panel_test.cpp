@@ -259,7 +259,7 @@ TEST_P(LegiblePanel, WithTheMenusOfItsBars) {
 TEST_P(LegiblePanel, WithTheTourAndTheOfferOfTheSessionBefore) {
     if (!over())
         return;
-    layer_.pages().offer_earlier({});
+    layer_.pages().offer_earlier({{"2026-11-28 10:00:00", {}}, {"2026-11-27 09:00:00", {}}});
     layer_.pages().introduce();
     expect_legible("with the offers");
 }

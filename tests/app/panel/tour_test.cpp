@@ -67,14 +67,23 @@ TEST_F(TourTest, CanBeLeftAtAnyStepAndTakenAgainFromTheHelp) {
 }
 
 TEST_F(TourTest, GoesOnWithTheSessionBeforeOnlyIfTheUserSaysSo) {
-    Commands earlier;
-    earlier.step = 7;
+    std::vector<OfferedSession> earlier(1);
+    earlier.front().commands.step = 7;
     layer_.pages().offer_earlier(earlier);
     EXPECT_TRUE(shows("Start anew"));
     EXPECT_EQ(click_on("Continue where you left off").step, 7u);
     EXPECT_FALSE(shows("Start anew"));
     layer_.pages().offer_earlier(earlier);
     EXPECT_EQ(click_on("Start anew"), Commands());
+    EXPECT_FALSE(shows("Start anew"));
+}
+
+TEST_F(TourTest, GoesOnWithAnySessionOfTheList) {
+    std::vector<OfferedSession> earlier{{"on Friday", {}}, {"on Thursday", {}}};
+    earlier.back().commands.step = 3;
+    layer_.pages().offer_earlier(earlier);
+    click_on("on Friday");
+    EXPECT_EQ(click_on("on Thursday").step, 3u);
     EXPECT_FALSE(shows("Start anew"));
 }
 

@@ -1,8 +1,10 @@
 // A resumed session is the same as the saved one, pixel by pixel.
 #include "app/explore/kept_session.h"
+#include "app/session/kept/earlier_sessions.h"
 #include "app/session/kept/session_claim.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/kept/session_keeper.h"
+#include "index/error.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"
@@ -10,7 +12,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 
 namespace isochron::app {
@@ -30,6 +34,18 @@ SavedSession kept_of(const ExplorerState& state) {
 
 ExplorerState back_from(const std::filesystem::path& path) {
     return state_of(read_session(path), ExplorerState(), "0123456789abcdef", kSteps, "kept");
+}
+
+std::vector<EarlierSession> sessions_of(const std::filesystem::path& path) {
+    return sessions_in(path.parent_path(),
+                       [&](const std::string& name) { return is_session_of(name, path); });
+}
+
+/// As if it had been saved long ago, on one day after the other.
+void make_older(const std::filesystem::path& path, std::size_t day) {
+    constexpr std::size_t kDays = 1000;
+    std::filesystem::last_write_time(path, std::filesystem::last_write_time(path) -
+                                               std::chrono::hours(24 * (kDays - day)));
 }
 
 TEST(SessionFile, AnyStateComesBackAsItWas) {
@@ -123,7 +139,111 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
     SessionKeeper second(path, start, false);
     second.finish(state, head);
     EXPECT_EQ(back_from(path).step, 3u);
-    EXPECT_EQ(back_from(path.string() + ".before").step, 0u);
+    const auto all = sessions_of(path);
+    ASSERT_EQ(all.size(), 2u);
+    for (const EarlierSession& each : all)
+        EXPECT_EQ(back_from(each.path).step, each.path == path ? 3u : 0u);
+}
+
+/// A session on its own, from the first look at the data.
+void explore_once(const std::filesystem::path& path, const ExplorerState& end) {
+    SavedSession start = kept_of({});
+    start.only_looked = true;
+    SessionKeeper keeper(path, start, false);
+    keeper.finish(end, start.head);
+}
+
+TEST(SessionKeeper, LosesNoWorkByAnyNumberOfLooks) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState work, look;
+    work.set_isovalue(7.5);
+    explore_once(path, work);
+    make_older(path, 0);
+    for (std::size_t i = 0; i < kMostEarlierSessions + 5; ++i) {
+        look.step = 1 + i % 2;
+        look.room_from_physical.translation.x += 0.1;
+        explore_once(path, look);
+        make_older(path, 100 + i);
+    }
+    EXPECT_TRUE(read_session(path).only_looked);
+    const auto all = sessions_of(path);
+    EXPECT_EQ(all.size(), kMostEarlierSessions + 1);
+    const auto with_work = [&] {
+        return std::ranges::count(sessions_of(path), false,
+                                  [](const auto& each) { return each.session.only_looked; });
+    };
+    EXPECT_EQ(with_work(), 1);
+    for (std::size_t i = 0; i < kMostEarlierSessions + 5; ++i) {
+        work.set_isovalue(static_cast<double>(i));
+        explore_once(path, work);
+        make_older(path, 200 + i);
+    }
+    EXPECT_EQ(with_work(), kMostEarlierSessions + 1) << "the newest ones, and no look";
+    EXPECT_EQ(back_from(sessions_of(path).front().path).isovalue(), kMostEarlierSessions + 4);
+}
+
+TEST(SessionKeeper, WhatGoesOnWithWorkIsWork) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState state;
+    state.set_isovalue(7.5);
+    explore_once(path, state);
+    EXPECT_FALSE(read_session(path).only_looked);
+    SessionKeeper resumed(path, read_session(path), true);
+    state.step = 2;
+    resumed.finish(state, kept_of({}).head);
+    EXPECT_FALSE(read_session(path).only_looked);
+    EXPECT_EQ(sessions_of(path).size(), 1u) << "it takes the place of what it goes on with";
+}
+
+TEST(SessionKeeper, LeavesAnEarlierSessionThatCannotBeRenamed) {
+    TestFolder folder;
+    const auto path = folder.path() / std::string(250, 'a'); // with a date it is too long
+    save_session(path, kept_of({}));
+    ExplorerState state;
+    state.step = 3;
+    SessionKeeper keeper(path, kept_of({}), false);
+    for (int twice = 0; twice < 2; ++twice) {
+        state.step++;
+        EXPECT_THROW(keeper.finish(state, kept_of({}).head), index::Error);
+        EXPECT_EQ(back_from(path).step, 0u);
+    }
+}
+
+TEST(KeptSession, EveryEarlierOneIsFoundAndTheLastComesFirst) {
+    TestFolder folder;
+    setenv("XDG_STATE_HOME", folder.path().c_str(), 1);
+    const auto file = build_sphere(folder.path(), kSteps);
+    ExploreOptions options;
+    options.data = (folder.path() / "sphere.isochron").string();
+    const auto path = *kept_in(options, *file);
+    EXPECT_TRUE(earlier_sessions(options, *file).empty());
+    ExplorerState state;
+    for (int day = 0; day < 3; ++day) {
+        state.step++;
+        explore_once(path, state);
+        make_older(path, static_cast<std::size_t>(day));
+    }
+    const std::string name = path.stem().string();
+    const auto there = [&](const std::string& file_name) {
+        save_session(path.parent_path() / file_name, kept_of({}));
+    };
+    there(name + "-2.isochron-session");
+    there(name + ".isochron-session.before"); // of version 0.2
+    there("sphere-0123456789abcdef.isochron-session");
+    there(name + "-notes.isochron-session");
+    folder.write("isochron/" + name + "-3.isochron-session", "no session");
+    const auto all = earlier_sessions(options, *file);
+    EXPECT_EQ(all.size(), 5u);
+    EXPECT_EQ(all.front().path, path);
+    EXPECT_THAT(words_of(all.front()), testing::EndsWith(", only looked at"));
+    options.session = (folder.path() / "own.isochron-session").string();
+    for (std::uint32_t end = 1; end < 3; ++end) {
+        state.step = end;
+        explore_once(*options.session, state);
+    }
+    EXPECT_EQ(earlier_sessions(options, *file).size(), 2u);
 }
 
 TEST(KeptSession, WhereItCannotBeKeptIsSaidWithTheReason) {

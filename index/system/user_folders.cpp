@@ -1,10 +1,10 @@
 // Finds the user's folders from the environment.
-#include "app/config/user_folders.h"
+#include "index/system/user_folders.h"
 
 #include <cstdlib>
 #include <string>
 
-namespace isochron::app {
+namespace isochron::index {
 namespace {
 
 /// @param in_home where the folder is without the variable
@@ -30,4 +30,4 @@ std::optional<std::filesystem::path> user_cache_folder() {
     return user_folder("XDG_CACHE_HOME", ".cache");
 }
 
-} // namespace isochron::app
+} // namespace isochron::index

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace isochron::app {
+namespace isochron::index {
 
 /// For what the program remembers between runs: $XDG_STATE_HOME/isochron, else
 /// ~/.local/state/isochron. Empty if there is no home folder.
@@ -13,4 +13,4 @@ std::optional<std::filesystem::path> user_state_folder();
 /// there is no home folder.
 std::optional<std::filesystem::path> user_cache_folder();
 
-} // namespace isochron::app
+} // namespace isochron::index

@@ -250,7 +250,7 @@ def run_group(group):
             output.seek(0)
             text = output.read().decode(errors="replace")
         group.cost.time += used
-        at, words, done, last = None, [], set(), ""
+        at, words, done = None, [], set()
         for line in text.splitlines():
             begins, ends, cost = BEGINS.search(line), ENDS.search(line), COST.search(line)
             if begins and begins[1] in left:
@@ -259,11 +259,11 @@ def run_group(group):
                 done.add(at)
                 if ends[1] != "OK":
                     group.failed.append((at, "\n".join(words) or ends[1].lower()))
-                at, last, words = None, at, []
-            elif cost:
+                at, words = None, []
+            elif cost:  # printed before its test's end
                 for name, number in zip(("processes", "contexts", "draws"), cost.groups()[1:]):
                     setattr(group.cost, name, getattr(group.cost, name) + int(number))
-                group.dearest = max(group.dearest, (int(cost[1]) / 1000, last))
+                group.dearest = max(group.dearest, (int(cost[1]) / 1000, at or group.suite))
             else:
                 words.append(line)
         left = [name for name in left if name not in done]

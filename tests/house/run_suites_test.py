@@ -30,8 +30,8 @@ for name, does in tests.items():
     word = {{"fail": "[  FAILED  ]", "skip": "[  SKIPPED ]"}}.get(does, "[       OK ]")
     failed += does == "fail"
     print("why " + name)
-    print(word + " Suite." + name + " (1 ms)")
-    print("[   COST   ] 1500 ms, 2 processes, 1 contexts, 7 draws", flush=True)
+    print("[   COST   ] 1500 ms, 2 processes, 1 contexts, 7 draws")
+    print(word + " Suite." + name + " (1 ms)", flush=True)
 sys.exit({status} or (1 if failed else 0))
 """
 
@@ -55,7 +55,7 @@ class Suites(unittest.TestCase):
         group = self.run_tests({"A": "", "B": ""})
         self.assertEqual(group.failed, [])
         self.assertEqual((group.cost.claims, group.cost.processes, group.cost.contexts, group.cost.draws), (2, 4, 2, 14))
-        self.assertEqual(group.dearest[0], 1.5)
+        self.assertEqual(group.dearest, (1.5, "Suite.B"))
 
     def test_a_failure_is_told_with_its_own_words(self):
         self.assertEqual(self.failures({"A": "", "B": "fail", "C": ""}), {"Suite.B": "why B"})

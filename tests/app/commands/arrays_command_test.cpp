@@ -139,6 +139,37 @@ TEST_F(ArraysCommand, WhereNoneIsNamedTheCommandForEachIsToldAndWorks) {
     EXPECT_EQ(commands, 4u) << told.err; // rho, heat, the magnitude of wind, and all
 }
 
+TEST_F(ArraysCommand, TheCommandForEachHasAllThatWasTyped) {
+    const auto told = [&](std::vector<std::string> typed) {
+        typed.insert(typed.begin(), "build");
+        std::istringstream said(isochron(typed).err);
+        std::vector<std::string> commands;
+        for (std::string line; std::getline(said, line) && line.starts_with("isochron build ");)
+            commands.push_back(line);
+        return commands;
+    };
+    const std::vector<std::string> commands =
+        told({"t0.vtk", "t1.vtk", "t2.vtk", "--steps", "0:1", "--spacing", "2", "3", "4", "-o",
+              "it's a.isochron", "--crop=0:7,0:6,0:5", "--length-unit", "nautical mile"});
+    const std::string start = "isochron build t0.vtk t1.vtk t2.vtk --steps 0:1 --spacing 2 3 4 -o "
+                              "'it'\\''s a.isochron' --crop=0:7,0:6,0:5 --length-unit "
+                              "'nautical mile' --";
+    ASSERT_THAT(commands, ElementsAre(start + "array rho", start + "array heat",
+                                      start + "array wind.magnitude", start + "all-arrays"));
+    const ChildResult made = run_child(
+        "/bin/sh", {"-c", test_support::binary_root() + "/" + commands[1]}, folder.path());
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr("8 x 7 x 6 vertices, 2 steps"));
+
+    // Behind `--` there are files only. A component or a unit goes with one array.
+    std::string vectors = file_of(0, {"wind"});
+    vectors += vectors.substr(vectors.find("VECTORS")).replace(8, 4, "swirl");
+    folder.write("v.vtk", vectors);
+    EXPECT_THAT(told({"-o", "a.isochron", "--component", "1", "--", "v.vtk"}),
+                ElementsAre("isochron build -o a.isochron --component 1 --array wind -- v.vtk",
+                            "isochron build -o a.isochron --component 1 --array swirl -- v.vtk"));
+}
+
 TEST_F(ArraysCommand, WhatIsComputedMayBeAmongThem) {
     const ChildResult made = isochron(build({"--array", "rho", "--array", "rho.gradient", "--array",
                                              "wind.vorticity", "--array", "wind.q-criterion"}));

@@ -203,13 +203,15 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");
     expect_failure(isochron({}), 2, "expected info, build");
     expect_failure(isochron({"xyzzy"}), 2, "xyzzy: unknown, expected info, build");
-    for (const char* file : {"a.isochron", "walk.jsonl", "picture.png"})
+    for (const char* file : {"a.isochron", "walk.jsonl", "picture.png", "my data.raw"})
         folder.write(file, "?");
     for (const auto& [arguments, message] :
          std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"bild"}, "isochron: bild: unknown, did you mean build? (see isochron --help)\n"},
              {{"exlpore", "a.isochron"}, "exlpore: unknown, did you mean explore? (see"},
              {{"walk.jsonl"}, "did you mean `isochron replay walk.jsonl`?"},
+             {{"walk.jsonl", "--stamps", "--out", "my pictures"},
+              "did you mean `isochron replay walk.jsonl --stamps --out 'my pictures'`?"},
              {{"picture.png"}, "did you mean `isochron reproduce picture.png`?"},
              {{"explore", "--isovlaue", "3", "a.isochron"},
               "--isovlaue: unknown option, did you mean --isovalue? (see isochron explore --help)"},
@@ -223,6 +225,8 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
         expect_failure(isochron(arguments), 2, message);
     expect_failure(isochron({"change", "a.isochron", "--isovalue", "0", "--step", "1"}), 2,
                    "--to-step or --to-isovalue is missing");
+    expect_failure(isochron({"query", "my data.raw", "--isovalue", "0", "--step", "1"}), 1,
+                   "`isochron build 'my data.raw' -o 'my data.isochron'` makes an index");
     expect_failure(isochron({"generate", "cubes"}), 2,
                    "cubes: unknown, expected sphere, vorticity");
     expect_failure(isochron({"replay", "walk.jsonl", "--out", "pictures"}), 2,

@@ -213,7 +213,7 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
                sizes_of(count, format));
     if (arguments.cuts.simplify)
-        fmt::print("simplified: the surface has moved by at most {}\n",
+        fmt::print("simplified: the surface has moved by about {}\n",
                    with_unit(moved, request.plan.length_unit));
     if (!count.empty_steps.empty())
         fmt::print(stderr,
@@ -246,7 +246,7 @@ void run_export(const ExportArguments& arguments) {
     keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
     double moved = 0;
-    request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan.unit_factor, moved);
+    request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan, moved);
     const std::vector<fs::path> files =
         index::files_of_export(*target.format, target.name, request.plan, request.surfaces.size());
     std::vector<Output> outputs;
@@ -337,8 +337,9 @@ void add_export(Command& program) {
         .values(6)
         .type_name("X Y Z NX NY NZ");
     command
-        .option("--simplify", arguments->cuts.simplify,
-                "Fewer triangles: the surface may move by this distance, in the unit of the file")
+        .option(
+            "--simplify", arguments->cuts.simplify,
+            "Fewer triangles: the surface may move by about this distance, in the unit of the file")
         .positive()
         .type_name("ERROR");
     command.flag("--quantize", arguments->quantize,
@@ -359,7 +360,7 @@ void add_export(Command& program) {
         "Each file appears whole or not at all. Triangles are counter-clockwise as seen "
         "from the side of\nlower values, to which normals point. JSON keys: files, steps, "
         "fraction, isovalues, cells, vertices,\ntriangles (both 0 in csv), empty_steps, error "
-        "(with --simplify: the distance moved at most).");
+        "(with --simplify: about how far the surface has moved).");
     command.on_run([arguments] { run_export(*arguments); });
 }
 

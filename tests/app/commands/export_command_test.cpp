@@ -1,5 +1,6 @@
 // `isochron export`: what VTK reads of the files is VTK's own surface, and what is refused leaves
 // nothing.
+#include "app/text.h"
 #include "tests/app/commands/command_line.h"
 
 #include <nlohmann/json.hpp>
@@ -228,6 +229,19 @@ TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
     EXPECT_EQ(fewer.at("vertices").get<int>() - fewer.at("triangles").get<int>() / 2, 2);
     exported("again.ply", {"--simplify", "0.1"});
     EXPECT_EQ(folder.read("again.ply"), folder.read("fewer.ply")) << "the same bytes again";
+    EXPECT_THAT(expect_done({"export", "s.isochron", "--isovalue", "100", "--simplify", "0.1", "-o",
+                             "about.stl"})
+                    .out,
+                HasSubstr("the surface has moved by about 0."));
+    // A distance in another unit than the user had in mind; nothing is left of the surface.
+    const ChildResult refused = isochron(
+        {"export", "s.isochron", "--isovalue", "100", "--simplify", "1e4", "-o", "none.stl"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err,
+                HasSubstr(fmt::format("isochron: step 0: --simplify 10000 leaves none of the {} "
+                                      "triangles at isovalue 100; a smaller distance is needed\n",
+                                      grouped(whole.at("triangles").get<std::uint64_t>()))));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.stl"));
 }
 
 TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {

@@ -203,11 +203,12 @@ void reproduce(const ReproduceOptions& options) {
     describe(options.picture, note);
     if (note.movie)
         throw interaction::Error(fmt::format(
-            "{}: a movie is made again by `isochron movie SOURCE --rate {} -o MOVIE`, of {}",
-            options.picture, note.movie->rate,
+            "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE`, of the {}",
+            options.picture, note.movie->recording.empty() ? "INDEX" : "RECORDING",
+            note.movie->rate,
             note.movie->recording.empty()
-                ? fmt::format("the index of {} with hash {}", note.data, note.data_hash)
-                : fmt::format("the recording with hash {}", note.movie->recording)));
+                ? fmt::format("data with hash {}", note.data_hash)
+                : fmt::format("recording with hash {}", note.movie->recording)));
     if (note.part.shows == "headset")
         throw interaction::Error(options.picture +
                                  ": it shows a headset's mirror, which is not made again");

@@ -49,8 +49,12 @@ TEST_F(ExportCommand, EveryFormatHoldsTheSurfacesOfVtk) {
     expect_done({"build", "t0.vti", "t1.vti", "--array", "v", "--color", "c", "-o", "a.isochron"});
     for (const std::string format : {"ply", "stl", "obj", "vtp", "glb", "glb-animation", "usda"}) {
         const std::string extension = format == "glb-animation" ? "glb" : format;
-        expect_done({"export", "a.isochron", "--isovalue", "0.25", "--isovalue", "-0.4",
-                     "--color-by", "c", "--format", format, "-o", format + "." + extension});
+        std::vector<std::string> all{
+            "export", "a.isochron", "--isovalue", "0.25", "--isovalue",
+            "-0.4",   "--format",   format,       "-o",   format + "." + extension};
+        if (format != "stl")
+            all.insert(all.end(), {"--color-by", "c"});
+        expect_done(all);
     }
     with_vtk("check");
 }
@@ -346,7 +350,15 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
         {{"--isovalue", "0", "-o", "a.step"}, "expected a name that ends in .ply"},
         {{"--isovalue", "0", "-o", "out/"}, "or a folder and --format, got out/"},
-        {{"--isovalue", "0", "-o", "a.glb", "--precision", "double"}, "glb has single precision"},
+        {{"--isovalue", "0", "-o", "a.glb", "--precision", "double"},
+         "--precision double: is for ply, obj, vtp, csv, not glb"},
+        {{"--isovalue", "0", "-o", "a.csv", "--color-by", "t"},
+         "--color-by: is for ply, obj, vtp, glb, glb-animation, usda, not csv"},
+        {{"--isovalue", "0", "-o", "a.stl", "--color-by", "t"}, "usda, not stl"},
+        {{"--isovalue", "0", "-o", "a.ply", "--range", "0", "1"}, "--range requires --color-by"},
+        {{"--isovalue", "0", "-o", "a.csv", "--no-normals"}, "--no-normals: is for ply, obj"},
+        {{"--isovalue", "0", "-o", "a.glb", "--rate", "5"},
+         "--rate: is for glb-animation, usda, not glb"},
         {{"--isovalue", "0", "-o", "a.ply", "--steps", "0:5"},
          "--steps 0:5: expected steps 0 to 4"},
         {{"--isovalue", "0", "-o", "a.ply", "--steps", "3:1"}, "the first not after the last"},

@@ -40,7 +40,7 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
         const index::IndexStats& stats = array.stats();
         text += file.arrays() == 1 ? ", " : fmt::format("\n{}: ", one.array);
         text += fmt::format("{}, values {} to {}{}\n{}", index::name_of(one.type), stats.low,
-                            stats.high, with_space(one.value_unit), sizes(array));
+                            stats.high, with_space(one.value_unit), array_sizes(array));
     }
     text += "\n";
     for (const std::string& note : info.notes)

@@ -1,4 +1,5 @@
 // Several arrays in one index, from the command line: building, asking, appending, describing.
+#include "app/text.h"
 #include "tests/app/commands/command_line.h"
 
 #include <nlohmann/json.hpp>
@@ -102,6 +103,19 @@ TEST_F(ArraysCommand, EachIsBuiltDescribedAndSearched) {
     expect_failure(
         isochron({"query", "a.isochron", "--array", "cold", "--isovalue", "0", "--step", "0"}), 1,
         "a.isochron: no array cold, expected rho, heat, wind.1");
+}
+
+TEST_F(ArraysCommand, TheSizeThatInfoSaysIsThatOfTheFile) {
+    ASSERT_EQ(isochron(build({"--all-arrays"})).status, 0);
+    const auto bytes = std::filesystem::file_size(folder.path() / "a.isochron");
+    for (const std::vector<std::string>& more :
+         std::vector<std::vector<std::string>>{{}, {"--array", "heat"}}) {
+        std::vector<std::string> all{"info", "a.isochron"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_THAT(isochron(all).out,
+                    HasSubstr(fmt::format("\nfile          {}: volume ",
+                                          human_bytes(static_cast<double>(bytes)))));
+    }
 }
 
 TEST_F(ArraysCommand, AllThatThereAreAreTakenWithTheMagnitudeOfVectors) {

@@ -212,7 +212,7 @@ CommandReference Command::reference() const {
 namespace {
 
 int fail(const char* program, const std::string& what, int status) {
-    std::fprintf(stderr, "%s: %s\n", program, one_line(what).c_str());
+    print_safely(fmt::format("{}: {}\n", program, one_line(what)), stderr);
     return status;
 }
 

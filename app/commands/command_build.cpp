@@ -147,7 +147,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
     });
     if (!sources.volume) { // nothing to append
         if (reports)
-            fmt::print("{}: holds every step of these files already\n", arguments.out.string());
+            print_safely(fmt::format("{}: holds every step of these files already\n",
+                                     arguments.out.string()));
         return;
     }
     const index::SeriesInfo& info = sources.volume->info();

@@ -215,21 +215,23 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                                  {"empty_steps", count.empty_steps}};
         if (arguments.cuts.simplify)
             j["error"] = moved;
-        fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_data(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
         return;
     }
-    fmt::print("wrote {}{}: {} step{}, {}\n", files.front().string(),
-               files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
-               request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
-               sizes_of(count, format));
+    print_safely(fmt::format("wrote {}{}: {} step{}, {}\n", files.front().string(),
+                             files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
+                             request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
+                             sizes_of(count, format)));
     if (arguments.cuts.simplify)
-        fmt::print("simplified: the surface has moved by about {}\n",
-                   with_unit(moved, request.plan.length_unit));
+        print_safely(fmt::format("simplified: the surface has moved by about {}\n",
+                                 with_unit(moved, request.plan.length_unit)));
     if (!count.empty_steps.empty())
-        fmt::print(stderr,
-                   "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
-                   "step {}\n",
-                   count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
+        print_safely(
+            fmt::format(
+                "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
+                "step {}\n",
+                count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front()),
+            stderr);
 }
 
 /// Steps are visited in turn, once. Of small ones, which are read as a whole, few are kept, so that a step

@@ -1,6 +1,7 @@
 // Saving and resuming of the session of `explore`.
 #include "app/explore/kept_session.h"
 
+#include "app/text.h"
 #include "app/version.h"
 #include "index/file/index_states.h"
 #include "index/system/new_file.h"
@@ -86,7 +87,9 @@ std::optional<SavedSession> earlier_session(const std::optional<std::filesystem:
     if (resume)
         return read_session(*path);
     if (there)
-        fmt::print(stderr, "isochron: --resume goes on with the session in {}\n", path->string());
+        print_safely(
+            fmt::format("isochron: --resume goes on with the session in {}\n", path->string()),
+            stderr);
     return std::nullopt;
 }
 

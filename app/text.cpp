@@ -32,7 +32,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 /// Control characters as `\x1b`, but for those of `stay`. Terminals also obey those of eight bits,
 /// U+0080 to U+009F, of which the second byte alone is a control character in older encodings.
-std::string without_control(std::string_view text, std::string_view stay) {
+/// @param start of what stands for a control character, before its two digits
+std::string without_control(std::string_view text, std::string_view stay,
+                            std::string_view start = "\\x") {
     std::string safe;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto code = static_cast<unsigned char>(text[i]);
@@ -45,9 +47,9 @@ std::string without_control(std::string_view text, std::string_view stay) {
         else if (text[i] == '\t')
             safe += "\\t";
         else if (of_eight_bits)
-            safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[++i]));
+            safe += fmt::format("{}{:02x}", start, static_cast<unsigned char>(text[++i]));
         else if (code < 0x20 || code == 0x7f)
-            safe += fmt::format("\\x{:02x}", code);
+            safe += fmt::format("{}{:02x}", start, code);
         else
             safe += text[i];
     }
@@ -103,6 +105,10 @@ std::string safe_lines(std::string_view text) {
 
 void print_safely(std::string_view text, std::FILE* out) {
     fmt::print(out, "{}", safe_lines(text));
+}
+
+void print_data(std::string_view text) {
+    fmt::print("{}", without_control(text, "\n", "\\u00"));
 }
 
 std::string human_number(double number) {

@@ -35,8 +35,12 @@ std::string grid_words(const index::SeriesInfo& info);
 std::string one_line(std::string_view text);
 /// The same for a text of lines: line ends stay, and all of its length.
 std::string safe_lines(std::string_view text);
-/// Prints a text of lines in which files and configurations have a say.
+/// Prints a text of lines in which files and configurations have a say. Whatever the program says
+/// is printed by this function or the next one: `tests/house` checks it.
 void print_safely(std::string_view text, std::FILE* out = stdout);
+/// Prints JSON or TOML. A control character that is left in it is between quotes, where `\u009b`
+/// stands for it.
+void print_data(std::string_view text);
 
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);

@@ -7,6 +7,7 @@
 #include "app/text.h"
 #include "app/version.h"
 
+#include "index/shell_word.h"
 #include "index/system/memory_limit.h"
 
 #include <CLI/CLI.hpp>
@@ -32,6 +33,13 @@ namespace {
 /// `, did you mean NEAR?` as the end of a message; empty if `near` is empty.
 std::string meant(const std::string& near) {
     return near.empty() ? near : fmt::format(", did you mean {}?", near);
+}
+
+/// `isochron build 'a b.vti' -o ab.isochron`: a command as a user types it in a shell.
+std::string shell_line(std::string line, const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+        line += " " + index::shell_word(word);
+    return line;
 }
 
 } // namespace
@@ -136,7 +144,7 @@ bool Option::given() const {
 }
 
 Command Command::subcommand(const std::string& name, const std::string& description) {
-    return Command(*app_->add_subcommand(name, description));
+    return Command(*app_->add_subcommand(name, description), *typed_);
 }
 
 void Command::require_subcommand() {
@@ -188,14 +196,13 @@ void Command::on_run(std::function<void()> run) {
     app_->callback(std::move(run));
 }
 
-std::vector<std::string> Command::given() const {
-    std::vector<std::string> words;
-    for (const CLI::App* each = app_; each->get_parent(); each = each->get_parent())
-        words.insert(words.begin(), each->get_name());
-    for (const CLI::Option* option : app_->get_options())
-        for (const std::string& value : option->results())
-            words.push_back(option->get_positional() ? value : option->get_name() + "=" + value);
-    return words;
+std::string Command::typed_with(const std::vector<std::string>& more) const {
+    const CLI::App* program = app_;
+    while (program->get_parent())
+        program = program->get_parent();
+    std::vector<std::string> words = *typed_;
+    words.insert(std::ranges::find(words, "--"), more.begin(), more.end()); // options end there
+    return shell_line(program->get_name(), words);
 }
 
 CommandReference Command::reference() const {
@@ -205,7 +212,7 @@ CommandReference Command::reference() const {
 namespace {
 
 int fail(const char* program, const std::string& what, int status) {
-    std::fprintf(stderr, "%s: %s\n", program, one_line(what).c_str());
+    print_safely(fmt::format("{}: {}\n", program, one_line(what)), stderr);
     return status;
 }
 
@@ -219,12 +226,14 @@ std::string_view command_for(const std::filesystem::path& file) {
     return suffix == ".png" || suffix == ".exr" || suffix == ".jpg" ? "reproduce" : "build";
 }
 
-/// What the user may have meant by a word that is no command.
-std::string mistaken(const std::string& word, const std::vector<std::string>& names) {
+/// What the user may have meant by a word, one of those that were typed, that is no command.
+std::string mistaken(const std::string& word, const std::vector<std::string>& typed,
+                     const std::vector<std::string>& names) {
     std::error_code error;
     if (std::filesystem::exists(word, error))
-        return fmt::format("{0}: a file, not a command; did you mean `isochron {1} {0}`?", word,
-                           command_for(word));
+        return fmt::format("{}: a file, not a command; did you mean `{}`?", word,
+                           shell_line(fmt::format("isochron {}", command_for(word)),
+                                      {std::ranges::find(typed, word), typed.end()}));
     const std::string near = nearest_word(word, names);
     return fmt::format("{}: unknown{}", word,
                        near.empty() ? fmt::format(", expected {}", fmt::join(names, ", "))
@@ -247,7 +256,8 @@ std::string unexpected(const CLI::App& command) {
 }
 
 /// The parser's complaint in one line, with the command whose help explains more.
-std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+std::string complaint(const CLI::App& program, const std::vector<std::string>& typed,
+                      const CLI::ParseError& error) {
     const CLI::App* command = &program;
     std::string name = program.get_name();
     while (!command->get_subcommands().empty()) {
@@ -264,7 +274,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
         for (const CLI::App* candidate : known)
             names.push_back(candidate->get_name());
         what = unknown.empty() ? fmt::format("{}, expected {}", what, fmt::join(names, ", "))
-                               : mistaken(unknown.front(), names);
+                               : mistaken(unknown.front(), typed, names);
     } else if (!unknown.empty()) {
         what = unexpected(*command);
     } else if (const std::string_view wrong = "Could not convert: "; what.starts_with(wrong)) {
@@ -297,8 +307,7 @@ bool is_data(const CLI::App& program, const std::string& word) {
            (command == "explore" || command == "build") && std::filesystem::exists(file, error);
 }
 
-/// The arguments in today's spelling, last first, as the parser wants them. `isochron DATA` is
-/// `isochron explore DATA`.
+/// The arguments in today's spelling. `isochron DATA` is `isochron explore DATA`.
 std::vector<std::string> arguments_from(const CLI::App& program, int argc,
                                         const char* const* argv) {
     std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
@@ -312,7 +321,6 @@ std::vector<std::string> arguments_from(const CLI::App& program, int argc,
     }
     if (!arguments.empty() && is_data(program, arguments.front()))
         arguments.insert(arguments.begin(), "explore");
-    std::ranges::reverse(arguments);
     return arguments;
 }
 
@@ -329,17 +337,19 @@ int parse_and_run(const ProgramText& text,
     show_examples(program);
     if (text.examples.size() > 0)
         add_examples(program, {text.examples.begin(), text.examples.end()});
-    Command root(program);
+    std::vector<std::string> typed;
+    Command root(program, typed);
     for (const auto add : commands)
         add(root);
     if (text.first_commands > 0)
         begin_with_first(program, text.first_commands);
+    typed = arguments_from(program, argc, argv);
     try {
-        program.parse(arguments_from(program, argc, argv));
+        program.parse(std::vector<std::string>(typed.rbegin(), typed.rend())); // as CLI11 wants
     } catch (const CLI::Success& request) {
         return program.exit(request);
     } catch (const CLI::ParseError& error) {
-        return fail(text.name, complaint(program, error), 2);
+        return fail(text.name, complaint(program, typed, error), 2);
     }
     return 0;
 }

@@ -80,7 +80,8 @@ class Option {
 /// The program or one of its subcommands. A handle: copies name the same command.
 class Command {
   public:
-    explicit Command(CLI::App& app) : app_(&app) {}
+    /// @param typed the words behind the program's name; live as long as the command
+    Command(CLI::App& app, const std::vector<std::string>& typed) : app_(&app), typed_(&typed) {}
 
     Command subcommand(const std::string& name, const std::string& description);
     /// The user must name one of the subcommands.
@@ -96,14 +97,17 @@ class Command {
     /// Text below the options in the command's help.
     void footer(const std::string& text);
     void on_run(std::function<void()> run);
-    /// Its words and options as the user gave them, so that another program can be started with
-    /// them: `generate`, `sphere`, `--out=FOLDER`. Known once the command runs.
-    std::vector<std::string> given() const;
+    /// The words behind the program's name, as the user typed them.
+    const std::vector<std::string>& typed() const { return *typed_; }
+    /// What the user typed with `more` options, in words of a shell: the command that a message
+    /// proposes.
+    std::string typed_with(const std::vector<std::string>& more) const;
     /// Its options, and its subcommands added so far.
     CommandReference reference() const;
 
   private:
     CLI::App* app_;
+    const std::vector<std::string>* typed_;
 };
 
 /// What a program says of itself.

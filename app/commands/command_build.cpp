@@ -40,7 +40,7 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
         const index::IndexStats& stats = array.stats();
         text += file.arrays() == 1 ? ", " : fmt::format("\n{}: ", one.array);
         text += fmt::format("{}, values {} to {}{}\n{}", index::name_of(one.type), stats.low,
-                            stats.high, with_space(one.value_unit), sizes(array));
+                            stats.high, with_space(one.value_unit), array_sizes(array));
     }
     text += "\n";
     for (const std::string& note : info.notes)
@@ -55,34 +55,18 @@ std::string summary(const fs::path& out, const index::IndexFile& file) {
     return text;
 }
 
-/// A word of a command line, in quotes where a shell needs them.
-std::string shell_word(const std::string& word) {
-    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                        "0123456789_-+=./:,@%";
-    if (!word.empty() && word.find_first_not_of(kPlain) == word.npos)
-        return word;
-    std::string quoted = "'";
-    for (const char each : word)
-        quoted += each == '\'' ? std::string("'\\''") : std::string(1, each);
-    return quoted + "'";
-}
-
 /// Opens the files. Where they leave the choice among several arrays, tells the command for each.
-BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& arguments) {
+BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& arguments,
+                    const Command& command) {
     try {
         ProgressBar bar;
         return open_sources(files, arguments, bar.progress());
     } catch (const index::Error&) {
-        std::string start = "isochron build";
-        for (const std::string& file : arguments.files)
-            start += " " + shell_word(file);
-        if (!arguments.out.empty())
-            start += " -o " + shell_word(arguments.out.string());
         const auto names = arrays_to_choose(files, arguments);
         for (const std::string& name : names)
-            print_safely(fmt::format("{} --array {}\n", start, shell_word(name)), stderr);
-        if (!names.empty())
-            print_safely(start + " --all-arrays\n", stderr);
+            print_safely(command.typed_with({"--array", name}) + "\n", stderr);
+        if (!names.empty() && !arguments.read.component && !arguments.read.value_unit)
+            print_safely(command.typed_with({"--all-arrays"}) + "\n", stderr);
         throw;
     }
 }
@@ -123,7 +107,8 @@ void guard_index(const BuildArguments& arguments, std::vector<fs::path> files,
                   arguments.build.replaces_any || arguments.append);
 }
 
-void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSignal& signals) {
+void build_with(index::Team& team, const BuildArguments& asked, const Command& command,
+                const CancelOnSignal& signals) {
     const bool reports = team.rank() == 0 && !asked.quiet;
     BuildArguments arguments = asked;
     std::optional<index::GrowingFile> file;
@@ -147,7 +132,7 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         guard_index(arguments, files, nullptr); // at once, as opening may take long
-        sources = opened(files, arguments);
+        sources = opened(files, arguments, command);
         guard_index(arguments, files, &sources);
         if (held)
             append_sources(sources, held, arguments.out.string());
@@ -162,7 +147,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const CancelOnSi
     });
     if (!sources.volume) { // nothing to append
         if (reports)
-            fmt::print("{}: holds every step of these files already\n", arguments.out.string());
+            print_safely(fmt::format("{}: holds every step of these files already\n",
+                                     arguments.out.string()));
         return;
     }
     const index::SeriesInfo& info = sources.volume->info();
@@ -200,7 +186,7 @@ void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
     cluster.abandon(status);
 }
 
-void run_build(const BuildArguments& arguments) {
+void run_build(const BuildArguments& arguments, const Command& command) {
     const CancelOnSignal signals;
     const auto team = index::join_team();
     // A step may take as long as its disk needs; only a process that does not respond is lost.
@@ -209,7 +195,7 @@ void run_build(const BuildArguments& arguments) {
     stereo::Cluster cluster(*team, {.silence = Duration(arguments.timeout), .stall = kForEver});
     cluster.while_waiting([&] { signals.check(); });
     try {
-        build_with(cluster, arguments, signals);
+        build_with(cluster, arguments, command, signals);
     } catch (const stereo::ProcessLost& lost) {
         end_job(cluster, lost.what(), 1);
         throw;
@@ -305,10 +291,10 @@ void add_build(Command& program) {
         "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
         "0, no file is left behind\nand an older index is unchanged. mpirun -n N isochron "
         "build ... spreads the work over N processes that\nshare a file system.");
-    command.on_run([arguments, lattice, variation] {
+    command.on_run([arguments, lattice, variation, command] {
         arguments->build.with_tree = lattice.given() || variation.given();
         let_read_allowed(*arguments);
-        run_build(with_path_within(*arguments));
+        run_build(with_path_within(*arguments), command);
     });
 }
 

@@ -99,23 +99,23 @@ void run_change(const ChangeArguments& arguments) {
             {"to_fraction", to.step.fraction},  {"to_isovalue", to.isovalue},
             {"added", found.added.size()},      {"removed", found.removed.size()},
             {"searched_anew", whole},           {"change_ms", middle->count()}};
-        fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_data(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
         return;
     }
     const auto at = [](index::Instant moment) {
         return moment.between() ? fmt::format("{} + {}/65536", moment.step, moment.fraction)
                                 : fmt::format("{}", moment.step);
     };
-    fmt::print("isovalue {} at step {} to isovalue {} at step {}\n"
-               "added            {}\n"
-               "removed          {}\n"
-               "found by         {}\n"
-               "time             {:.4f} ms (median of {})\n",
-               from.isovalue, at(from.step), to.isovalue, at(to.step), grouped(found.added.size()),
-               grouped(found.removed.size()),
-               whole ? "a full search of the second set: little stays the same"
-                     : "a search of only what differs",
-               middle->count(), times.size());
+    print_safely(fmt::format("isovalue {} at step {} to isovalue {} at step {}\n"
+                             "added            {}\n"
+                             "removed          {}\n"
+                             "found by         {}\n"
+                             "time             {:.4f} ms (median of {})\n",
+                             from.isovalue, at(from.step), to.isovalue, at(to.step),
+                             grouped(found.added.size()), grouped(found.removed.size()),
+                             whole ? "a full search of the second set: little stays the same"
+                                   : "a search of only what differs",
+                             middle->count(), times.size()));
 }
 
 } // namespace

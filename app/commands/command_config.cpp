@@ -65,16 +65,18 @@ void import(ImportOptions options) {
         file.write_at(0, std::as_bytes(std::span(text)));
         file.commit();
     } else {
-        fmt::print("{}", text);
+        print_data(text);
     }
     for (const std::string& note : imported.notes)
         print_safely(fmt::format("note: {}\n", note), stderr);
     for (const ConfigProblem& problem : problems_of(config))
         if (asks_for_tracker(problem))
-            fmt::print(stderr, "note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
-                       config.name, problem.text);
+            print_safely(
+                fmt::format("note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
+                            config.name, problem.text),
+                stderr);
         else
-            fmt::print(stderr, "{}\n", line_of(problem, config));
+            print_safely(fmt::format("{}\n", line_of(problem, config)), stderr);
 }
 
 } // namespace
@@ -110,7 +112,7 @@ void add_config(Command& program) {
         "schema",
         "Print the JSON schema of configurations; editors check and complete files with it.");
     schema.examples({"isochron config schema", "isochron config schema > isochron.schema.json"});
-    schema.on_run([] { fmt::print("{}", config_schema()); });
+    schema.on_run([] { print_data(config_schema()); });
 }
 
 } // namespace isochron::app

@@ -42,15 +42,17 @@ struct ExportArguments {
     std::vector<double> isovalues, range;
     std::optional<std::string> array, color_by, unit;
     MeshCuts cuts;
-    double rate = 10;
+    std::optional<double> rate;
     std::uint32_t fraction = 0;
     bool no_normals = false, quantize = false, compress = false, force = false, json = false;
 };
 
-std::vector<std::string> format_names() {
+/// @param has what the formats have; null: all formats
+std::vector<std::string> format_names(bool index::SurfaceFormat::* has = nullptr) {
     std::vector<std::string> names;
     for (const index::SurfaceFormat& format : index::surface_formats())
-        names.emplace_back(format.name);
+        if (!has || format.*has)
+            names.emplace_back(format.name);
     return names;
 }
 
@@ -133,7 +135,7 @@ index::ExportRequest request_of(const ExportArguments& arguments, const index::I
     plan.normals = !arguments.no_normals;
     plan.quantized = arguments.quantize;
     plan.packing = arguments.compress ? mesh_packing() : nullptr;
-    plan.rate = arguments.rate;
+    plan.rate = arguments.rate.value_or(plan.rate);
     plan.steps = arguments.steps.empty()
                      ? steps_of(fmt::format("0:{}", info.steps() - 1), "--steps", info.steps())
                      : steps_of(arguments.steps, "--steps", info.steps());
@@ -158,14 +160,22 @@ index::ExportRequest request_of(const ExportArguments& arguments, const index::I
 }
 
 void check(const ExportArguments& arguments, const index::SurfaceFormat& format) {
-    if (arguments.precision == "double" && !format.with_doubles)
-        throw UsageError(fmt::format("--precision double: {} has single precision alone; ply, obj, "
-                                     "vtp and csv have both",
-                                     format.name));
-    if ((arguments.quantize || arguments.compress) && !format.with_quantized)
-        throw UsageError(fmt::format("{}: is for glb and glb-animation, not {}",
-                                     arguments.quantize ? "--quantize" : "--compress",
-                                     format.name));
+    struct Need {
+        const char* option;
+        bool given;
+        bool index::SurfaceFormat::* held;
+    };
+    for (const Need& need :
+         {Need{"--precision double", arguments.precision == "double",
+               &index::SurfaceFormat::with_doubles},
+          Need{"--color-by", arguments.color_by.has_value(), &index::SurfaceFormat::with_colors},
+          Need{"--no-normals", arguments.no_normals, &index::SurfaceFormat::with_normals},
+          Need{"--quantize", arguments.quantize, &index::SurfaceFormat::with_quantized},
+          Need{"--compress", arguments.compress, &index::SurfaceFormat::with_quantized},
+          Need{"--rate", arguments.rate.has_value(), &index::SurfaceFormat::all_in_one}})
+        if (need.given && !(format.*need.held))
+            throw UsageError(fmt::format("{}: is for {}, not {}", need.option,
+                                         fmt::join(format_names(need.held), ", "), format.name));
     for (const auto& [option, given] :
          {std::pair("--crop", arguments.cuts.crop.has_value()),
           std::pair("--clip", !arguments.cuts.clip.empty()),
@@ -205,21 +215,23 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                                  {"empty_steps", count.empty_steps}};
         if (arguments.cuts.simplify)
             j["error"] = moved;
-        fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_data(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
         return;
     }
-    fmt::print("wrote {}{}: {} step{}, {}\n", files.front().string(),
-               files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
-               request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
-               sizes_of(count, format));
+    print_safely(fmt::format("wrote {}{}: {} step{}, {}\n", files.front().string(),
+                             files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
+                             request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
+                             sizes_of(count, format)));
     if (arguments.cuts.simplify)
-        fmt::print("simplified: the surface has moved by at most {}\n",
-                   with_unit(moved, request.plan.length_unit));
+        print_safely(fmt::format("simplified: the surface has moved by about {}\n",
+                                 with_unit(moved, request.plan.length_unit)));
     if (!count.empty_steps.empty())
-        fmt::print(stderr,
-                   "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
-                   "step {}\n",
-                   count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
+        print_safely(
+            fmt::format(
+                "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
+                "step {}\n",
+                count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front()),
+            stderr);
 }
 
 /// Steps are visited in turn, once. Of small ones, which are read as a whole, few are kept, so that a step
@@ -246,7 +258,7 @@ void run_export(const ExportArguments& arguments) {
     keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
     double moved = 0;
-    request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan.unit_factor, moved);
+    request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan, moved);
     const std::vector<fs::path> files =
         index::files_of_export(*target.format, target.name, request.plan, request.surfaces.size());
     std::vector<Output> outputs;
@@ -305,13 +317,17 @@ void add_export(Command& program) {
         .type_name("NAME");
     command.option("--format", arguments->format, "Format (default: by the end of the name)")
         .one_of(format_names());
-    command.option("--color-by", arguments->color_by,
-                   "Array whose values color the vertices, and are written where the format has "
-                   "values");
-    command.option("--color-map", arguments->color_map, "Its color map").shows_default();
+    const Option color_by =
+        command.option("--color-by", arguments->color_by,
+                       "Array whose values color the vertices, and are written where the format "
+                       "has values; not in stl and csv");
+    command.option("--color-map", arguments->color_map, "Its color map")
+        .needs(color_by)
+        .shows_default();
     command
         .option("--range", arguments->range,
                 "Values at the ends of the color map (default: the range of the array)")
+        .needs(color_by)
         .values(2)
         .type_name("LOW HIGH");
     command
@@ -323,9 +339,9 @@ void add_export(Command& program) {
     command.option("--unit", arguments->unit,
                    "Unit of length of the coordinates: m, km, cm, mm, um, nm, in or ft (default: "
                    "the data's)");
-    command.option("--rate", arguments->rate, "Steps a second in glb-animation and usda")
-        .positive()
-        .shows_default();
+    command
+        .option("--rate", arguments->rate, "Steps a second in glb-animation and usda (default: 10)")
+        .positive();
     command
         .option("--crop", arguments->cuts.crop,
                 "Only triangles within a box of the grid's vertices, both ends included")
@@ -337,8 +353,9 @@ void add_export(Command& program) {
         .values(6)
         .type_name("X Y Z NX NY NZ");
     command
-        .option("--simplify", arguments->cuts.simplify,
-                "Fewer triangles: the surface may move by this distance, in the unit of the file")
+        .option(
+            "--simplify", arguments->cuts.simplify,
+            "Fewer triangles: the surface may move by about this distance, in the unit of the file")
         .positive()
         .type_name("ERROR");
     command.flag("--quantize", arguments->quantize,
@@ -359,7 +376,7 @@ void add_export(Command& program) {
         "Each file appears whole or not at all. Triangles are counter-clockwise as seen "
         "from the side of\nlower values, to which normals point. JSON keys: files, steps, "
         "fraction, isovalues, cells, vertices,\ntriangles (both 0 in csv), empty_steps, error "
-        "(with --simplify: the distance moved at most).");
+        "(with --simplify: about how far the surface has moved).");
     command.on_run([arguments] { run_export(*arguments); });
 }
 

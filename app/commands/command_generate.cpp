@@ -33,7 +33,7 @@ std::filesystem::path program_of_series() {
 /// @throws index::Error if it cannot be started
 [[noreturn]] void become_program_of_series(const Command& command) {
     const std::string file = program_of_series().string();
-    std::vector<std::string> words = command.given();
+    std::vector<std::string> words = command.typed();
     std::vector<char*> arguments{const_cast<char*>(kProgramOfSeries)};
     for (std::string& word : words)
         arguments.push_back(word.data());

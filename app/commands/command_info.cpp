@@ -33,7 +33,7 @@ void describe_sources(BuildArguments arguments, bool in_json) {
     bar.reset(); // its line ends before the description
     const std::string name = fmt::format("{}", fmt::join(arguments.files, " "));
     if (in_json)
-        fmt::print("{}", source_json(name, *sources.volume));
+        print_data(source_json(name, *sources.volume));
     else
         print_safely(source_text(name, *sources.volume));
 }
@@ -55,7 +55,7 @@ void run_info(const InfoArguments& given) {
     const auto file = array_called(open_index(first), arguments.read.array);
     const IndexReport report{first, *file, given.tree, given.measure_time};
     if (given.json)
-        fmt::print("{}", as_json(report));
+        print_data(as_json(report));
     else
         print_safely(as_text(report));
 }

@@ -4,6 +4,7 @@
 #include "app/command_line/shell_completion.h"
 #include "app/command_line/subcommands.h"
 #include "app/output/guarded_outputs.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "index/system/new_file.h"
 
@@ -54,7 +55,7 @@ void add_completion(Command& program) {
     command.footer("For one session of bash: source <(isochron completion bash). Installed "
                    "programs are completed without.");
     command.on_run(
-        [shell, program] { fmt::print("{}", shell_completion(program.reference(), *shell)); });
+        [shell, program] { print_safely(shell_completion(program.reference(), *shell)); });
 }
 
 } // namespace isochron::app

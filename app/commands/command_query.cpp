@@ -192,7 +192,7 @@ void run_query(const QueryArguments& arguments) {
     if (!arguments.ids.empty())
         write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
     if (arguments.json)
-        fmt::print("{}", as_json(arguments, *file, result));
+        print_data(as_json(arguments, *file, result));
     else
         print_safely(as_text(arguments, *file, result));
 }

@@ -51,8 +51,9 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
 int report_differences(const std::vector<std::string>& lines, std::size_t frames) {
     constexpr std::size_t kShown = 20;
     for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
-        fmt::print(stderr, "differs: {}\n", lines[i]);
-    fmt::print("commands recomputed from devices: {} of {} frames differ\n", lines.size(), frames);
+        print_safely(fmt::format("differs: {}\n", lines[i]), stderr);
+    print_safely(fmt::format("commands recomputed from devices: {} of {} frames differ\n",
+                             lines.size(), frames));
     return lines.empty() ? 0 : 1;
 }
 
@@ -171,7 +172,7 @@ void replay_test_pattern(const Options& options, ClusterJob& job) {
     show.frames().end();
     show.outputs().pictures().finish();
     for (const fs::path& path : written)
-        fmt::print("wrote {}\n", path.string());
+        print_safely(fmt::format("wrote {}\n", path.string()));
     job.finish();
 }
 
@@ -189,7 +190,7 @@ Prepared prepare(const Options& options, const ClusterJob& job) {
     Prepared all;
     all.recording = read_recording(options.recording);
     if (!all.recording.note.empty() && job.leads())
-        fmt::print(stderr, "note: {}\n", one_line(all.recording.note));
+        print_safely(fmt::format("note: {}\n", one_line(all.recording.note)), stderr);
     all.config = config_of(options, all.recording.header);
     all.names = picture_names(all.config.installation);
     prepare_walls(all.config, job, options.emulate);
@@ -260,13 +261,13 @@ void replay(const Options& options, ClusterJob& job) {
     const std::vector<std::string> different = show(session, all, options, job, done);
     session.outputs().pictures().finish();
     for (const fs::path& path : written)
-        fmt::print("wrote {}\n", path.string());
+        print_safely(fmt::format("wrote {}\n", path.string()));
     if (options.report)
         session.log().finish_report(session.drawing(), session.reading());
     job.finish();
     if (!job.leads())
         return;
-    fmt::print("{}\n{}", session.drawing(), session.log().table());
+    print_safely(fmt::format("{}\n{}", session.drawing(), session.log().table()));
     if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");

@@ -203,9 +203,12 @@ void reproduce(const ReproduceOptions& options) {
     describe(options.picture, note);
     if (note.movie)
         throw interaction::Error(fmt::format(
-            "{}: a movie is made again by `isochron movie RECORDING --rate {:g}` of the recording "
-            "with hash {}",
-            options.picture, note.movie->rate, note.movie->recording));
+            "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE`, of the {}",
+            options.picture, note.movie->recording.empty() ? "INDEX" : "RECORDING",
+            note.movie->rate,
+            note.movie->recording.empty()
+                ? fmt::format("data with hash {}", note.data_hash)
+                : fmt::format("recording with hash {}", note.movie->recording)));
     if (note.part.shows == "headset")
         throw interaction::Error(options.picture +
                                  ": it shows a headset's mirror, which is not made again");
@@ -217,18 +220,18 @@ void reproduce(const ReproduceOptions& options) {
         index::NewFile file(*options.out);
         file.write_at(0, stereo::encoded_image(made.image, *options.out, text_of(note)));
         file.commit();
-        fmt::print("wrote {}\n", *options.out);
+        print_safely(fmt::format("wrote {}\n", *options.out));
     }
     const std::string_view mine(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (mine == there && made.differs.empty()) {
-        fmt::print("made again: the same {} bytes\n", there.size());
+        print_safely(fmt::format("made again: the same {} bytes\n", there.size()));
         return;
     }
     // With what the format loses. Alpha is neither written nor compared.
     made.image = stereo::decoded_image(bytes, options.picture);
     const auto lines = differences(note, made, stereo::read_image(options.picture));
     if (lines.empty()) {
-        fmt::print("made again: the same pixels, which the file stores in other bytes\n");
+        print_safely("made again: the same pixels, which the file stores in other bytes\n");
         return;
     }
     for (const std::string& line : lines)

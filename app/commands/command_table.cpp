@@ -4,6 +4,7 @@
 #include "app/output/known_files.h"
 #include "app/session/kept/recording_file.h"
 #include "app/session/kept/session_file.h"
+#include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 
@@ -187,16 +188,14 @@ void run_table(const TableArguments& arguments) {
     const std::string text = arguments.json
                                  ? rows.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
                                  : csv_of(rows, columns);
-    if (arguments.out.empty()) {
-        fmt::print("{}", text);
-        return;
-    }
+    if (arguments.out.empty())
+        return arguments.json ? print_data(text) : print_safely(text);
     guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
                   arguments.force);
     index::NewFile file(arguments.out);
     file.write_at(0, std::as_bytes(std::span(text)));
     file.commit();
-    fmt::print("wrote {}: {} rows\n", arguments.out.string(), rows.size());
+    print_safely(fmt::format("wrote {}: {} rows\n", arguments.out.string(), rows.size()));
 }
 
 } // namespace

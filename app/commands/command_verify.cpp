@@ -30,8 +30,8 @@ void run_verify(const std::filesystem::path& path) {
     }
     if (const auto lost = index::lost_state(*file))
         throw index::Error(*lost);
-    fmt::print("{}: every checksum matches{}\n", path.string(),
-               file->referral() ? ", in its sources too" : "");
+    print_safely(fmt::format("{}: every checksum matches{}\n", path.string(),
+                             file->referral() ? ", in its sources too" : ""));
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 #include "app/command_line/step_range.h"
 #include "app/commands/simplified.h"
 #include "app/output/export_request.h"
+#include "app/text.h"
+#include "index/error.h"
 #include "index/export/mesh_parts.h"
 
 #include <fmt/format.h>
@@ -57,8 +59,10 @@ std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& number
 
 } // namespace
 
-std::function<void(index::CellMesh&)> reshaping(const MeshCuts& cuts, const index::Grid& grid,
-                                                double unit_factor, double& moved) {
+std::function<void(index::CellMesh&, const index::Query&)> reshaping(const MeshCuts& cuts,
+                                                                     const index::Grid& grid,
+                                                                     const index::ExportPlan& plan,
+                                                                     double& moved) {
     std::optional<index::VertexBox> box;
     if (cuts.crop)
         box = box_of(*cuts.crop, grid);
@@ -66,13 +70,22 @@ std::function<void(index::CellMesh&)> reshaping(const MeshCuts& cuts, const inde
     const auto error = cuts.simplify;
     if (!box && !plane && !error)
         return {};
-    return [box, plane, error, unit_factor, &grid, &moved](index::CellMesh& mesh) {
+    return [box, plane, error, factor = plan.unit_factor, unit = plan.length_unit, &grid,
+            &moved](index::CellMesh& mesh, const index::Query& query) {
         if (box)
             index::crop(mesh, *box);
         if (plane)
             clip(mesh, grid, *plane);
-        if (error)
-            moved = std::max(moved, unit_factor * simplify(mesh, grid, *error / unit_factor));
+        if (!error)
+            return;
+        const std::size_t before = mesh.triangles.size() / 3;
+        moved = std::max(moved, factor * simplify(mesh, grid, *error / factor));
+        if (before > 0 && mesh.triangles.empty())
+            throw index::Error(fmt::format("step {}: --simplify {}{} leaves none of the {} "
+                                           "triangles at isovalue {}; a smaller "
+                                           "distance is needed",
+                                           query.step.step, human_number(*error), with_space(unit),
+                                           grouped(before), human_number(query.isovalue)));
     };
 }
 

@@ -9,11 +9,12 @@ namespace isochron::app {
 /// Whether this build has the library that simplifies.
 bool can_simplify();
 
-/// Removes triangles as long as the surface moves by no more than `error`, by quadrics of the
-/// triangles around each vertex (meshoptimizer). Vertices that stay keep their places, borders are
-/// kept as well as the rest.
-/// @param error largest distance [the data's unit of length], above 0
-/// @return the distance by which it has moved, as far as the library knows
+/// Removes triangles as long as the surface moves by about `error`, by quadrics of the triangles
+/// around each vertex (meshoptimizer), which are no bound: parts may move several times as far.
+/// Vertices that stay keep their places, borders are kept as well as the rest. Nothing remains of
+/// a surface that is small compared with `error`.
+/// @param error distance [the data's unit of length], above 0
+/// @return about how far it has moved
 double simplify(index::CellMesh& mesh, const index::Grid& grid, double error);
 
 } // namespace isochron::app

@@ -369,12 +369,13 @@ void check_config(const std::filesystem::path& path) {
     print_safely(describe(config));
     const std::vector<ConfigProblem> problems = problems_of(config);
     for (const ConfigProblem& problem : problems)
-        fmt::print("{}\n", line_of(problem, config));
+        print_safely(fmt::format("{}\n", line_of(problem, config)));
     for (const std::string& warning : device_warnings(config))
-        fmt::print("{}\n", one_line(fmt::format("{}: warning: {}", path.string(), warning)));
+        print_safely(
+            fmt::format("{}\n", one_line(fmt::format("{}: warning: {}", path.string(), warning))));
     std::fflush(stdout); // before the error
     expect_sound(config);
-    fmt::print("nothing is wrong\n");
+    print_safely("nothing is wrong\n");
 }
 
 } // namespace isochron::app

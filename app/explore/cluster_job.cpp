@@ -36,8 +36,9 @@ void obey_signals(stereo::Cluster& cluster) {
         return;
     // Where one process was lost, mpirun ends the others: the loss has been told by its name.
     if (const char* const name = ::sigabbrev_np(signal); !CancelOnSignal::sent_by_the_launcher())
-        fmt::print(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
-                   name ? name : "NAL");
+        print_safely(fmt::format("isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
+                                 name ? name : "NAL"),
+                     stderr);
     cluster.abandon(Canceled(signal).status);
 }
 
@@ -190,7 +191,7 @@ void ClusterJob::tell_shared_processors(const render::Gl& gl) {
     }
     if (leads())
         for (const std::string& line : shared_processors(shares))
-            fmt::print(stderr, "isochron: note: {}\n", line);
+            print_safely(fmt::format("isochron: note: {}\n", line), stderr);
 }
 
 void ClusterJob::finish() {

@@ -380,7 +380,7 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
         session_->log().finish_report(session_->drawing(), session_->reading());
     job_.finish();
     if (options_.record && job_.leads())
-        fmt::print(stderr, "recording: {}\n", *options_.record);
+        print_safely(fmt::format("recording: {}\n", *options_.record), stderr);
 }
 
 /// What there is of a session whose display is gone.
@@ -389,9 +389,9 @@ void Exploration::save(LiveLoop& live) {
         live.finish(*session_);
         session_->outputs().pictures().finish();
         if (options_.record)
-            fmt::print(stderr, "recording: {}\n", *options_.record);
+            print_safely(fmt::format("recording: {}\n", *options_.record), stderr);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "isochron: {}\n", one_line(error.what()));
+        print_safely(fmt::format("isochron: {}\n", one_line(error.what())), stderr);
     }
 }
 

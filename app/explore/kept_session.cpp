@@ -1,6 +1,7 @@
 // Saving and resuming of the session of `explore`.
 #include "app/explore/kept_session.h"
 
+#include "app/text.h"
 #include "app/version.h"
 #include "index/file/index_states.h"
 #include "index/system/new_file.h"
@@ -108,13 +109,15 @@ std::optional<SavedSession> earlier_session(const ExploreOptions& options,
     if (options.resume)
         return read_session(*path);
     if (there)
-        fmt::print(stderr, "isochron: --resume goes on with the session in {}\n", path->string());
+        print_safely(
+            fmt::format("isochron: --resume goes on with the session in {}\n", path->string()),
+            stderr);
     const auto all = earlier_sessions(options, file);
     if (all.size() > 1)
-        fmt::print(stderr,
-                   "isochron: --resume --session FILE goes on with an earlier one, of which there "
-                   "are {} beside it; the newest is {}\n",
-                   all.size() - 1, all[1].path.filename().string());
+        print_safely(fmt::format("isochron: --resume --session FILE goes on with an earlier one, of "
+                                 "which there are {} beside it; the newest is {}\n",
+                                 all.size() - 1, all[1].path.filename().string()),
+                     stderr);
     return std::nullopt;
 }
 

@@ -45,7 +45,7 @@ LiveOptions live_options(const ExploreOptions& options) {
 
 void print_status(const LiveLoop& live) {
     for (const std::string& line : live.status())
-        fmt::print(stderr, "{}\n", one_line(line));
+        print_safely(fmt::format("{}\n", one_line(line)), stderr);
 }
 
 interaction::RecordingHeader header_of(const Session& session, const Config& config,

@@ -54,11 +54,13 @@ ArraySource open_called(const Open& open, index::ReadOptions options, const std:
     return {std::move(series), options.array, options.component};
 }
 
+constexpr std::string_view kMagnitude = ".magnitude";
+
 /// The name in an entry of `SeriesInfo::arrays`, `u (f32 x 3)`; of a vector, its magnitude.
 std::string name_in(const std::string& offered) {
     const std::size_t end = offered.rfind(" (");
     const bool vector = end != offered.npos && offered.find(" x ", end) < offered.find(',', end);
-    return offered.substr(0, end) + (vector ? ".magnitude" : "");
+    return offered.substr(0, end) + (vector ? std::string(kMagnitude) : "");
 }
 
 std::vector<std::string> offered_by(const Open& open, index::ReadOptions options) {
@@ -213,6 +215,10 @@ std::vector<std::string> arrays_to_choose(const std::vector<std::filesystem::pat
         index::ReadOptions any = read_options(arguments);
         any.any_array = true;
         std::vector<std::string> names = names_among(*index::open_series(files, any));
+        if (arguments.read.component) // given apart, so the name has none
+            for (std::string& name : names)
+                if (name.ends_with(kMagnitude))
+                    name.resize(name.size() - kMagnitude.size());
         return names.size() > 1 ? names : std::vector<std::string>();
     } catch (const index::Error&) {
         return {};

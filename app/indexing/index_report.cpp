@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -166,22 +168,44 @@ nlohmann::ordered_json blends_json(const index::IndexFile& file) {
     return j;
 }
 
+/// @param bytes of the arrays and of what lies between their parts
+std::string sizes_of(const std::vector<const index::IndexFile*>& arrays, std::uint64_t bytes) {
+    const auto sum = [&](const auto& bytes_of) {
+        std::uint64_t all = 0;
+        for (const index::IndexFile* const array : arrays)
+            all += std::invoke(bytes_of, array->stats());
+        return all;
+    };
+    const auto words = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
+    std::string text = words(bytes);
+    text += arrays.front()->referral()
+                ? ": volume in its sources"
+                : fmt::format(": volume {}", words(sum(&index::IndexStats::volume_bytes)));
+    for (std::size_t i = 0; i < index::kTierNames.size(); ++i) {
+        const auto tier = static_cast<index::Tier>(i);
+        if (std::ranges::any_of(arrays, [&](const auto* a) { return a->plan().tiers.has(tier); }))
+            text += fmt::format(
+                ", {} {}", index::kTierNames[i],
+                words(sum([&](const index::IndexStats& of) { return of.bytes_of(tier); })));
+    }
+    if (const std::uint64_t detail = sum(&index::IndexStats::detail_bytes))
+        text += fmt::format(", levels of detail {}", words(detail));
+    if (const std::uint64_t colors = sum(&index::IndexStats::color_bytes))
+        text += fmt::format(", colors {}", words(colors));
+    return text;
+}
+
 } // namespace
 
-std::string sizes(const index::IndexFile& file) {
-    const index::IndexStats& stats = file.stats();
-    const auto bytes = [](std::uint64_t n) { return human_bytes(static_cast<double>(n)); };
-    std::string text = bytes(file.arrays() == 1 ? stats.file_bytes : own_bytes(file));
-    text += file.referral() ? ": volume in its sources"
-                            : fmt::format(": volume {}", bytes(stats.volume_bytes));
-    for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
-        if (const auto tier = static_cast<index::Tier>(i); file.plan().tiers.has(tier))
-            text += fmt::format(", {} {}", index::kTierNames[i], bytes(stats.bytes_of(tier)));
-    if (stats.detail_bytes > 0)
-        text += fmt::format(", levels of detail {}", bytes(stats.detail_bytes));
-    if (stats.color_bytes > 0)
-        text += fmt::format(", colors {}", bytes(stats.color_bytes));
-    return text;
+std::string array_sizes(const index::IndexFile& array) {
+    return array.arrays() == 1 ? file_sizes(array) : sizes_of({&array}, own_bytes(array));
+}
+
+std::string file_sizes(const index::IndexFile& file) {
+    std::vector<const index::IndexFile*> arrays;
+    for (std::size_t number = 0; number < file.arrays(); ++number)
+        arrays.push_back(&file.array(number));
+    return sizes_of(arrays, file.stats().file_bytes);
 }
 
 /// Of the chunks of all steps but the first: those that are as in the step before.
@@ -224,8 +248,8 @@ std::string as_text(const IndexReport& report) {
         line("colors", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
                                    index::name_of(color->type), color->low, color->high,
                                    with_space(color->value_unit), grouped(color->nan_values)));
-    line("file",
-         fmt::format("{}; {:.3g} % of raw without the volume", sizes(file), percent_of_raw(file)));
+    line("file", fmt::format("{}; {:.3g} % of raw without the volume", file_sizes(file),
+                             percent_of_raw(file)));
     if (file.has_since() && info.steps() > 1)
         line("stays", staying_text(file));
     for (std::size_t level = 1; level < file.detail_levels(); ++level)

@@ -15,7 +15,7 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
     auto file = index::open_named_index(path, cache_bytes);
     const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
     if (line)
-        fmt::print(stderr, "isochron: {}\n", one_line(*line));
+        print_safely(fmt::format("isochron: {}\n", one_line(*line)), stderr);
     return file;
 }
 

@@ -96,7 +96,8 @@ index::ExportRequest shown_request(const ExplorerState& state,
                           }};
     }
     if (state.clip.shown && state.pictures.surfaces.clipped && !format.of_cells)
-        request.reshape = [plane = state.clip, grid = info.grid](index::CellMesh& mesh) {
+        request.reshape = [plane = state.clip, grid = info.grid](index::CellMesh& mesh,
+                                                                 const index::Query&) {
             clip(mesh, grid, plane);
         };
     return request;

@@ -1,6 +1,7 @@
 // Divides the memory by what a cell was measured to take.
 #include "app/quality/cell_room.h"
 
+#include "app/text.h"
 #include "index/system/memory_limit.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ std::vector<std::string> limit_to_memory(DetailChoice& details, const index::Ind
                                     file.cache_bytes()))
         lines.push_back(std::move(*line));
     for (const std::string& line : lines) // of a replay nobody sees the panel
-        std::fprintf(stderr, "isochron: %s\n", line.c_str());
+        print_safely(fmt::format("isochron: {}\n", line), stderr);
     return lines;
 }
 

@@ -1,6 +1,7 @@
 // A headset's part in the live loop.
 #include "app/session/headset_loop.h"
 
+#include "app/text.h"
 #include "interaction/input/composite_input.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ const char* in_words(stereo::HeadsetState state) {
 void HeadsetLoop::tell_changes() {
     std::string now = fmt::format("headset {}: {}", in_words(state_), headset_->description());
     if (now != told_)
-        fmt::print(stderr, "isochron: {}\n", now);
+        print_safely(fmt::format("isochron: {}\n", now), stderr);
     told_ = std::move(now);
 }
 

@@ -6,9 +6,15 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace isochron::index {
+
+float linear_light(std::uint8_t srgb) {
+    const double c = srgb / 255.0;
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
 
 ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
     : grid_(grid), factor_(plan.unit_factor), turned_(glm::determinant(grid.direction) < 0) {

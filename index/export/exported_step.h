@@ -47,6 +47,10 @@ struct ExportPlan {
     std::uint32_t fraction = 0;
 };
 
+/// sRGB to linear light (IEC 61966-2-1), which colors of glTF and USD are in. Those of PLY, OBJ and
+/// VTP are sRGB, as their readers take them.
+float linear_light(std::uint8_t srgb);
+
 /// A surface of a step.
 struct ExportedSurface {
     std::string name;                    ///< `9.5 1/s`

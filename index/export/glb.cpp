@@ -24,12 +24,6 @@ using json = nlohmann::ordered_json;
 constexpr int kFloat = 5126, kUint = 5125, kUbyte = 5121, kUshort = 5123, kByte = 5120;
 constexpr std::uint32_t kMagic = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
 
-/// sRGB to linear light (IEC 61966-2-1), which materials and vertices of glTF have.
-float linear(std::uint8_t srgb) {
-    const double c = srgb / 255.0;
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-}
-
 /// One file that is being written.
 class GlbFile {
   public:
@@ -244,7 +238,7 @@ class GlbFile {
         constexpr float kFull = 255;
         surface.mesh->each_vertex([&](const MeshVertex&, float value) {
             for (const std::uint8_t channel : surface.color_at(value))
-                binary_.put(static_cast<std::uint8_t>(std::lround(kFull * linear(channel))));
+                binary_.put(static_cast<std::uint8_t>(std::lround(kFull * linear_light(channel))));
             binary_.put(std::uint8_t{255});
         });
         const std::size_t number =
@@ -255,8 +249,9 @@ class GlbFile {
 
     std::size_t add_material(const ExportedSurface& surface) {
         const auto& c = surface.color;
-        json factor =
-            !surface.color_of ? json{linear(c[0]), linear(c[1]), linear(c[2])} : json{1, 1, 1};
+        json factor = !surface.color_of
+                          ? json{linear_light(c[0]), linear_light(c[1]), linear_light(c[2])}
+                          : json{1, 1, 1};
         factor.push_back(surface.opacity);
         json material{
             {"name", surface.name},

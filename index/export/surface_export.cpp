@@ -85,7 +85,7 @@ class StepMaker {
             complete = whole && (!by_crossing || add_first_crossings(number, found, *whole));
             if (complete) {
                 if (request_.reshape)
-                    request_.reshape(*whole);
+                    request_.reshape(*whole, query);
                 mesh.add(*std::move(whole));
             }
         } else {

@@ -37,6 +37,8 @@ struct SurfaceFormat {
     std::string_view words;      ///< what it is for
     bool all_in_one = false;     ///< one file holds all steps
     bool by_surface = false;     ///< each surface has files of its own, where there are several
+    bool with_normals = true;    ///< has normals, or none where they are not wanted
+    bool with_colors = true;     ///< has colors
     bool with_values = false;    ///< can hold values at the vertices
     bool with_doubles = false;   ///< can hold coordinates in double precision
     bool of_cells = false;       ///< of cells, not of triangles

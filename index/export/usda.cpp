@@ -112,10 +112,9 @@ class MeshSamples {
                 [&](const MeshVertex& vertex, float) { normals_.place(normal_of(vertex)); });
             normals_.end();
         }
-        constexpr double kFull = 255;
         colored_ = surface.color_of;
         const auto put_color = [&](const std::array<std::uint8_t, 3>& c) {
-            colors_.place(glm::dvec3(c[0], c[1], c[2]) / kFull);
+            colors_.place(glm::dvec3(linear_light(c[0]), linear_light(c[1]), linear_light(c[2])));
         };
         colors_.begin(code);
         if (colored_)

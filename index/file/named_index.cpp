@@ -1,6 +1,8 @@
 // Opens the index that a user names, and finds in it what is named.
 #include "index/file/named_index.h"
 
+#include "index/shell_word.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +19,8 @@ std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& p
         std::filesystem::path made = path;
         made.replace_extension(".isochron");
         throw Error(fmt::format("{}; `isochron build {} -o {}` makes an index of data",
-                                error.what(), path.string(), made.string()));
+                                error.what(), shell_word(path.string()),
+                                shell_word(made.string())));
     }
 }
 

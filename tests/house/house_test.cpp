@@ -49,6 +49,31 @@ TEST(House, AnUpwardIncludeIsFound) {
               std::vector<std::string>{"index/bad.cpp:1 includes render/gl/gl.h"});
 }
 
+/// Sources that print by themselves what files may have a say in.
+std::vector<std::string> loose_prints(const fs::path& root) {
+    const std::regex call(R"(fmt::print|std::(f?printf|f?puts|fputc|fwrite|cout|cerr))");
+    std::vector<std::string> found;
+    for (const std::string& source : sources(root, "app")) {
+        if (source == "app/text.cpp" || source == "app/command_line/progress_bar.cpp")
+            continue;
+        std::ifstream file(root / source);
+        if (std::regex_search(std::string{std::istreambuf_iterator<char>(file), {}}, call))
+            found.push_back(source);
+    }
+    return found;
+}
+
+TEST(House, WhatIsPrintedCannotCommandTheTerminal) {
+    EXPECT_EQ(loose_prints(checkout()), std::vector<std::string>{}) << "print_safely does it";
+}
+
+TEST(House, ALoosePrintIsFound) {
+    const PlantedTree tree("prints");
+    tree.plant("app/bad.cpp", "fmt::print(stderr, \"{}\", name_of(file));\n");
+    tree.plant("app/good.cpp", "print_safely(name_of(file));\n");
+    EXPECT_EQ(loose_prints(tree.root()), std::vector<std::string>{"app/bad.cpp"});
+}
+
 TEST(House, EverySourceStartsWithItsOwnHeader) {
     for (const char* floor : kFloors)
         for (const std::string& source : sources(checkout(), floor)) {

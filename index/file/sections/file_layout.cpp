@@ -2,6 +2,7 @@
 #include "index/file/sections/file_layout.h"
 
 #include "index/error.h"
+#include "index/shell_word.h"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -47,7 +48,8 @@ void check_kind(const std::string& name, const HeaderSlot& slot, std::size_t the
                                          "{}",
                                          name, header.version, kVersionWithoutSince, kFileVersion);
     if (header.version + 1 == kVersionWithoutSince)
-        throw Error(fmt::format("{}; isochron build {} -o NEW.isochron converts it", what, name));
+        throw Error(fmt::format("{}; isochron build {} -o NEW.isochron converts it", what,
+                                shell_word(name)));
     throw Error(what);
 }
 

@@ -1,4 +1,5 @@
 // Several arrays in one index, from the command line: building, asking, appending, describing.
+#include "app/text.h"
 #include "tests/app/commands/command_line.h"
 
 #include <nlohmann/json.hpp>
@@ -104,6 +105,19 @@ TEST_F(ArraysCommand, EachIsBuiltDescribedAndSearched) {
         "a.isochron: no array cold, expected rho, heat, wind.1");
 }
 
+TEST_F(ArraysCommand, TheSizeThatInfoSaysIsThatOfTheFile) {
+    ASSERT_EQ(isochron(build({"--all-arrays"})).status, 0);
+    const auto bytes = std::filesystem::file_size(folder.path() / "a.isochron");
+    for (const std::vector<std::string>& more :
+         std::vector<std::vector<std::string>>{{}, {"--array", "heat"}}) {
+        std::vector<std::string> all{"info", "a.isochron"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_THAT(isochron(all).out,
+                    HasSubstr(fmt::format("\nfile          {}: volume ",
+                                          human_bytes(static_cast<double>(bytes)))));
+    }
+}
+
 TEST_F(ArraysCommand, AllThatThereAreAreTakenWithTheMagnitudeOfVectors) {
     const ChildResult made = isochron(build({"--all-arrays"}));
     ASSERT_EQ(made.status, 0) << made.err;
@@ -137,6 +151,37 @@ TEST_F(ArraysCommand, WhereNoneIsNamedTheCommandForEachIsToldAndWorks) {
         EXPECT_EQ(isochron(build(more)).status, 0) << line;
     }
     EXPECT_EQ(commands, 4u) << told.err; // rho, heat, the magnitude of wind, and all
+}
+
+TEST_F(ArraysCommand, TheCommandForEachHasAllThatWasTyped) {
+    const auto told = [&](std::vector<std::string> typed) {
+        typed.insert(typed.begin(), "build");
+        std::istringstream said(isochron(typed).err);
+        std::vector<std::string> commands;
+        for (std::string line; std::getline(said, line) && line.starts_with("isochron build ");)
+            commands.push_back(line);
+        return commands;
+    };
+    const std::vector<std::string> commands =
+        told({"t0.vtk", "t1.vtk", "t2.vtk", "--steps", "0:1", "--spacing", "2", "3", "4", "-o",
+              "it's a.isochron", "--crop=0:7,0:6,0:5", "--length-unit", "nautical mile"});
+    const std::string start = "isochron build t0.vtk t1.vtk t2.vtk --steps 0:1 --spacing 2 3 4 -o "
+                              "'it'\\''s a.isochron' --crop=0:7,0:6,0:5 --length-unit "
+                              "'nautical mile' --";
+    ASSERT_THAT(commands, ElementsAre(start + "array rho", start + "array heat",
+                                      start + "array wind.magnitude", start + "all-arrays"));
+    const ChildResult made = run_child(
+        "/bin/sh", {"-c", test_support::binary_root() + "/" + commands[1]}, folder.path());
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_THAT(made.out, HasSubstr("8 x 7 x 6 vertices, 2 steps"));
+
+    // Behind `--` there are files only. A component or a unit goes with one array.
+    std::string vectors = file_of(0, {"wind"});
+    vectors += vectors.substr(vectors.find("VECTORS")).replace(8, 4, "swirl");
+    folder.write("v.vtk", vectors);
+    EXPECT_THAT(told({"-o", "a.isochron", "--component", "1", "--", "v.vtk"}),
+                ElementsAre("isochron build -o a.isochron --component 1 --array wind -- v.vtk",
+                            "isochron build -o a.isochron --component 1 --array swirl -- v.vtk"));
 }
 
 TEST_F(ArraysCommand, WhatIsComputedMayBeAmongThem) {

@@ -203,13 +203,15 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");
     expect_failure(isochron({}), 2, "expected info, build");
     expect_failure(isochron({"xyzzy"}), 2, "xyzzy: unknown, expected info, build");
-    for (const char* file : {"a.isochron", "walk.jsonl", "picture.png"})
+    for (const char* file : {"a.isochron", "walk.jsonl", "picture.png", "my data.raw"})
         folder.write(file, "?");
     for (const auto& [arguments, message] :
          std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"bild"}, "isochron: bild: unknown, did you mean build? (see isochron --help)\n"},
              {{"exlpore", "a.isochron"}, "exlpore: unknown, did you mean explore? (see"},
              {{"walk.jsonl"}, "did you mean `isochron replay walk.jsonl`?"},
+             {{"walk.jsonl", "--stamps", "--out", "my pictures"},
+              "did you mean `isochron replay walk.jsonl --stamps --out 'my pictures'`?"},
              {{"picture.png"}, "did you mean `isochron reproduce picture.png`?"},
              {{"explore", "--isovlaue", "3", "a.isochron"},
               "--isovlaue: unknown option, did you mean --isovalue? (see isochron explore --help)"},
@@ -223,6 +225,8 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
         expect_failure(isochron(arguments), 2, message);
     expect_failure(isochron({"change", "a.isochron", "--isovalue", "0", "--step", "1"}), 2,
                    "--to-step or --to-isovalue is missing");
+    expect_failure(isochron({"query", "my data.raw", "--isovalue", "0", "--step", "1"}), 1,
+                   "`isochron build 'my data.raw' -o 'my data.isochron'` makes an index");
     expect_failure(isochron({"generate", "cubes"}), 2,
                    "cubes: unknown, expected sphere, vorticity");
     expect_failure(isochron({"replay", "walk.jsonl", "--out", "pictures"}), 2,
@@ -285,20 +289,6 @@ TEST_F(CommandLine, VerifyFindsDamageThatOpeningDoesNotTouch) {
     EXPECT_EQ(isochron({"info", "b.isochron"}).status, 0);
     EXPECT_EQ(isochron({"verify", "a.isochron"}).out, "a.isochron: every checksum matches\n");
     expect_failure(isochron({"verify", "b.isochron"}), 1, "b.isochron: damaged: volume, step ");
-}
-
-TEST_F(CommandLine, TextsOfFilesCannotCommandTheTerminal) {
-    folder.write("e.nrrd", "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
-                           "space units: \"m\033[31m\" \"m\x07\" \"\xc2\x9b m\"\n\n12345678");
-    folder.write("c.toml", "version = 1\n[[windows]]\nname = \"w\\u001b[31m\\u009bx\"\n");
-    for (const std::vector<std::string>& command :
-         {std::vector<std::string>{"info", "e.nrrd"}, {"explore", "--check-config", "c.toml"}}) {
-        const ChildResult result = isochron(command);
-        const std::string all = result.out + result.err;
-        EXPECT_THAT(all, HasSubstr("\\x1b[31m"));
-        for (const char* control : {"\033", "\x07", "\xc2\x9b"})
-            EXPECT_THAT(all, testing::Not(HasSubstr(control))) << command[0];
-    }
 }
 
 TEST_F(CommandLine, ALimitOfFilesIsOneLineAndLeavesNothing) {

@@ -1,5 +1,6 @@
 // `isochron export`: what VTK reads of the files is VTK's own surface, and what is refused leaves
 // nothing.
+#include "app/text.h"
 #include "tests/app/commands/command_line.h"
 
 #include <nlohmann/json.hpp>
@@ -48,8 +49,12 @@ TEST_F(ExportCommand, EveryFormatHoldsTheSurfacesOfVtk) {
     expect_done({"build", "t0.vti", "t1.vti", "--array", "v", "--color", "c", "-o", "a.isochron"});
     for (const std::string format : {"ply", "stl", "obj", "vtp", "glb", "glb-animation", "usda"}) {
         const std::string extension = format == "glb-animation" ? "glb" : format;
-        expect_done({"export", "a.isochron", "--isovalue", "0.25", "--isovalue", "-0.4",
-                     "--color-by", "c", "--format", format, "-o", format + "." + extension});
+        std::vector<std::string> all{
+            "export", "a.isochron", "--isovalue", "0.25", "--isovalue",
+            "-0.4",   "--format",   format,       "-o",   format + "." + extension};
+        if (format != "stl")
+            all.insert(all.end(), {"--color-by", "c"});
+        expect_done(all);
     }
     with_vtk("check");
 }
@@ -228,6 +233,19 @@ TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
     EXPECT_EQ(fewer.at("vertices").get<int>() - fewer.at("triangles").get<int>() / 2, 2);
     exported("again.ply", {"--simplify", "0.1"});
     EXPECT_EQ(folder.read("again.ply"), folder.read("fewer.ply")) << "the same bytes again";
+    EXPECT_THAT(expect_done({"export", "s.isochron", "--isovalue", "100", "--simplify", "0.1", "-o",
+                             "about.stl"})
+                    .out,
+                HasSubstr("the surface has moved by about 0."));
+    // A distance in another unit than the user had in mind; nothing is left of the surface.
+    const ChildResult refused = isochron(
+        {"export", "s.isochron", "--isovalue", "100", "--simplify", "1e4", "-o", "none.stl"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err,
+                HasSubstr(fmt::format("isochron: step 0: --simplify 10000 leaves none of the {} "
+                                      "triangles at isovalue 100; a smaller distance is needed\n",
+                                      grouped(whole.at("triangles").get<std::uint64_t>()))));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.stl"));
 }
 
 TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
@@ -332,7 +350,15 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
         {{"--isovalue", "0", "-o", "a.step"}, "expected a name that ends in .ply"},
         {{"--isovalue", "0", "-o", "out/"}, "or a folder and --format, got out/"},
-        {{"--isovalue", "0", "-o", "a.glb", "--precision", "double"}, "glb has single precision"},
+        {{"--isovalue", "0", "-o", "a.glb", "--precision", "double"},
+         "--precision double: is for ply, obj, vtp, csv, not glb"},
+        {{"--isovalue", "0", "-o", "a.csv", "--color-by", "t"},
+         "--color-by: is for ply, obj, vtp, glb, glb-animation, usda, not csv"},
+        {{"--isovalue", "0", "-o", "a.stl", "--color-by", "t"}, "usda, not stl"},
+        {{"--isovalue", "0", "-o", "a.ply", "--range", "0", "1"}, "--range requires --color-by"},
+        {{"--isovalue", "0", "-o", "a.csv", "--no-normals"}, "--no-normals: is for ply, obj"},
+        {{"--isovalue", "0", "-o", "a.glb", "--rate", "5"},
+         "--rate: is for glb-animation, usda, not glb"},
         {{"--isovalue", "0", "-o", "a.ply", "--steps", "0:5"},
          "--steps 0:5: expected steps 0 to 4"},
         {{"--isovalue", "0", "-o", "a.ply", "--steps", "3:1"}, "the first not after the last"},

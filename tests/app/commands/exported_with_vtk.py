@@ -90,7 +90,15 @@ def read(reader, name):
     return reader.GetOutput()
 
 
+def linear(srgb):
+    """Light of 8-bit sRGB, by IEC 61966-2-1."""
+    c = srgb / 255
+    return np.where(c <= .04045, c / 12.92, ((c + .055) / 1.055) ** 2.4)
+
+
 def check_glb(name, steps):
+    """Returns the colors of the vertices."""
+    colors = []
     with open(name, "rb") as file:
         content = file.read()
     magic, version, length = struct.unpack("<III", content[:12])
@@ -123,6 +131,7 @@ def check_glb(name, steps):
         assert np.allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-3)
         corners, _ = array(part["indices"])
         assert corners.max() < len(places)
+        colors.append(array(part["attributes"]["COLOR_0"])[0][:, :3])
     root = document["nodes"][0]
     shown = [document["nodes"][i] for i in root["children"]]
     assert len(shown) == steps
@@ -137,9 +146,12 @@ def check_glb(name, steps):
                 scale, _ = array(sampler["output"])
                 scales.append(scale[np.searchsorted(times[:, 0], time, side="right") - 1, 0])
             assert scales == [1.0 if abs(k / 10 + 0.05 - time) < 1e-6 else 0.0 for k in range(steps)], scales
+    return np.concatenate(colors)
 
 
 def check_usda(name, expected):
+    """Returns the colors of the vertices of each step."""
+    colors = [[], []]
     text = open(name).read()
     assert text.startswith("#usda 1.0\n")
     bare = re.sub(r'"(\\.|[^"\\])*"', '""', text)
@@ -160,10 +172,13 @@ def check_usda(name, expected):
             places = points[step].reshape(-1, 3)
             compare(f"usda {surface} {step}", places[faces[step].astype("i8").reshape(-1, 3)],
                     expected[step][surface])
+            colors[step].append(samples("color3f[] primvars:displayColor")[step].reshape(-1, 3))
+    return [np.concatenate(of_step) for of_step in colors]
 
 
 def check(folder):
     expected = [[wanted(step, isovalue) for isovalue in ISOVALUES] for step in range(2)]
+    usda = check_usda(f"{folder}/usda.usda", expected)
     for step in range(2):
         both = np.concatenate(expected[step])
         ply = read(vtk.vtkPLYReader(), f"{folder}/ply_{step:04}.ply")
@@ -175,7 +190,6 @@ def check(folder):
         cells = vtk_to_numpy(ply.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         flat = np.linalg.norm(across, axis=1) < 1e-6
         assert ((across * normals[cells[:, 0]]).sum(1)[~flat] > 0).mean() > 0.98
-        assert ply.GetPointData().GetArray("RGB").GetNumberOfComponents() == 3
         compare("obj", triangles_of(read(vtk.vtkOBJReader(), f"{folder}/obj_{step:04}.obj")), both)
         for surface in range(2):
             stl = read(vtk.vtkSTLReader(), f"{folder}/stl_surface{surface + 1}_{step:04}.stl")
@@ -189,7 +203,14 @@ def check(folder):
         found = vtk_to_numpy(vtp.GetPointData().GetArray("c"))
         assert np.allclose(found, ((points - ORIGIN) / SPACING) @ [1, 2, -3], atol=1e-3)
         assert set(vtk_to_numpy(vtp.GetPointData().GetArray("surface"))) == {0, 1}
-        check_glb(f"{folder}/glb_{step:04}.glb", 1)
+        # Colors are sRGB, but those of glTF and USD are linear light.
+        srgb = vtk_to_numpy(vtp.GetPointData().GetArray("color"))
+        assert len(np.unique(srgb, axis=0)) > 50
+        assert np.array_equal(vtk_to_numpy(ply.GetPointData().GetArray("RGB")), srgb)
+        obj = [line.split()[4:7] for line in open(f"{folder}/obj_{step:04}.obj") if line.startswith("v ")]
+        assert np.allclose(np.array(obj, "f8") * 255, srgb, atol=.1)
+        assert np.abs(usda[step] - linear(srgb)).max() < 1e-6
+        assert np.abs(check_glb(f"{folder}/glb_{step:04}.glb", 1) / 255 - linear(srgb)).max() < .51 / 255
         reader = vtk.vtkGLTFReader()
         blocks = read(reader, f"{folder}/glb_{step:04}.glb").NewIterator()
         blocks.InitTraversal()
@@ -201,7 +222,6 @@ def check(folder):
     collection = open(f"{folder}/vtp.pvd").read()
     assert re.findall(r'file="([^"]+)"', collection) == ["vtp_0000.vtp", "vtp_0001.vtp"]
     check_glb(f"{folder}/glb-animation.glb", 2)
-    check_usda(f"{folder}/usda.usda", expected)
 
 
 if __name__ == "__main__":

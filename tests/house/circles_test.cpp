@@ -87,7 +87,7 @@ TEST(Circles, NoFileIncludesOneThatIncludesItBack) {
 }
 
 TEST(Circles, AStraightOneIsFound) {
-    const PlantedTree tree("straight_circle");
+    const PlantedTree tree;
     tree.plant("render/gl/a.h", "#pragma once\n");
     tree.plant("render/gl/a.cpp", "#include \"render/gl/a.h\"\n#include \"render/gl/b.h\"\n");
     tree.plant("render/gl/b.h", "#include \"render/gl/a.h\"\n");
@@ -95,7 +95,7 @@ TEST(Circles, AStraightOneIsFound) {
 }
 
 TEST(Circles, ARoundOneIsFound) {
-    const PlantedTree tree("round_circle");
+    const PlantedTree tree;
     tree.plant("index/file/a.h", "#include \"index/file/b.h\"\n#include \"index/file/d.h\"\n");
     tree.plant("index/file/b.h", "#include \"index/file/d.h\"\n");
     tree.plant("index/file/c.h", "#include \"index/file/a.h\"\n#include \"index/file/b.h\"\n");
@@ -106,7 +106,7 @@ TEST(Circles, ARoundOneIsFound) {
 }
 
 TEST(Circles, AmongTestsOneIsFoundToo) {
-    const PlantedTree tree("test_circle");
+    const PlantedTree tree;
     tree.plant("tests/support/a.h", "#include \"tests/support/b.h\"\n");
     tree.plant("tests/support/b.h", "#include \"tests/support/a.h\"\n");
     EXPECT_EQ(circle_in(tree.root()), "tests/support/a > tests/support/b > tests/support/a");

@@ -135,7 +135,7 @@ TEST(Classes, QuotedIncludesStartAtTheRoot) {
 }
 
 TEST(Classes, ALargeOneIsFound) {
-    const PlantedTree tree("large_class");
+    const PlantedTree tree;
     std::string members, few;
     for (int i = 0; i < kMostMembers + 1; ++i) {
         (i < kMostMembers ? few : members) += "    int m" + std::to_string(i) + "_ = 0;\n";
@@ -176,7 +176,7 @@ struct Pair {
 }
 
 TEST(Classes, AScatteredOneIsFound) {
-    const PlantedTree tree("scattered_class");
+    const PlantedTree tree;
     tree.plant("app/a.cpp",
                "Both::Both() {}\nint Both::one() const {\n    return Other::two();\n}\n");
     tree.plant("app/b.cpp", "std::vector<int> Both::three() {\n}\nvoid Single::four() {}\n");
@@ -184,7 +184,7 @@ TEST(Classes, AScatteredOneIsFound) {
 }
 
 TEST(Classes, LongUnitsFullFoldersAndLooseIncludesAreFound) {
-    const PlantedTree tree("long_unit");
+    const PlantedTree tree;
     tree.plant("index/long.h", std::string(kMostLines / 2, '\n'));
     tree.plant("index/long.cpp", std::string(kMostLines / 2 + 1, '\n'));
     for (int i = 0; i <= kMostFiles; ++i)

@@ -77,7 +77,7 @@ TEST(Clocks, ATestThatLooksAtOneHasAReason) {
 }
 
 TEST(Clocks, AreFound) {
-    const PlantedTree tree("clocks");
+    const PlantedTree tree;
     tree.plant("tests/a_test.cpp", "std::this_thread::sleep_for(20ms);\n");
     tree.plant("tests/b_test.cpp", "const auto start = std::chrono::steady_clock::now();\n");
     tree.plant("tests/c_test.cpp", "while (!done)\n    std::this_thread::yield();\n");

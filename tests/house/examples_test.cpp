@@ -42,7 +42,7 @@ TEST(Examples, AllAreCompiled) {
 }
 
 TEST(Examples, OneThatIsLeftOutIsFound) {
-    const PlantedTree tree("examples");
+    const PlantedTree tree;
     tree.plant("render/gl/a.h",
                "// What it is for.\n//\n//     A a(gl);\n//     a.draw();\n#pragma once\n");
     tree.plant("render/gl/b.h", "// What it is for.\n#pragma once\n//     not an example\n");
@@ -51,7 +51,7 @@ TEST(Examples, OneThatIsLeftOutIsFound) {
 }
 
 TEST(Examples, AreTheIndentedLinesOfTheFirstComment) {
-    const PlantedTree tree("example_text");
+    const PlantedTree tree;
     tree.plant("a.h",
                "// What it is for.\n//\n//     if (a)\n//         b();\n//\n// More.\n//     c();\n"
                "#pragma once\n//     no();\n");

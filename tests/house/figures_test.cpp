@@ -110,7 +110,7 @@ TEST(Figures, OfTheReadmeAndTheGuideHaveASource) {
 }
 
 TEST(Figures, WithoutASourceAreFound) {
-    const PlantedTree tree("figures");
+    const PlantedTree tree;
     tree.plant("docs/results/a.txt", "56.3 of 1024 MiB read, 160 ms; index / data 0.387, 896.0 of "
                                      "1024 MiB\n");
     tree.plant("a.cpp", "constexpr double kSlack = 0.02;\n");

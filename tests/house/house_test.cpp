@@ -44,7 +44,7 @@ TEST(House, NoFloorLooksUpwards) {
 }
 
 TEST(House, AnUpwardIncludeIsFound) {
-    const PlantedTree tree("upwards");
+    const PlantedTree tree;
     tree.plant("index/bad.cpp", "#include \"render/gl/gl.h\"\n");
     EXPECT_EQ(upward_includes(tree.root()),
               std::vector<std::string>{"index/bad.cpp:1 includes render/gl/gl.h"});

@@ -111,7 +111,7 @@ TEST(Pages, EveryLinkLeadsSomewhere) {
 }
 
 TEST(Pages, DeadLinksAndAnchorsAreFound) {
-    const PlantedTree tree("dead_links");
+    const PlantedTree tree;
     tree.plant("README.md", "# Page\n[good](docs/a.md#one-two) [page](#page)\n"
                             "[gone](docs/b.md) ![no picture](docs/p.png)\n[no anchor](#two)\n"
                             "```\n[in code](nowhere)\n```\n[far](https://example.org)\n");
@@ -176,7 +176,7 @@ TEST(Pages, EveryOptionThatTheyNameIsThere) {
 }
 
 TEST(Pages, OptionsThatNothingHasAreFound) {
-    const PlantedTree tree("unknown_options");
+    const PlantedTree tree;
     tree.plant("app/a.cpp", "option(\"-o,--out\"); flag(\"--quiet\");\n");
     tree.plant("README.md",
                "`--out FILE`, `--quiet`, `--loud`\n```sh\nisochron build --in x\n```\n");
@@ -208,7 +208,7 @@ Findings long_pages(const std::filesystem::path& root) {
 
 TEST(Pages, OfTheGuideTakeAtMostTwoScreens) {
     EXPECT_EQ(long_pages(checkout()), Findings{});
-    const PlantedTree tree("long_pages");
+    const PlantedTree tree;
     tree.plant("docs/guide/long.md", std::string(151, '\n'));
     tree.plant("docs/guide/wide.md", std::string(7501, 'x'));
     tree.plant("docs/guide/short.md", std::string(150, '\n'));

@@ -90,7 +90,7 @@ std::vector<std::string> foreign_requests(const fs::path& site) {
 }
 
 TEST(Site, IsMadeWithoutAWarningLeadsSomewhereAndAsksNoOtherHost) {
-    const PlantedTree tree("site");
+    const PlantedTree tree;
     const std::string site = (tree.root() / "site").string();
     const std::string command = "mkdocs build --quiet --strict --config-file '" +
                                 (checkout() / "packaging/mkdocs.yml").string() + "' --site-dir '" +
@@ -105,7 +105,7 @@ TEST(Site, IsMadeWithoutAWarningLeadsSomewhereAndAsksNoOtherHost) {
 }
 
 TEST(Site, DeadEndsAndForeignRequestsAreFound) {
-    const PlantedTree tree("dead_site");
+    const PlantedTree tree;
     tree.plant("index.html", "<h1 id=\"top\"></h1><a href=\"#top\">a</a><a href=\"#gone\">b</a>"
                              "<a href=\"guide/a.html#one\">c</a><a href=\"guide/b.html\">d</a>"
                              "<a href=\"https://example.org/\">followed by people</a>"

@@ -3,8 +3,6 @@
 
 #include "tests/support/paths.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <fstream>
 #include <regex>
@@ -42,19 +40,9 @@ std::vector<Include> includes_of(const fs::path& file) {
     return found;
 }
 
-PlantedTree::PlantedTree(const std::string& name) : root_(fs::path(testing::TempDir()) / name) {
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-}
-
-PlantedTree::~PlantedTree() {
-    std::error_code ignored;
-    fs::remove_all(root_, ignored);
-}
-
 void PlantedTree::plant(const std::string& path, const std::string& text) const {
-    fs::create_directories((root_ / path).parent_path());
-    std::ofstream(root_ / path) << text;
+    fs::create_directories((root() / path).parent_path());
+    folder_.write(path, text);
 }
 
 } // namespace isochron::house

@@ -1,6 +1,8 @@
 // Reads the source tree for its tests: files, the order of folders, and includes.
 #pragma once
 
+#include "tests/support/test_folder.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,17 +29,12 @@ std::vector<Include> includes_of(const std::filesystem::path& file);
 /// A folder for a planted violation, empty at first and removed at the end.
 class PlantedTree {
   public:
-    explicit PlantedTree(const std::string& name);
-    ~PlantedTree();
-    PlantedTree(const PlantedTree&) = delete;
-    PlantedTree& operator=(const PlantedTree&) = delete;
-
     /// Writes a file; its folders are made.
     void plant(const std::string& path, const std::string& text) const;
-    const std::filesystem::path& root() const { return root_; }
+    const std::filesystem::path& root() const { return folder_.path(); }
 
   private:
-    std::filesystem::path root_;
+    test_support::TestFolder folder_;
 };
 
 } // namespace isochron::house

@@ -139,7 +139,7 @@ TEST(Wings, AllOfTheOrderAreThere) {
 }
 
 TEST(Wings, AnIncludeOfWhatStandsInFrontIsFound) {
-    const PlantedTree tree("in_front");
+    const PlantedTree tree;
     tree.plant("app/config/bad.h", "#pragma once\n#include \"app/frame/frame_log.h\"\n");
     tree.plant("index/system/bad.cpp", "#include \"index/file/index_file.h\"\n");
     tree.plant("stereo/context/bad.h", "#include \"stereo/screen.h\"\n");
@@ -152,7 +152,7 @@ TEST(Wings, AnIncludeOfWhatStandsInFrontIsFound) {
 }
 
 TEST(Wings, AnIncludeOfANeighborIsFound) {
-    const PlantedTree tree("neighbors");
+    const PlantedTree tree;
     tree.plant("render/cells/bad.cpp", "#include \"render/passes/line_pass.h\"\n");
     tree.plant("index/scan/good.cpp", "#include \"index/scan/bricks.h\"\n"
                                       "#include \"index/volume/grid.h\"\n");
@@ -161,7 +161,7 @@ TEST(Wings, AnIncludeOfANeighborIsFound) {
 }
 
 TEST(Wings, AnIncludeOfWhatStandsApartIsFound) {
-    const PlantedTree tree("apart");
+    const PlantedTree tree;
     tree.plant("app/session/bad.cpp", "#include \"app/generate/demo_series.h\"\n");
     tree.plant("app/commands/command_generate.cpp", "#include \"app/generate/demo_series.h\"\n");
     tree.plant("app/scene/bad.cpp", "#include \"app/command_line/cancel.h\"\n");
@@ -176,7 +176,7 @@ TEST(Wings, AnIncludeOfWhatStandsApartIsFound) {
 }
 
 TEST(Wings, AFileInNoWingIsFound) {
-    const PlantedTree tree("no_wing");
+    const PlantedTree tree;
     tree.plant("render/loose.h", "#pragma once\n");
     tree.plant("app/attic/box.h", "#pragma once\n");
     EXPECT_EQ(includes_against_the_order(tree.root()),

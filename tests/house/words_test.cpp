@@ -79,7 +79,7 @@ TEST(Words, OfTheArchitectureAreAtMostFortyAndUsedWhereTheyAreNamed) {
 }
 
 TEST(Words, SaidTwiceTooOftenOrNowhereUsedAreFound) {
-    const PlantedTree tree("words");
+    const PlantedTree tree;
     tree.plant("index/grid.h", "/// A cell, and the index space.\n");
     const std::string page = "# Page\n\n## Words\n\n| word | meaning | where |\n|---|---|---|\n"
                              "| cell | a box | `index/grid.h` |\n"

@@ -11,6 +11,8 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace isochron::house {
@@ -100,26 +102,30 @@ bool is_name_of_code(const std::string& word) {
            std::ranges::any_of(word, [](unsigned char c) { return c == '_' || std::isupper(c); });
 }
 
-bool has_word(const std::string& text, const std::string& word) {
-    const auto continues = [&](std::size_t at) {
-        return at < text.size() &&
-               (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
-    };
-    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
-        if (!(at > 0 && continues(at - 1)) && !continues(at + word.size()))
-            return true;
-    return false;
+using Words = std::unordered_set<std::string_view>;
+
+void add_words(std::string_view text, Words& words) {
+    const auto is_part = [](unsigned char c) { return c == '_' || std::isalnum(c); };
+    for (auto at = text.begin(); at != text.end();) {
+        const auto begin = std::find_if(at, text.end(), is_part);
+        at = std::find_if_not(begin, text.end(), is_part);
+        words.emplace(begin, at);
+    }
 }
 
 /// Names that are nowhere, or not in the files that their item names, as `page: name: item`.
 Found misplaced_names(const fs::path& root, const std::vector<std::string>& pages) {
     static const std::regex kCode("`([^`]+)`");
     const Files files = files_of(root);
+    Words of_sources; // of all of them, as most items name no file
+    for (const auto& [path, text] : files)
+        if (path.ends_with(".h") || path.ends_with(".cpp"))
+            add_words(text, of_sources);
     Found found;
     for (const std::string& page : pages)
         for (const std::string& item : items_of(files.at(page))) {
             std::vector<std::string> names;
-            std::string texts;
+            Words words;
             for (std::sregex_iterator at(item.begin(), item.end(), kCode), end; at != end; ++at) {
                 const std::string word = (*at)[1].str();
                 if (is_name_of_code(word))
@@ -131,17 +137,14 @@ Found misplaced_names(const fs::path& root, const std::vector<std::string>& page
                 for (const auto& [path, text] : files)
                     if (path != page && std::regex_match(path, pattern)) {
                         there = true;
-                        texts += path + '\n' + text;
+                        add_words(path, words);
+                        add_words(text, words);
                     }
                 if (!there)
                     found.push_back(page + ": " + word + " is not there");
             }
-            if (texts.empty())
-                for (const auto& [path, text] : files)
-                    if (path.ends_with(".h") || path.ends_with(".cpp"))
-                        texts += text;
             for (const std::string& name : names)
-                if (!has_word(texts, name))
+                if (!(words.empty() ? of_sources : words).contains(name))
                     found.push_back(page + ": " + name + " is not in the files named beside it");
         }
     return found;

@@ -2,6 +2,7 @@
 #include "interaction/playback.h"
 
 #include "tests/interaction/input_builders.h"
+#include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
 
@@ -27,10 +28,10 @@ PlaybackState playing(bool reverse = false, bool loop = true, double speed = 1.0
 }
 
 TEST(Playback, StepsAreShownForTheirShareOfPhysicalTime) {
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(seed);
-        const std::vector<double> times = uneven_times(random, 2 + seed);
+    Random random(test_seed());
+    for (int trial = 0; trial < tries(20); ++trial) {
+        SCOPED_TRACE(testing::Message() << "trial " << trial);
+        const std::vector<double> times = uneven_times(random, 2 + random() % 20);
         const double mean = (times.back() - times.front()) / double(times.size() - 1);
         const double round = times.back() - times.front() + mean;
         for (const bool reverse : {false, true}) {
@@ -52,9 +53,9 @@ TEST(Playback, StepsAreShownForTheirShareOfPhysicalTime) {
 }
 
 TEST(Playback, TheStepIsTheLastOneNotLaterThanTheCursor) {
-    for (unsigned seed = 0; seed < 50; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(seed);
+    Random random(test_seed());
+    for (int trial = 0; trial < tries(50); ++trial) {
+        SCOPED_TRACE(testing::Message() << "trial " << trial);
         const std::vector<double> times = uneven_times(random, 40);
         const double round = period(times);
         const double speed = std::exp2(uniform(random, -6, 6));
@@ -170,11 +171,11 @@ TEST(Playback, UnevenAndAwkwardTimesNeverStick) {
 }
 
 TEST(Playback, BlendedTimePassesThroughTheMomentsBetweenTheSteps) {
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(seed);
+    Random random(test_seed());
+    for (int trial = 0; trial < tries(20); ++trial) {
+        SCOPED_TRACE(testing::Message() << "trial " << trial);
         std::vector<double> times{0};
-        while (times.size() < 3 + seed)
+        for (std::size_t size = 3 + random() % 20; times.size() < size;)
             times.push_back(times.back() + uniform(random, 1, 2.9)); // no gaps
         for (const bool reverse : {false, true}) {
             Playback playback;

@@ -3,6 +3,7 @@
 
 #include "interaction/playback.h"
 #include "tests/interaction/input_builders.h"
+#include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
 
@@ -61,11 +62,11 @@ TEST(StepTrack, ToAndFroShowsTheEndsOnce) {
 }
 
 TEST(StepTrack, ToAndFroEachStepLastsAsLongAsItDoesInTheData) {
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(seed);
+    Random random(test_seed());
+    for (int trial = 0; trial < tries(20); ++trial) {
+        SCOPED_TRACE(testing::Message() << "trial " << trial);
         std::vector<double> times{uniform(random, -9, 9)};
-        for (unsigned i = 0; i < 2 + seed; ++i)
+        for (std::size_t size = 3 + random() % 20; times.size() < size;)
             times.push_back(times.back() + std::exp(uniform(random, -2, 2)));
         PlaybackState state{.playing = true, .ping_pong = true};
         const StepTrack track(times, {}, state);

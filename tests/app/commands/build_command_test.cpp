@@ -339,15 +339,13 @@ TEST_F(CommandLine, FlagsInTheirOldSpellingDoTheSame) {
         "0",     "--color-unit", "K",       "-o",    "c.isochron"};
     ASSERT_EQ(isochron(now).status, 0);
     const std::string whole = folder.read("c.isochron");
-    for (const std::string flag : {"--color", "--color-component", "--color-unit"}) {
-        std::vector<std::string> old = now;
+    std::vector<std::string> old = now;
+    for (const std::string flag : {"--color", "--color-component", "--color-unit"})
         std::ranges::replace(old, flag, "--colour" + flag.substr(7));
-        ASSERT_NE(old, now);
-        std::filesystem::remove(folder.path() / "c.isochron");
-        const ChildResult result = isochron(old);
-        EXPECT_EQ(result.status, 0) << result.err;
-        EXPECT_EQ(folder.read("c.isochron"), whole) << flag;
-    }
+    std::filesystem::remove(folder.path() / "c.isochron");
+    const ChildResult result = isochron(old);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(folder.read("c.isochron"), whole);
 }
 
 TEST_F(CommandLine, ColorsAreAppendedWithTheRest) {

@@ -193,7 +193,6 @@ TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
 TEST_F(CommandLine, BadUsageIsStatus2) {
     expect_failure(isochron({"build", "t0.raw"}), 2, "--out");
     expect_failure(isochron({"query", "a.isochron", "--step", "1"}), 2, "--isovalue");
-    expect_failure(isochron({"query", "a.isochron", "--isovalue", "x", "--step", "1"}), 2, "x");
     expect_failure(isochron({"info", "a.isochron", "--unknown"}), 2, "--unknown");
     expect_failure(isochron(build_of("t*.raw", {"--lattice", "0"})), 2, "--lattice");
     expect_failure(isochron(build_of("t*.raw", {"--tiers", "bricks,cubes"})), 2,
@@ -231,27 +230,6 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
                    "cubes: unknown, expected sphere, vorticity");
     expect_failure(isochron({"replay", "walk.jsonl", "--out", "pictures"}), 2,
                    "--every N or --stamps");
-}
-
-TEST_F(CommandLine, HelpOfEveryCommandNamesItsOptions) {
-    for (const auto& [command, options] :
-         std::vector<std::pair<std::string, std::vector<std::string>>>{
-             {"build", {"--array",         "--component",  "--dims",          "--type",
-                        "--spacing",       "--origin",     "--time-step",     "--length-unit",
-                        "--time-unit",     "--value-unit", "--big-endian",    "--header-bytes",
-                        "--allow-surplus", "--lattice",    "--max-variation", "--tiers",
-                        "--append",        "--refer",      "--threads",       "--quiet"}},
-             {"query", {"--isovalue", "--step", "--ids", "--json", "--method"}},
-             {"change",
-              {"--isovalue", "--step", "--to-isovalue", "--to-step", "--added", "--removed",
-               "--json"}},
-             {"info", {"--json", "--tree"}},
-             {"verify", {"NAME.isochron"}}}) {
-        const ChildResult result = isochron({command, "--help"});
-        EXPECT_EQ(result.status, 0);
-        for (const std::string& option : options)
-            EXPECT_THAT(result.out, HasSubstr(option)) << command;
-    }
 }
 
 TEST(GridsToShow, MayHave2To35VerticesAndNotMore) {

@@ -14,6 +14,9 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <iterator>
+#include <regex>
 
 namespace isochron::app {
 namespace {
@@ -188,8 +191,11 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
 }
 
 TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheCamera) {
-    const auto program =
-        explore({"--config", "cave4", "--emulate", "--record", file("walk.jsonl"), "--no-panel"});
+    std::ifstream shipped(test_support::source_root() + "/configs/cave4.toml");
+    const std::string cave(std::istreambuf_iterator<char>(shipped), {});
+    folder_.write("cave.toml", std::regex_replace(cave, std::regex("1920, 1200"), "192, 120"));
+    const auto program = explore(
+        {"--config", file("cave.toml"), "--emulate", "--record", file("walk.jsonl"), "--no-panel"});
     screen_.xdotool({"keydown", "c", "mousedown", "1"});
     screen_.xdotool({"mousemove_relative", "60", "20"});
     screen_.xdotool({"mouseup", "1", "keyup", "c", "key", "m"});
@@ -200,7 +206,7 @@ TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheC
     EXPECT_EQ(recording.header.window, (std::array{0, 0})) << "the walls are as configured";
     const interaction::DeviceState* camera = recording.frames.back().input.find("camera");
     ASSERT_TRUE(camera);
-    EXPECT_NE(camera->pose, RoomCamera(read_config("cave4").installation).pose());
+    EXPECT_NE(camera->pose, RoomCamera(read_config(file("cave.toml")).installation).pose());
     EXPECT_FALSE(any_frame(recording, [](const auto& c) {
         return c.room_from_physical.has_value();
     })) << "the drag was the camera's";

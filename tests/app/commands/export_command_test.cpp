@@ -374,11 +374,6 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
     for (const auto& [arguments, said] : wrong)
         expect_refused(arguments, said == "to color by" ? 1 : 2, said);
     expect_refused({"--isovalue", "0", "-o", "a.ply", "--array", "none"}, 1, "no array none");
-    folder.write("s_0003.ply", "somebody's\n");
-    expect_refused({"--isovalue", "0", "-o", "s.ply"}, 1, "s_0003.ply: exists already; --force");
-    EXPECT_EQ(folder.read("s_0003.ply"), "somebody's\n");
-    expect_done({"export", "a.isochron", "--isovalue", "0", "-o", "s.ply", "--force"});
-    EXPECT_TRUE(folder.read("s_0003.ply").starts_with("ply\n"));
 }
 
 } // namespace

@@ -41,8 +41,6 @@ class Faults : public CommandLine {
                              "ISOCHRON_FAULT_MARK=" + mark()}});
     }
     static bool tries_all() { return std::getenv("ISOCHRON_EVERY_FAULT") != nullptr; }
-    /// Sets the step from one n to the next, as a share of n, unless all n are tried.
-    void set_growth(double growth) { growth_ = growth; }
     bool was_met() const { return std::filesystem::exists(mark()); }
     std::string mark() const { return marks_.path() / "met"; }
 
@@ -52,7 +50,7 @@ class Faults : public CommandLine {
     int each_call(const Fault& fault, const std::vector<std::string>& arguments, Prepare prepare,
                   Check check) {
         int met = 0;
-        for (long at = 1;; at = tries_all() ? at + 1 : at + 1 + std::lround(growth_ * double(at))) {
+        for (long at = 1;; at = tries_all() ? at + 1 : 3 * at + 1) {
             prepare();
             const ChildResult result = with(fault, at, arguments);
             SCOPED_TRACE(fmt::format("{} {} {}: status {}, {}", fault.kind, at, fault.how,
@@ -82,6 +80,12 @@ class Faults : public CommandLine {
             if (HasFailure())
                 return met;
         }
+    }
+
+    /// What the program keeps of its user lies in the same folder, so that calls on it fail, too.
+    void keep_state_here() {
+        std::filesystem::create_directory(folder.path() / "state");
+        setenv("XDG_STATE_HOME", (folder.path() / "state").c_str(), 1);
     }
 
     std::string hash_of(const std::string& index) {
@@ -135,7 +139,6 @@ class Faults : public CommandLine {
   private:
     TestFolder marks_;
     int library_ends_ = 0;
-    double growth_ = 0.5;
 };
 
 } // namespace isochron::app

@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <string>
@@ -28,50 +29,70 @@ using testing::HasSubstr;
 
 const std::string kNotes = "notes of a user, who has no copy of them\n";
 
-class Outputs : public testing::Test {
-  protected:
-    Outputs() {
+ChildResult run_in(const fs::path& folder, const std::vector<std::string>& arguments) {
+    const char* path = std::getenv("PATH");
+    return run_child(test_support::binary_root() + "/isochron", arguments, folder,
+                     {.environment = {"PATH=" + folder.string() + ":" + (path ? path : ""),
+                                      "XDG_STATE_HOME=" + folder.string() + "/state"}});
+}
+
+/// A series, its index, a recording on it, two of its pictures, and what else commands read: made
+/// once, as each test works on a copy.
+const TestFolder& prepared() {
+    static const TestFolder folder;
+    static const bool made = [] {
         for (int step = 0; step < 3; ++step) {
             std::string bytes;
             for (int i = 0; i < 8 * 8 * 8; ++i) { // a plane that moves
                 const auto value = static_cast<float>(10 * (i / 64 + step) + i % 8);
                 bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
             }
-            folder_.write("t" + std::to_string(step) + ".raw", bytes);
+            folder.write("t" + std::to_string(step) + ".raw", bytes);
         }
-        expect_done({"build", "t0.raw", "t1.raw", "t2.raw", "--dims", "8", "8", "8", "--type",
-                     "f32", "-o", "a.isochron"});
-        folder_.write("cave.pvx", "<pvx><Process Type=\"client\"/><Process Type=\"server\">"
-                                  "<Machine Name=\"a\" Environment=\"DISPLAY=:0\" "
-                                  "LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "
-                                  "UpperRight=\"1 1 -1\"/></Process></pvx>");
-        folder_.write("own.toml", "[rendering]\ncontext = \"egl\"\n[[windows]]\nsize = [64, 48]\n");
+        folder.write("cave.pvx", "<pvx><Process Type=\"client\"/><Process Type=\"server\">"
+                                 "<Machine Name=\"a\" Environment=\"DISPLAY=:0\" "
+                                 "LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "
+                                 "UpperRight=\"1 1 -1\"/></Process></pvx>");
+        folder.write("own.toml", "[rendering]\ncontext = \"egl\"\n[[windows]]\nsize = [64, 48]\n");
         interaction::RecordingHeader header;
-        header.configuration = folder_.read("own.toml");
+        header.configuration = folder.read("own.toml");
         header.data = "a.isochron";
-        interaction::RecordingWriter writer(folder_.path() / "walk.jsonl", header);
+        interaction::RecordingWriter writer(folder.path() / "walk.jsonl", header);
         for (int i = 0; i < 3; ++i)
             writer.append({.input = head_at_rest(i), .commands = {}, .from_panel = {}});
         writer.finish();
         // A stand-in for ffmpeg, which need not be there.
-        folder_.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\nwc -c > \"$last\"\n");
-        fs::permissions(folder_.path() / "ffmpeg", fs::perms::owner_all);
-        fs::create_directory(folder_.path() / "elsewhere");
+        folder.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\nwc -c > \"$last\"\n");
+        fs::permissions(folder.path() / "ffmpeg", fs::perms::owner_all);
+        fs::create_directory(folder.path() / "elsewhere");
+        for (const std::vector<std::string>& command :
+             {std::vector<std::string>{"build", "t0.raw", "t1.raw", "t2.raw", "--dims", "8", "8",
+                                       "8", "--type", "f32", "-o", "a.isochron"},
+              {"replay", "walk.jsonl", "--every", "2", "--out", "shown"}})
+            EXPECT_EQ(run_in(folder.path(), command).status, 0);
+        return true;
+    }();
+    EXPECT_TRUE(made);
+    return folder;
+}
+
+class Outputs : public testing::Test {
+  protected:
+    Outputs() {
+        fs::copy(prepared().path(), folder_.path(), fs::copy_options::recursive);
+        // An index knows its sources by their times, too.
+        for (const std::string& name : prepared().names())
+            fs::last_write_time(folder_.path() / name,
+                                fs::last_write_time(prepared().path() / name));
     }
 
     ChildResult isochron(const std::vector<std::string>& arguments) const {
-        const char* path = std::getenv("PATH");
-        return run_child(
-            test_support::binary_root() + "/isochron", arguments, folder_.path(),
-            {.environment = {"PATH=" + folder_.path().string() + ":" + (path ? path : ""),
-                             "XDG_STATE_HOME=" + folder_.path().string() + "/state"}});
+        return run_in(folder_.path(), arguments);
     }
     void expect_done(const std::vector<std::string>& arguments) const {
         const ChildResult result = isochron(arguments);
         EXPECT_EQ(result.status, 0) << result.err;
     }
-    /// Makes pictures for commands that read one.
-    void show() const { expect_done({"replay", "walk.jsonl", "--every", "2", "--out", "shown"}); }
     static std::vector<std::string> with(std::vector<std::string> command, const std::string& out,
                                          bool force = false) {
         std::ranges::replace(command, "OUT", out);
@@ -108,17 +129,23 @@ class Outputs : public testing::Test {
     }
 
     TestFolder folder_;
-    test_support::VirtualDisplay screen_;
 };
 
-/// Of each way to tell a command where to write.
+/// Each way to tell a command where to write.
 class EachOutput : public Outputs, public testing::WithParamInterface<Way> {
   protected:
     EachOutput() {
-        if (GetParam().page == "reproduce")
-            show();
+        if (GetParam().page == "explore")
+            screen_.emplace();
     }
+
+  private:
+    std::optional<test_support::VirtualDisplay> screen_;
 };
+/// The ways of commands that read files.
+class EachOutputOfAReader : public EachOutput {};
+/// The ways that tell a file, which is always written.
+class EachOutputFile : public EachOutput {};
 
 TEST_P(EachOutput, ReplacesWhatItWroteAndOtherFilesOnlyByForce) {
     const Way way = GetParam();
@@ -146,7 +173,7 @@ TEST_P(EachOutput, ReplacesWhatItWroteAndOtherFilesOnlyByForce) {
         expect_refused(with(way.command, way.out), "exists already", "--force replaces it");
 }
 
-TEST_P(EachOutput, ReplacesNothingThatIsReadNotEvenByForce) {
+TEST_P(EachOutputOfAReader, ReplacesNothingThatIsReadNotEvenByForce) {
     const Way way = GetParam();
     for (const std::string& read : way.read) {
         SCOPED_TRACE(read);
@@ -156,21 +183,20 @@ TEST_P(EachOutput, ReplacesNothingThatIsReadNotEvenByForce) {
         fs::create_symlink(read, link);
         fs::create_hard_link(folder_.path() / read, twin);
         for (const std::string& out :
-             {read, "elsewhere/../" + read, link.filename().string(), twin.filename().string()})
+             {read, "elsewhere/../" + link.filename().string(), twin.filename().string()})
             // What a movie is called says how it is encoded.
             if (way.page != "movie" || fs::path(out).extension() == suffix)
-                for (const bool force : {true, false})
-                    expect_refused(with(way.command, out, force), "it would be overwritten",
-                                   "expected another name");
+                expect_refused(with(way.command, out, true), "it would be overwritten",
+                               "expected another name");
+        expect_refused(with(way.command, link.filename().string()), "it would be overwritten",
+                       "expected another name");
         fs::remove(link);
         fs::remove(twin);
     }
 }
 
-TEST_P(EachOutput, GoesWhereALinkLeadsAndLeavesTheLink) {
+TEST_P(EachOutputFile, GoesWhereALinkLeadsAndLeavesTheLink) {
     const Way way = GetParam();
-    if (way.out != way.file || way.option == "--session")
-        return; // a folder, or not always written
     const fs::path link = folder_.path() / way.file, folder = folder_.path() / "elsewhere";
     fs::create_symlink(fs::path("elsewhere") / way.file, link);
     expect_done(with(way.command, way.out));
@@ -179,11 +205,24 @@ TEST_P(EachOutput, GoesWhereALinkLeadsAndLeavesTheLink) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, EachOutput, testing::ValuesIn(ways()), [](const auto& way) {
+template <class Have>
+auto ways_that(Have have) {
+    std::vector<Way> all = ways();
+    std::erase_if(all, [&](const Way& way) { return !have(way); });
+    return testing::ValuesIn(all);
+}
+std::string way_name(const testing::TestParamInfo<Way>& way) {
     std::string name = way.param.page + way.param.option + "_" + way.param.out;
     std::erase_if(name, [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
     return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(Ways, EachOutput, testing::ValuesIn(ways()), way_name);
+INSTANTIATE_TEST_SUITE_P(Ways, EachOutputOfAReader,
+                         ways_that([](const Way& way) { return !way.read.empty(); }), way_name);
+INSTANTIATE_TEST_SUITE_P(Ways, EachOutputFile, ways_that([](const Way& way) {
+                             return way.out == way.file && way.option != "--session";
+                         }),
+                         way_name);
 
 /// Every option of the manual pages whose words say that something is written is a way above.
 TEST_F(Outputs, AreAllTriedByTheseTests) {
@@ -288,7 +327,6 @@ TEST_F(Outputs, AnIndexBehindALinkFindsTheSourcesThatItRefersTo) {
 }
 
 TEST_F(Outputs, AreRecognizedByWhatIsInThem) {
-    show();
     const std::vector<std::string> query{"query",  "a.isochron", "--isovalue", "50",
                                          "--step", "1",          "--ids",      "OUT"};
     const auto ids = [](std::vector<std::uint32_t> all) {

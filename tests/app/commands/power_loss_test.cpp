@@ -13,7 +13,7 @@ namespace {
 class PowerLoss : public Faults {
   protected:
     PowerLoss() {
-        setenv("XDG_STATE_HOME", state_.path().c_str(), 1);
+        keep_state_here();
         folder.write("cave.pvx", "<pvx><Process Type=\"client\"/><Process Type=\"server\">"
                                  "<Machine Name=\"a\" Environment=\"DISPLAY=:0\" "
                                  "LowerLeft=\"-1 -1 -1\" LowerRight=\"1 -1 -1\" "
@@ -23,7 +23,7 @@ class PowerLoss : public Faults {
     /// Runs the command. @return the files that it gave their names, and complaints
     std::vector<std::string> named_by(const std::vector<std::string>& command,
                                       std::vector<std::string>& unflushed) {
-        const std::string log = state_.path() / "log";
+        const std::string log = log_.path() / "log";
         std::filesystem::remove(log);
         const ChildResult result = isochron(
             command,
@@ -33,7 +33,7 @@ class PowerLoss : public Faults {
         std::map<std::string, std::string> path_of;    // by the file's number
         std::map<std::string, bool> changed_and_whole; // by path: whether flushed since
         std::vector<std::string> named;
-        std::istringstream lines(state_.read("log"));
+        std::istringstream lines(log_.read("log"));
         for (std::string kind, first, second; lines >> kind >> first;) {
             if (kind == "open") {
                 lines >> second;
@@ -54,7 +54,7 @@ class PowerLoss : public Faults {
         return named;
     }
 
-    TestFolder state_;
+    TestFolder log_;
     test_support::VirtualDisplay screen_;
 };
 

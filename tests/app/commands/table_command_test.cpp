@@ -79,11 +79,6 @@ TEST_F(TableCommand, WhatIsNeitherIsRefusedInALine) {
         EXPECT_THAT(result.err, HasSubstr(said)) << name;
         EXPECT_EQ(result.out, "");
     }
-    folder.write("walk.jsonl", kWalk);
-    folder.write("foreign.csv", "a,b\n");
-    EXPECT_EQ(isochron({"table", "walk.jsonl", "-o", "foreign.csv"}).status, 1);
-    EXPECT_EQ(folder.read("foreign.csv"), "a,b\n");
-    EXPECT_EQ(isochron({"table", "walk.jsonl", "-o", "walk.jsonl", "--force"}).status, 1);
 }
 
 } // namespace

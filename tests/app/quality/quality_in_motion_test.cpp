@@ -46,7 +46,7 @@ TEST_F(QualityInMotion, MotionFromTheStartLearnsWithoutASlowFrame) {
 }
 
 TEST_F(QualityInMotion, MotionDoesNotFlickerWhateverItCosts) {
-    for (int trial = 0; trial < 40; ++trial) {
+    for (int trial = 0; trial < tries(40); ++trial) {
         const Costs costs = random_costs();
         SimulatedDisplay display(kBudget, [&](Footprint footprint, const DrawLoad& load) {
             return costs[rung(footprint)] * uniform(0.7, 1.4) * (0.5 + load.cells / 1e4);

@@ -151,7 +151,7 @@ void never_leaves(const std::vector<std::byte>& bytes, std::uint32_t cells) {
     }
     const std::size_t slack = IdRun::kSlack * sizeof(std::uint16_t) + 8; // of no meaning
     int refused = 0;
-    constexpr int kTrials = tries(4000);
+    const int kTrials = tries(4000);
     for (int trial = 0; trial < kTrials; ++trial) {
         std::vector<std::byte> damaged = bytes;
         for (std::uint32_t flips = 1 + random() % 4; flips-- > 0;) {

@@ -53,7 +53,7 @@ const std::array kOptions{ThiOptions{1, 1},  ThiOptions{2, 1},    ThiOptions{2, 
                           ThiOptions{64, 2}, ThiOptions{4096, 1}, ThiOptions{4096, 64}};
 
 /// Isovalues of long series.
-constexpr int kIsovalues = tries(64);
+const int kIsovalues = tries(64);
 
 TEST(ThiTree, FindsTheActiveCellsOfTheMovingSphere) {
     for (const ValueType type : {ValueType::f32, ValueType::u8}) {

@@ -249,7 +249,7 @@ TEST(Hands, NoMotionWhateverMakesTheVolumeInvalid) {
             return {{any(), any(), any()}, glm::quat(any(), any(), any(), any())};
         return {random_place(random), random_rotation(random)};
     };
-    for (int round = 0; round < 200; ++round) {
+    for (int round = 0; round < tries(200); ++round) {
         Desk desk;
         for (int frame = 0; frame < 100; ++frame) {
             DeviceState wand = wand_with({any(), any(), any(), any()}, hand());

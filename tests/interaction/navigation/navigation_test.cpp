@@ -1,6 +1,7 @@
 // Devices move the volume: orbit, move, scale, fly, grab, reset.
 #include "interaction/navigation/axis_views.h"
 #include "tests/interaction/controls/control_desk.h"
+#include "tests/support/test_seed.h"
 
 #include <gmock/gmock.h>
 
@@ -307,9 +308,9 @@ TEST(Controls, PageKeysMoveTheIsovalueByTheSameStepsAsArrows) {
 TEST(Controls, NothingEverMakesTheVolumeInvalid) {
     const float inf = std::numeric_limits<float>::infinity();
     const float odd[] = {std::nanf(""), inf, -inf, 1e38f, -1e38f, 0.0f, 1e-45f, 0.5f};
-    for (unsigned seed = 0; seed < 300; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(seed);
+    Random random(test_seed());
+    for (int round = 0; round < tries(300); ++round) {
+        SCOPED_TRACE(testing::Message() << "round " << round);
         const auto any = [&] { return odd[random() % std::size(odd)]; };
         Desk desk;
         for (int frame = 0; frame < 100; ++frame) {

@@ -7,6 +7,8 @@
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/obeyed.h"
 #include "tests/interaction/recording/recording_in.h"
+#include "tests/support/test_folder.h"
+#include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
 
@@ -72,11 +74,11 @@ std::vector<WindowEvent> random_events(Random& random) {
 }
 
 TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
-    const std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) / "recompute.jsonl";
-    for (unsigned seed = 0; seed < 10; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(seed);
+    const test_support::TestFolder folder;
+    const std::filesystem::path path = folder.path() / "recompute.jsonl";
+    Random random(test_seed());
+    for (int session_number = 0; session_number < tries(10); ++session_number) {
+        SCOPED_TRACE(testing::Message() << "session " << session_number);
         std::vector<Pace> paces;
         std::size_t navigated = 0, stepped = 0;
         {
@@ -126,7 +128,6 @@ TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
         }
         EXPECT_TRUE(replay.finished());
     }
-    std::filesystem::remove(path);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/interaction/recording/recording_in.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/test_seed.h"
 
 #include <gmock/gmock.h>
@@ -23,9 +24,6 @@ using testing::HasSubstr;
 
 class RecordingFile : public testing::Test {
   protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
     void write(const std::string& content) {
         fs::remove(path_); // some file systems flush a file that is overwritten
         std::ofstream(path_, std::ios::binary) << content;
@@ -55,9 +53,8 @@ class RecordingFile : public testing::Test {
                "\n";
     }
 
-    const fs::path folder_ = fs::path(testing::TempDir()) /
-                             testing::UnitTest::GetInstance()->current_test_info()->name();
-    const fs::path path_ = folder_ / "walk.jsonl";
+    const test_support::TestFolder files_;
+    const fs::path folder_ = files_.path(), path_ = folder_ / "walk.jsonl";
 };
 
 DeviceState random_device(Random& random, std::string name) {
@@ -111,9 +108,10 @@ Recording random_recording(unsigned seed, int frames) {
 }
 
 TEST_F(RecordingFile, EverythingComesBackBitForBit) {
-    for (unsigned seed = 0; seed < 30; ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        const Recording recording = random_recording(seed, 50);
+    Random random(test_seed());
+    for (int round = 0; round < tries(30); ++round) {
+        SCOPED_TRACE(testing::Message() << "round " << round);
+        const Recording recording = random_recording(random(), 50);
         write_recording(path_, recording);
         const Recording back = recording_in(path_);
         EXPECT_EQ(back.header, recording.header);
@@ -185,7 +183,9 @@ TEST_F(RecordingFile, ACutLastLineIsLeftOutWithANote) {
     write_recording(path_, recording);
     const std::string whole = content_of(path_);
     const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;
-    for (std::size_t size = last + 1; size < whole.size() - 1; ++size) {
+    Random random(test_seed());
+    for (int round = 0; round < tries(3000); ++round) {
+        const std::size_t size = last + 1 + random() % (whole.size() - last - 2);
         write(whole.substr(0, size));
         const Recording back = recording_in(path_);
         EXPECT_EQ(back.frames.size(), 1u);
@@ -267,9 +267,9 @@ TEST_F(RecordingFile, RandomDamageNeverDoesMoreThanComplain) {
     using namespace std::string_literals; // one of them is the NUL
     const std::string pieces = "{}[]\",:0123456789eE+-.ntf\n\\u\0\xff"s;
     int complaints = 0;
-    for (int seed = 0; seed < tries(3000); ++seed) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed);
-        Random random(static_cast<unsigned>(seed));
+    Random random(test_seed());
+    for (int round = 0; round < tries(3000); ++round) {
+        SCOPED_TRACE(testing::Message() << "round " << round);
         std::string damaged = whole;
         for (unsigned i = 1 + random() % 4; i > 0 && !damaged.empty(); --i) {
             const std::size_t at = random() % damaged.size();

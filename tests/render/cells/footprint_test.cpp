@@ -49,7 +49,7 @@ class FootprintGeometry : public GlTest {
 };
 
 TEST_P(FootprintGeometry, ACellCoversTheProjectionOfItsEllipsoidWithinAPixel) {
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < tries(120); ++round) {
         const Scene scene = random_scene(random_);
         const Ellipse ellipse =
             paper_ellipse(scene.pixel_from_index(), glm::dvec3(scene.cell) + 0.5, scene.radius);
@@ -103,7 +103,7 @@ std::uint32_t random_plane(std::mt19937& random) {
 TEST_P(FootprintGeometry, ACellOnAPlaneCoversTheProjectionOfItsEllipsoidWithinAPixel) {
     const FootprintShapes shapes{.plane_gaussian_radius = 2.0f, .plane_sigma = 1e6f};
     int covered = 0;
-    for (int round = 0; round < 150; ++round) {
+    for (int round = 0; round < tries(150); ++round) {
         const Scene scene = random_scene(random_, {200, 160}, 3.0);
         const std::uint32_t plane = random_plane(random_);
         const PlaneEllipsoid ellipsoid(scene, plane, 2.0);
@@ -119,7 +119,7 @@ TEST_P(FootprintGeometry, ACellOnAPlaneCoversTheProjectionOfItsEllipsoidWithinAP
                   0)
             << "round " << round;
     }
-    EXPECT_GT(covered, 4000);
+    EXPECT_GT(covered, tries(4000));
 }
 
 /// Whether a ray meets the plane in the cell, a little enlarged.
@@ -152,7 +152,7 @@ class CutCell {
 
 TEST_P(FootprintGeometry, AQuadOnAPlaneShowsWhatOfThePlaneLiesInTheCell) {
     int met = 0;
-    for (int round = 0; round < 150; ++round) {
+    for (int round = 0; round < tries(150); ++round) {
         const Scene scene = random_scene(random_, {200, 160}, 1.0);
         const std::uint32_t plane = random_plane(random_);
         const CutCell cell(scene, plane);
@@ -180,7 +180,7 @@ TEST_P(FootprintGeometry, AQuadOnAPlaneShowsWhatOfThePlaneLiesInTheCell) {
                   0)
             << "round " << round;
     }
-    EXPECT_GT(met, 400);
+    EXPECT_GT(met, tries(400));
 }
 
 /// A cell about two voxels beside the eye, in a wide frustum.
@@ -204,7 +204,7 @@ glm::dvec4 ray_beside(const glm::dvec2& pixel) {
 
 TEST_P(FootprintGeometry, AQuadOnAPlaneBesideTheEyeIsCutAtTheEyesPlane) {
     int met = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < tries(60); ++round) {
         const Scene scene = beside_the_eye(random_);
         const std::uint32_t plane = random_plane(random_);
         const CutCell cell(scene, plane);
@@ -219,13 +219,13 @@ TEST_P(FootprintGeometry, AQuadOnAPlaneBesideTheEyeIsCutAtTheEyesPlane) {
         met += hit({79.5, 0.5});
         EXPECT_EQ(wrong_pixels(image, 127, hit), 0) << "round " << round;
     }
-    EXPECT_GT(met, 3);
+    EXPECT_GT(met, tries(3));
 }
 
 TEST_P(FootprintGeometry, AnEllipsoidBesideTheEyeIsCutAtTheEyesPlane) {
     // Rays from an eye whose plane crosses the ellipsoid, against the ellipsoid itself.
     int cut = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < tries(60); ++round) {
         const Scene scene = beside_the_eye(random_);
         const std::uint32_t plane = random_plane(random_);
         const PlaneEllipsoid ellipsoid(scene, plane, 2.0);
@@ -245,11 +245,11 @@ TEST_P(FootprintGeometry, AnEllipsoidBesideTheEyeIsCutAtTheEyesPlane) {
         cut += hit({79.5, 0.5});
         EXPECT_EQ(wrong_pixels(image, 0, hit), 0) << "round " << round;
     }
-    EXPECT_GT(cut, 3);
+    EXPECT_GT(cut, tries(3));
 }
 
 TEST_P(FootprintGeometry, AGaussianHasItsHalfOpacityOnTheEllipseThatBelongsToIt) {
-    for (int round = 0; round < 80; ++round) {
+    for (int round = 0; round < tries(80); ++round) {
         const Scene scene = random_scene(random_);
         if (scene.eye_distance() < 2.0 * scene.radius)
             continue; // faded: opacity is another there
@@ -266,7 +266,7 @@ TEST_P(FootprintGeometry, AGaussianHasItsHalfOpacityOnTheEllipseThatBelongsToIt)
 
 TEST_P(FootprintGeometry, AQuadIsTheRectangleOnTheEllipsesAxes) {
     int elongated = 0;
-    for (int round = 0; round < 150; ++round) {
+    for (int round = 0; round < tries(150); ++round) {
         const Scene scene = random_scene(random_, {200, 160}, kQuadRadius);
         const Ellipse ellipse =
             paper_ellipse(scene.pixel_from_index(), glm::dvec3(scene.cell) + 0.5, scene.radius);
@@ -291,7 +291,7 @@ TEST_P(FootprintGeometry, AQuadIsTheRectangleOnTheEllipsesAxes) {
                   0)
             << "round " << round;
     }
-    EXPECT_GT(elongated, 20);
+    EXPECT_GT(elongated, tries(20));
 }
 
 TEST_P(FootprintGeometry, AQuadOfARoundOutlineStandsUpright) {

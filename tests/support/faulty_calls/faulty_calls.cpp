@@ -1,6 +1,6 @@
 // A library to be preloaded (LD_PRELOAD) that makes the n-th call of a kind fail: a full disk, a disk that fails, an
-// interrupted or short transfer, no memory. Only files below the working directory count, so that libraries and the
-// system's own files stay as they are.
+// interrupted or short transfer, no memory. Only files below the program's working directory at its start count, so that
+// libraries, the driver's cache of shaders and the system's own files stay as they are.
 //
 //     ISOCHRON_FAULT=write:3:ENOSPC    from the third write on the disk is full
 //     ISOCHRON_FAULT_MARK=FILE         appears once the fault has been met
@@ -55,8 +55,11 @@ const Plan& plan() {
 
 std::atomic<bool> in_main{false}; // what happens before is not the program's
 int (*program_main)(int, char**, char**) = nullptr;
+std::array<char, 4096> folder{}; // the working directory at the start, with a slash at its end
 
 int watched_main(int argc, char** argv, char** environment) {
+    if (::getcwd(folder.data(), folder.size() - 1))
+        std::strcat(folder.data(), "/");
     in_main = true;
     const int status = program_main(argc, argv, environment);
     in_main = false;
@@ -114,7 +117,8 @@ int error_of(How how) {
 }
 
 bool counts(const char* path) {
-    return path[0] != '/' || std::strncmp(path, "/tmp/", 5) == 0;
+    return in_main &&
+           (path[0] != '/' || std::strncmp(path, folder.data(), std::strlen(folder.data())) == 0);
 }
 
 bool is_watched(int file) {

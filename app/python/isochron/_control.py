@@ -15,6 +15,8 @@ from numpy.typing import DTypeLike, NDArray
 
 from . import _native
 
+_PATIENCE = 5.0  # [s] for the answer to hello, which no session takes long to give
+
 
 def _folder() -> str:
     runtime = os.environ.get("XDG_RUNTIME_DIR", "")
@@ -48,11 +50,16 @@ class Session:
         self._requests = 0
         self._events: list[dict[str, Any]] = []
         self._note: dict[str, Any] = {}
-        if tcp:
-            if token is None:
+        try:
+            if tcp and token is None:
                 with open(os.path.join(_folder(), f"control-{port}.token"), encoding="ascii") as file:
                     token = file.readline().strip()
-            self._ask("hello", token=token)
+            self._socket.settimeout(_PATIENCE)
+            self._ask("hello", token=token or "")
+            self._socket.settimeout(None)
+        except BaseException:
+            self.close()
+            raise
 
     def tell(self, commands: Mapping[str, Any] | None = None, /, **more: Any) -> int:
         """Says commands, with the keys of a recording's: tell(step=7, isovalue=0.5), tell(undo=True).
@@ -155,6 +162,10 @@ class Session:
                 data = self._stream.read(answer.get("bytes", 0))
                 if answer.get("id") in (self._requests, None):
                     break
+        except socket.timeout:
+            raise _native.Error(
+                "control socket: no answer: the session hangs, or has as many clients as it takes"
+            ) from None
         except OSError as error:
             raise _native.Error(f"control socket: {error.strerror}") from None
         if not answer["ok"]:

@@ -128,10 +128,11 @@ Searched searched(const ControlRequest& request,
     return result;
 }
 
-ControlAnswer with_bytes(Json line, const Json& words, std::size_t size, Bytes bytes) {
+ControlAnswer with_bytes(Json line, const Json& words,
+                         std::shared_ptr<const std::vector<std::byte>> bytes) {
     line.update(words);
-    line["bytes"] = size;
-    return {text_of_line(line), bytes.take()};
+    line["bytes"] = bytes->size();
+    return {text_of_line(line), std::move(bytes)};
 }
 
 ControlAnswer cells_answer(const std::string& id, const Searched& asked,
@@ -157,7 +158,7 @@ ControlAnswer cells_answer(const std::string& id, const Searched& asked,
     Json line = answer_to(id, true);
     line["cells"] = cells;
     line["id_bits"] = wide ? 64 : 32;
-    return with_bytes(std::move(line), asked.words, size, std::move(bytes));
+    return with_bytes(std::move(line), asked.words, bytes.take());
 }
 
 ControlAnswer mesh_answer(const std::string& id, const Searched& asked,
@@ -184,7 +185,7 @@ ControlAnswer mesh_answer(const std::string& id, const Searched& asked,
     line["triangles"] = triangles;
     line["origin"] = {places.origin().x, places.origin().y, places.origin().z};
     line["unit"] = asked.array->info().length_unit;
-    return with_bytes(std::move(line), asked.words, size, std::move(bytes));
+    return with_bytes(std::move(line), asked.words, bytes.take());
 }
 
 } // namespace
@@ -211,7 +212,7 @@ ControlAnswer state_answer(const std::string& id, const ShownFrame& shown) {
     return {text_of_line(line)};
 }
 
-ControlAnswer picture_answer(const std::string& id, const ControlPicture& picture) {
+std::shared_ptr<const std::vector<std::byte>> picture_bytes(const ControlPicture& picture) {
     const render::Image& image = picture.image;
     const std::size_t pixels = image.rgba.size() / 4;
     Bytes bytes(3 * pixels);
@@ -220,12 +221,17 @@ ControlAnswer picture_answer(const std::string& id, const ControlPicture& pictur
         std::copy_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, pixel.begin());
         bytes.put(pixel);
     }
+    return bytes.take();
+}
+
+ControlAnswer picture_answer(const std::string& id, const ControlPicture& picture,
+                             std::shared_ptr<const std::vector<std::byte>> bytes) {
     Json line = answer_to(id, true);
-    line["width"] = image.width;
-    line["height"] = image.height;
+    line["width"] = picture.image.width;
+    line["height"] = picture.image.height;
     line["format"] = "rgb8";
     line["note"] = picture.note;
-    return with_bytes(std::move(line), Json::object(), 3 * pixels, std::move(bytes));
+    return with_bytes(std::move(line), Json::object(), std::move(bytes));
 }
 
 ControlAnswer searched_answer(const std::string& id, const ControlRequest& request,

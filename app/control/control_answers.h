@@ -25,8 +25,11 @@ ControlAnswer refused(const std::string& id, const std::string& why);
 /// A request is done. @param frame that obeys it; 0: it is of no frame
 ControlAnswer done(const std::string& id, std::uint64_t frame = 0);
 ControlAnswer state_answer(const std::string& id, const ShownFrame& shown);
-/// Bytes: red, green and blue of each pixel, sRGB, the top row first.
-ControlAnswer picture_answer(const std::string& id, const ControlPicture& picture);
+/// Red, green and blue of each pixel, sRGB, the top row first.
+std::shared_ptr<const std::vector<std::byte>> picture_bytes(const ControlPicture& picture);
+/// @param bytes of the picture, which all its answers share
+ControlAnswer picture_answer(const std::string& id, const ControlPicture& picture,
+                             std::shared_ptr<const std::vector<std::byte>> bytes);
 /// Answers `cells` or `mesh` by a search of its own, of all cells.
 ///
 /// Cells: bytes as of `query --ids`. Mesh: the points as three float32 each, as `export` has them,

@@ -32,12 +32,19 @@ std::string token_in(const std::filesystem::path& path) {
 
 } // namespace
 
-ControlClient::ControlClient(const ControlAddress& address, const std::filesystem::path& token_file)
+ControlClient::ControlClient(const ControlAddress& address, const std::filesystem::path& token_file,
+                             std::chrono::milliseconds patience)
     : socket_(connect_to(address)) {
+    ControlRequest hello{.verb = ControlVerb::hello};
     if (address.is_tcp())
-        ask({.verb = ControlVerb::hello,
-             .token =
-                 token_in(token_file.empty() ? control_token_file(address.port) : token_file)});
+        hello.token = token_in(token_file.empty() ? control_token_file(address.port) : token_file);
+    send(hello);
+    if (!waits_for_more(static_cast<int>(patience.count())))
+        throw interaction::Error(
+            fmt::format("control socket: no answer within {} ms: the session hangs, or has as many "
+                        "clients as it takes",
+                        patience.count()));
+    next_answer();
 }
 
 void ControlClient::send(const ControlRequest& request) {
@@ -91,6 +98,10 @@ std::optional<ControlClient::Answer> ControlClient::next() {
 
 ControlClient::Answer ControlClient::ask(const ControlRequest& request) {
     send(request);
+    return next_answer();
+}
+
+ControlClient::Answer ControlClient::next_answer() {
     for (;;) {
         auto answer = next();
         if (!answer)

@@ -4,6 +4,7 @@
 #include "app/control/control_address.h"
 #include "app/control/control_request.h"
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,10 +14,12 @@ namespace isochron::app {
 
 class ControlClient {
   public:
-    /// Says the token where one is needed. @param token_file empty: the listener's own
-    /// @throws interaction::Error when nobody listens, or the token is refused
+    /// Says hello, with the token where one is needed. @param token_file empty: the listener's own
+    /// @param patience for the answer to that, which no session takes long to give
+    /// @throws interaction::Error when nobody listens or answers, or the token is refused
     explicit ControlClient(const ControlAddress& address,
-                           const std::filesystem::path& token_file = {});
+                           const std::filesystem::path& token_file = {},
+                           std::chrono::milliseconds patience = std::chrono::seconds(5));
 
     /// A line of JSON, without its end, and the bytes behind it.
     struct Answer {
@@ -34,6 +37,7 @@ class ControlClient {
 
   private:
     bool receive();
+    Answer next_answer();
     ControlSocket socket_;
     std::string received_;
 };

@@ -19,8 +19,12 @@ namespace {
 
 constexpr std::size_t kSentTogether = 64; ///< lines, and the bytes behind them, of one call
 
+std::size_t behind(const ControlAnswer& answer) {
+    return answer.bytes ? answer.bytes->size() : 0;
+}
+
 std::size_t bytes_of(const ControlAnswer& answer) {
-    return answer.line.size() + (answer.bytes ? answer.bytes->size() : 0);
+    return answer.line.size() + behind(answer);
 }
 
 } // namespace
@@ -84,6 +88,7 @@ void ControlConnection::finish() {
 
 void ControlConnection::send(ControlAnswer answer) {
     unsent_bytes_ += answer.line.size();
+    unsent_behind_ += behind(answer);
     unsent_.push_back(std::move(answer));
 }
 
@@ -119,6 +124,7 @@ void ControlConnection::flush() {
         while (!unsent_.empty() && sent_ >= bytes_of(unsent_.front())) {
             sent_ -= bytes_of(unsent_.front());
             unsent_bytes_ -= unsent_.front().line.size();
+            unsent_behind_ -= behind(unsent_.front());
             unsent_.pop_front();
         }
     }

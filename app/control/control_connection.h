@@ -18,6 +18,7 @@
 namespace isochron::app {
 
 inline constexpr std::size_t kMostUnsent = 256 * 1024; ///< [byte] of lines; then nothing is read
+inline constexpr std::size_t kMostBehind = 16 << 20;   ///< [byte] behind lines; likewise
 inline constexpr std::size_t kMostUnanswered = 1024;   ///< requests of a client; likewise
 inline constexpr double kMostRequestsASecond = 20'000; ///< of a client; more wait
 inline constexpr double kMostAtOnce = 2'000;           ///< requests, after a pause
@@ -57,7 +58,8 @@ class ControlConnection {
     }
     /// Whether its next request may be answered: it has read most answers so far.
     bool has_room() const {
-        return !over_ && unsent_bytes_ < kMostUnsent && waits.size() < kMostUnanswered;
+        return !over_ && unsent_bytes_ < kMostUnsent && unsent_behind_ < kMostBehind &&
+               waits.size() < kMostUnanswered;
     }
     /// Whether more of it may be received.
     bool may_read() const { return has_room() && !ends_ && !has_line(); }
@@ -93,8 +95,9 @@ class ControlConnection {
     std::string received_; ///< bytes before `read_` are done with
     std::size_t read_ = 0;
     std::deque<ControlAnswer> unsent_;
-    std::size_t unsent_bytes_ = 0; ///< of lines
-    std::size_t sent_ = 0;         ///< of the first answer, line and bytes together
+    std::size_t unsent_bytes_ = 0;  ///< of lines
+    std::size_t unsent_behind_ = 0; ///< bytes behind them
+    std::size_t sent_ = 0;          ///< of the first answer, line and bytes together
     bool ends_ = false, over_ = false;
 };
 

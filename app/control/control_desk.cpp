@@ -40,7 +40,7 @@ std::uint64_t ControlDesk::post(const Commands& commands) {
         if (!batches_.empty() && go_together(batches_.back().commands, commands))
             interaction::merge(batches_.back().commands, commands);
         else if (batches_.size() < kMostBatches)
-            batches_.push_back({commands, 0});
+            batches_.push_back({.commands = commands});
         else
             return 0;
         number = batches_.back().last = ++posted_;
@@ -54,7 +54,8 @@ std::uint64_t ControlDesk::want_picture(bool now) {
     std::uint64_t number = 0;
     {
         const std::lock_guard lock(mutex_);
-        number = ++(now ? wishes_.now : wishes_.final);
+        number = ++(now ? wished_.now : wished_.final);
+        (batches_.empty() ? wishes_ : batches_.back().wishes) = wished_;
     }
     wake_loop();
     return number;
@@ -87,6 +88,8 @@ std::optional<ControlBatch> ControlDesk::take() {
         return std::nullopt;
     ControlBatch batch = std::move(batches_.front());
     batches_.pop_front();
+    wishes_ = {std::max(wishes_.now, batch.wishes.now),
+               std::max(wishes_.final, batch.wishes.final)};
     return batch;
 }
 

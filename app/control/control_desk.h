@@ -19,12 +19,6 @@
 
 namespace isochron::app {
 
-/// Commands for one frame.
-struct ControlBatch {
-    interaction::Commands commands;
-    std::uint64_t last = 0; ///< number of the newest request in it
-};
-
 /// A frame as clients are told of it. Never changed once it is shown.
 struct ShownFrame {
     std::uint64_t number = 0; ///< of frames, from 1; 0: none yet
@@ -37,6 +31,13 @@ struct ShownFrame {
 struct PictureWishes {
     std::uint64_t now = 0;   ///< newest that takes the next frame as it is
     std::uint64_t final = 0; ///< newest that waits for cells and their final quality
+};
+
+/// Commands for one frame.
+struct ControlBatch {
+    interaction::Commands commands;
+    std::uint64_t last = 0;    ///< number of the newest request in it
+    PictureWishes wishes = {}; ///< the newest that came behind it: no earlier frame answers them
 };
 
 struct ControlPicture {
@@ -71,6 +72,7 @@ class ControlDesk {
     std::optional<ControlBatch> take();
     bool has_commands() const;
     void show(ShownFrame frame);
+    /// Without those that came behind commands which no frame has taken yet.
     PictureWishes wishes() const;
     void give(ControlPicture picture);
     void set_file(std::shared_ptr<const index::IndexFile> file);
@@ -91,7 +93,8 @@ class ControlDesk {
     mutable std::mutex mutex_;
     std::deque<ControlBatch> batches_;
     std::uint64_t posted_ = 0;
-    PictureWishes wishes_;
+    PictureWishes wished_; ///< all so far
+    PictureWishes wishes_; ///< of them, those for the next frame
     std::shared_ptr<const ShownFrame> shown_;
     std::deque<FirstToObey> first_to_obey_; ///< ascending
     std::shared_ptr<const ControlPicture> picture_;

@@ -221,22 +221,32 @@ void ControlServer::add_search(Connection& client, const ControlRequest& request
 
 void ControlServer::tell_frames() {
     const auto shown = desk_.shown();
-    const auto picture = desk_.picture();
+    if (auto picture = desk_.picture(); picture != picture_) {
+        picture_ = std::move(picture);
+        picture_bytes_.reset();
+    }
     next_look_ = Seconds(0);
     for (const auto& client : connections_) {
-        answer_waiting(*client, *shown, picture.get());
+        answer_waiting(*client, *shown);
         tell_events(*client, shown);
         client->flush();
     }
 }
 
-void ControlServer::answer_waiting(Connection& client, const ShownFrame& shown,
-                                   const ControlPicture* picture) {
+/// All who wait for a picture get the same bytes, however many they are.
+ControlAnswer ControlServer::picture_for(const std::string& id) {
+    if (!picture_bytes_)
+        picture_bytes_ = picture_bytes(*picture_);
+    return picture_answer(id, *picture_, picture_bytes_);
+}
+
+void ControlServer::answer_waiting(Connection& client, const ShownFrame& shown) {
     const auto is_done = [&](const Unanswered& one) {
         switch (one.what) {
         case Unanswered::For::frame: return one.number <= shown.obeyed;
-        case Unanswered::For::picture_now: return picture && one.number <= picture->answers.now;
-        case Unanswered::For::picture_final: return picture && one.number <= picture->answers.final;
+        case Unanswered::For::picture_now: return picture_ && one.number <= picture_->answers.now;
+        case Unanswered::For::picture_final:
+            return picture_ && one.number <= picture_->answers.final;
         case Unanswered::For::search: break;
         }
         return false;
@@ -246,7 +256,7 @@ void ControlServer::answer_waiting(Connection& client, const ShownFrame& shown,
             return false;
         // Another frame may have been shown since.
         client.send(one.what == Unanswered::For::frame ? done(one.id, desk_.frame_of(one.number))
-                                                       : picture_answer(one.id, *picture));
+                                                       : picture_for(one.id));
         return true;
     });
 }

@@ -51,7 +51,8 @@ class ControlServer {
     void answer(Connection& client, const ControlRequest& request, const std::string& id);
     void add_search(Connection& client, const ControlRequest& request, const std::string& id);
     void tell_frames();
-    void answer_waiting(Connection& client, const ShownFrame& shown, const ControlPicture* picture);
+    void answer_waiting(Connection& client, const ShownFrame& shown);
+    ControlAnswer picture_for(const std::string& id);
     void tell_events(Connection& client, const std::shared_ptr<const ShownFrame>& shown);
     void take_found();
 
@@ -62,8 +63,10 @@ class ControlServer {
     ControlSocket listener_;
     const stereo::Wake wake_;
     std::vector<std::unique_ptr<Connection>> connections_;
-    std::uint64_t named_ = 0; ///< connections so far
-    bool delayed_ = false;    ///< requests are there that are read when there is room
+    std::uint64_t named_ = 0;                       ///< connections so far
+    std::shared_ptr<const ControlPicture> picture_; ///< the newest, and its bytes once asked for
+    std::shared_ptr<const std::vector<std::byte>> picture_bytes_;
+    bool delayed_ = false; ///< requests are there that are read when there is room
     interaction::Seconds next_look_{0};
     std::atomic<std::size_t> clients_{0};
     std::atomic<bool> ends_{false};

@@ -37,6 +37,7 @@ struct FrameDrawing {
     /// The last exact picture was moved, in the place of what the footprint says.
     bool moved = false;
     std::optional<render::Footprint> in_parts; ///< of the picture at rest in parts, if any
+    bool draws_parts = false;                  ///< of it, which is not whole yet
     bool redrawn = true;                       ///< false: nothing that the eyes see had changed
 };
 

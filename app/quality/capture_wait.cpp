@@ -5,19 +5,33 @@
 
 namespace isochron::app {
 
+CaptureView CaptureView::of(const FrameReport& frame, bool failed) {
+    return {.time = frame.time,
+            .asked = frame.asked,
+            .shown = frame.shown,
+            .failed = failed,
+            .final = frame.final,
+            .improves = frame.pace == interaction::Pace::settled &&
+                        (frame.extracting || frame.draws_parts)};
+}
+
+void CaptureWait::ask() {
+    if (wanted_++ > 0)
+        return;
+    before_.reset();
+    waited_ = {};
+}
+
 bool CaptureWait::take(const CaptureView& now) {
+    if (wanted_ == 0)
+        return false;
     const auto before = std::exchange(before_, now);
     if (!before || before->asked != now.asked)
         asked_since_ = now.time;
-    if (wanted_ == 0) {
-        waited_ = {};
-        return false;
-    }
-    const bool there = now.shown == now.asked || (now.failed && now.shown);
-    const bool under_way = !there && now.time - asked_since_ >= kSteady;
+    const bool under_way = (!now.has_cells() || now.improves) && now.time - asked_since_ >= kSteady;
     if (before && !under_way)
         waited_ += now.time - before->time;
-    if (!(now.final && there) && (under_way || waited_ < kPatience))
+    if (!now.is_final() && (under_way || waited_ < kPatience))
         return false;
     --wanted_;
     return true;

@@ -1,8 +1,7 @@
 // Decides when a wanted capture is taken: it waits for its cells and for their final quality.
 #pragma once
 
-#include "index/volume/query.h"
-#include "interaction/input/tracked_input.h"
+#include "app/frame/frame_report.h"
 
 #include <optional>
 
@@ -15,27 +14,36 @@ struct CaptureView {
     std::optional<index::SurfacesQuery> shown; ///< empty before the first cells
     bool failed = false;                       ///< the cells asked for will not come
     bool final = false;                        ///< the picture is as good as it gets
+    bool improves = false; ///< nothing moves, and cells or parts of a better picture are being made
+
+    /// @param failed the cells asked for will not come
+    static CaptureView of(const FrameReport& frame, bool failed);
+    /// Whether the cells asked for are there, or all that will come.
+    bool has_cells() const { return shown == asked || (failed && shown); }
+    bool is_final() const { return final && has_cells(); }
 };
 
 /// A picture is taken once it shows the cells asked for at final quality. In endless motion (time
 /// plays in a loop, a restless head) the wait ends after `kPatience`, and the next picture is
 /// taken.
-/// Time spent on cells does not count: once a query has not changed for `kSteady`, its cells are
-/// waited for as long as they take.
+/// Only time in which a capture is wanted counts: a session may have waited for hours before.
+/// Time spent on cells and on parts of the picture does not count: once a query has not changed for
+/// `kSteady`, they are waited for as long as they take.
 class CaptureWait {
   public:
     static constexpr interaction::Seconds kPatience{10};
     static constexpr interaction::Seconds kSteady{1}; ///< without a change of the query
 
-    void ask() { ++wanted_; }
+    void ask();
     int wanted() const { return wanted_; }
 
-    /// Called once per frame. @return true: take one capture now; it then counts as taken
+    /// Called in each frame in which a capture is wanted.
+    /// @return true: take one capture now; it then counts as taken
     bool take(const CaptureView& now);
 
   private:
     int wanted_ = 0;
-    std::optional<CaptureView> before_;
+    std::optional<CaptureView> before_;   ///< the last frame in which a capture was wanted
     interaction::Seconds asked_since_{0}; ///< when the newest query was first asked
     interaction::Seconds waited_{0};      ///< for an end of motion
 };

@@ -193,6 +193,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
             frame.report.footprint = drawn_->footprint;
             frame.report.redrawn = true;
         } else {
+            frame.report.draws_parts = true;
             show_again(frame, now, overlay, facts);
         }
     } else {
@@ -266,12 +267,8 @@ FrameAnswer Session::answer() const {
     return answer;
 }
 
-bool Session::captures(const FrameReport& report) {
-    return captures_.take({.time = report.time,
-                           .asked = report.asked,
-                           .shown = report.shown,
-                           .failed = frames_->has_no_answer(supply_.extractor()),
-                           .final = report.final});
+CaptureView Session::capture_view(const FrameReport& frame) const {
+    return CaptureView::of(frame, frames_->has_no_answer(supply_.extractor()));
 }
 
 PictureNote Session::note() const {
@@ -373,7 +370,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     report.latency = clock_ ? Milliseconds(clock_() - input.time) : since_input.lap();
     partial_.draw_ahead(frame, now, whole);
     note_.input = input;
-    if (captures(report))
+    if (captures_.take(capture_view(report)))
         outputs_.take_screenshots(note());
     show_messages(outputs_.pictures().messages());
     show_messages(picker_.messages());

@@ -147,7 +147,8 @@ class Session {
     }
     /// What is under the pointer in the last frame, or marked, in words; empty: nothing.
     std::string pointed() const { return pictures_.words_under_pointer(note_.input, state_); }
-    PictureNote note() const; ///< about the last frame
+    PictureNote note() const;                                 ///< about the last frame
+    CaptureView capture_view(const FrameReport& frame) const; ///< of the last frame
     std::optional<ColorScale> scale() const { return pictures_.scale(state_); } ///< of all colors
 
     /// Why the newest query could not be answered; empty when all is well.
@@ -177,7 +178,6 @@ class Session {
     void draw_aids();
     PanelModel panel_model(const FrameReport& report) const;
     FrameAnswer answer() const;
-    bool captures(const FrameReport& report);
 
     Config config_;
     Outputs outputs_;

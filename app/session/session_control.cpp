@@ -50,27 +50,29 @@ void SessionControl::tell(Session& session, const FrameReport& frame) {
     desk_.show({.number = ++frames_, .obeyed = obeyed_, .state = state_, .report = frame});
 }
 
-/// One picture answers all who wait for one of its kind.
+/// One picture answers all who wait for one of its kind. One that is not final, as motion does not
+/// end, answers only those who have waited for so long.
 void SessionControl::give_pictures(Session& session, const FrameReport& frame) {
     const PictureWishes wishes = desk_.wishes();
-    if (wishes.final > asked_.final && capture_.wanted() == 0)
+    if (wishes.final > given_.final && capture_.wanted() == 0) {
         capture_.ask();
-    asked_ = wishes;
-    if (frame.time < next_picture_) { // a client that wants one after another slows no display
-        waits_ = capture_.wanted() > 0 || wishes.now > given_.now;
-        return;
+        asked_ = wishes.final;
     }
-    const bool settled =
-        capture_.wanted() > 0 && capture_.take({.time = frame.time,
-                                                .asked = frame.asked,
-                                                .shown = frame.shown,
-                                                .failed = !session.failure().empty(),
-                                                .final = frame.final});
-    waits_ = capture_.wanted() > 0;
-    if (!settled && wishes.now <= given_.now)
-        return;
-    next_picture_ = frame.time + kBetweenPictures;
-    given_ = {wishes.now, settled ? wishes.final : given_.final};
+    const CaptureView view = session.capture_view(frame);
+    // A client that wants one picture after another slows no display.
+    const bool is_due = frame.time >= next_picture_;
+    const bool settled = is_due && capture_.take(view);
+    if (settled)
+        given_.final = view.is_final() ? wishes.final : asked_;
+    if (settled || (is_due && wishes.now > given_.now)) {
+        given_.now = wishes.now;
+        next_picture_ = frame.time + kBetweenPictures;
+        give_picture(session);
+    }
+    waits_ = given_.now < wishes.now || given_.final < wishes.final;
+}
+
+void SessionControl::give_picture(Session& session) {
     bool first = true; // of several windows the first one is given
     session.outputs().each_picture(
         session.note(), [&](const std::string&, render::Image image, const std::string& note) {

@@ -40,12 +40,14 @@ class SessionControl {
 
   private:
     void give_pictures(Session& session, const FrameReport& frame);
+    void give_picture(Session& session);
 
     ControlDesk desk_;
     std::shared_ptr<const index::IndexFile> file_;
     std::shared_ptr<const ExplorerState> state_; ///< as it was shown last
     std::uint64_t frames_ = 0, obeyed_ = 0;
-    PictureWishes given_, asked_; ///< asked_: pictures that `capture_` was told of
+    PictureWishes given_;
+    std::uint64_t asked_ = 0; ///< the newest final picture that `capture_` has waited for
     CaptureWait capture_;
     interaction::Seconds next_picture_{0};
     bool waits_ = false;

@@ -111,20 +111,44 @@ inline interaction::InputState head_at_rest(double seconds) {
     return input;
 }
 
-/// A small series and a context without a window; instantiate it for EGL and OSMesa.
-class SessionTest : public testing::TestWithParam<stereo::ContextKind> {
+/// What a session draws with, and how long it has waited for something to do before the test goes on.
+struct SessionKind {
+    SessionKind(stereo::ContextKind with, interaction::Seconds has_waited = {})
+        : context(with), age(has_waited) {}
+    operator stereo::ContextKind() const { return context; }
+    std::string name() const {
+        return std::string(stereo::name_of(context)) + (age > age.zero() ? "_after_an_hour" : "");
+    }
+    friend void PrintTo(const SessionKind& kind, std::ostream* out) { *out << kind.name(); }
+
+    stereo::ContextKind context;
+    interaction::Seconds age;
+};
+
+/// A small series and a context without a window; instantiate it for EGL and OSMesa, and at several
+/// ages if the tests call `grow_old`.
+class SessionTest : public testing::TestWithParam<SessionKind> {
   protected:
     SessionTest()
         : file_(build_sphere(folder_.path())),
-          context_(stereo::make_context(GetParam(), {.size = {256, 128}})) {}
+          context_(stereo::make_context(GetParam().context, {.size = {256, 128}})) {}
+
+    /// The session waits as long as its age says, as the live loop lets it. @return that time
+    static interaction::Seconds grow_old(Session& session) {
+        if (GetParam().age > interaction::Seconds(0))
+            session.has_waited();
+        return GetParam().age;
+    }
 
     TestFolder folder_;
     std::shared_ptr<const index::IndexFile> file_;
     std::unique_ptr<stereo::GlContext> context_;
 };
 
-inline std::string context_name(const testing::TestParamInfo<stereo::ContextKind>& kind) {
-    return std::string(stereo::name_of(kind.param));
-}
+inline constexpr interaction::Seconds kAnHour{3600};
+
+inline constexpr auto context_name = [](const auto& kind) {
+    return SessionKind(kind.param).name();
+};
 
 } // namespace isochron::app

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import socket
 from collections.abc import Iterator, Mapping
 from types import TracebackType
@@ -13,6 +14,8 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _native
+
+_PATIENCE = 5.0  # [s] for the answer to hello, which no session takes long to give
 
 
 def _folder() -> str:
@@ -46,11 +49,17 @@ class Session:
         self._stream = self._socket.makefile("rb")
         self._requests = 0
         self._events: list[dict[str, Any]] = []
-        if tcp:
-            if token is None:
+        self._note: dict[str, Any] = {}
+        try:
+            if tcp and token is None:
                 with open(os.path.join(_folder(), f"control-{port}.token"), encoding="ascii") as file:
                     token = file.readline().strip()
-            self._ask("hello", token=token)
+            self._socket.settimeout(_PATIENCE)
+            self._ask("hello", token=token or "")
+            self._socket.settimeout(None)
+        except BaseException:
+            self.close()
+            raise
 
     def tell(self, commands: Mapping[str, Any] | None = None, /, **more: Any) -> int:
         """Says commands, with the keys of a recording's: tell(step=7, isovalue=0.5), tell(undo=True).
@@ -67,10 +76,20 @@ class Session:
     def picture(self, *, now: bool = False) -> NDArray[np.uint8]:
         """What the first window shows beside its panel: (height, width, 3) in sRGB.
 
-        It waits for the cells and the final quality, at most ten seconds of motion, unless `now` is true.
+        It shows what was told before, waits for the cells and the final quality, at most ten seconds of motion, unless
+        `now` is true. `note` says what it shows.
         """
         answer, data = self._ask("picture", now=now)
+        self._note = json.loads(re.sub("</?isochron-picture>", "", answer["note"]))
         return np.frombuffer(data, np.uint8).reshape(answer["height"], answer["width"], 3)
+
+    @property
+    def note(self) -> dict[str, Any]:
+        """The note of the last picture, as pictures in files have it: the `state` that it shows, its `footprint` and more.
+
+        Empty before the first picture.
+        """
+        return self._note
 
     def cells(
         self, isovalue: float | None = None, step: int | None = None, *, array: str | None = None
@@ -132,7 +151,7 @@ class Session:
 
     def _ask(self, verb: str, **more: Any) -> tuple[dict[str, Any], bytes]:
         self._requests += 1
-        line = json.dumps({"id": self._requests, "verb": verb, **more}, default=_plain) + "\n"
+        line = json.dumps({"id": self._requests, "verb": verb, **more}, default=plain) + "\n"
         try:
             self._socket.sendall(line.encode())
             while True:
@@ -143,6 +162,10 @@ class Session:
                 data = self._stream.read(answer.get("bytes", 0))
                 if answer.get("id") in (self._requests, None):
                     break
+        except socket.timeout:
+            raise _native.Error(
+                "control socket: no answer: the session hangs, or has as many clients as it takes"
+            ) from None
         except OSError as error:
             raise _native.Error(f"control socket: {error.strerror}") from None
         if not answer["ok"]:
@@ -160,7 +183,7 @@ def _given(**values: Any) -> dict[str, Any]:
     return {key: value for key, value in values.items() if value is not None}
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """NumPy's numbers and arrays as JSON has them."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()

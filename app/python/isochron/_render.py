@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._control import plain
 from ._place import program_folder
 
 # One window without a screen; the data stand ahead of the eye, where all of them are seen.
@@ -62,7 +63,7 @@ def _recording(index: str, state: Mapping[str, Any], size: tuple[int, int]) -> s
     # Nothing happens for two seconds, so that the picture is one at rest.
     frames: list[dict[str, Any]] = [{"t": 0.1 * number} for number in range(20)]
     frames.append({"t": 2.0, "commands": {"stamps": [_STAMP]}})
-    return "".join(json.dumps(line) + "\n" for line in [header, *frames])
+    return "".join(json.dumps(line, default=plain) + "\n" for line in [header, *frames])
 
 
 def _pixels(tiff: bytes) -> NDArray[np.uint8]:

@@ -27,8 +27,8 @@ class Run:
     and so is `origin`. Steps count from 0. `for step in run` gives one step after the other, and asks in the background
     of the next step what was asked of the last.
 
-    A run can be pickled: it is opened again by its path. Several threads may use it at once; what searches, reads or
-    builds lets the others of the interpreter run.
+    A run can be pickled: the file is opened again, from any working folder. Several threads may use it at once; what
+    searches, reads or builds lets the others of the interpreter run.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -195,7 +195,8 @@ class Run:
             return stored
         if about["slope"] == 1 and about["intercept"] == 0:
             return stored
-        scaled: NDArray[Any] = stored * np.float64(about["slope"])
+        scaled = stored.astype(np.float64)  # before NumPy 2, a factor does not widen float32
+        scaled *= about["slope"]
         scaled += about["intercept"]
         return scaled
 
@@ -249,8 +250,8 @@ class Run:
     ) -> None:
         self.close()
 
-    def __reduce__(self) -> tuple[type[Run], tuple[str]]:
-        return (Run, (self._path,))
+    def __reduce__(self) -> tuple[type[Run], tuple[str], dict[str, str]]:
+        return (Run, (self._place,), {"_path": self._path})
 
     def __repr__(self) -> str:
         steps, z, y, x = self.shape

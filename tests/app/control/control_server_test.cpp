@@ -21,6 +21,8 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -198,6 +200,25 @@ TEST_F(ControlServerTest, CommandsOfAFrameGoTogetherUnlessTheirOrderMatters) {
     EXPECT_TRUE(frames[2].undo);
 }
 
+TEST_F(ControlServerTest, NoFrameBeforeTheCommandAnswersAPictureThatWasAskedForBehindIt) {
+    interaction::Commands undo, redo; // for a frame of their own each
+    undo.undo = redo.redo = true;
+    EXPECT_EQ(desk_.want_picture(true), 1u);
+    EXPECT_EQ(desk_.wishes().now, 1u) << "nothing is before it";
+    desk_.post(undo);
+    EXPECT_EQ(desk_.want_picture(false), 1u);
+    desk_.post(redo);
+    EXPECT_EQ(desk_.want_picture(true), 2u);
+    EXPECT_EQ(desk_.want_picture(false), 2u);
+    EXPECT_EQ(desk_.wishes().final, 0u);
+    desk_.take();
+    EXPECT_EQ(desk_.wishes().final, 1u);
+    EXPECT_EQ(desk_.wishes().now, 1u);
+    desk_.take();
+    EXPECT_EQ(desk_.wishes().final, 2u);
+    EXPECT_EQ(desk_.wishes().now, 2u);
+}
+
 TEST_F(ControlServerTest, HasAnEndOfWhatWaitsForFrames) {
     interaction::Commands undo;
     undo.undo = true;
@@ -266,18 +287,71 @@ TEST_F(ControlServerTest, MoreClientsThanThereAreSeatsWaitUntilOneLeaves) {
         seated.push_back(std::make_unique<ControlClient>(server_->address()));
         ask(*seated.back(), verb(ControlVerb::state));
     }
-    ControlClient late(server_->address());
-    late.send(verb(ControlVerb::state));
+    const ControlSocket late = connect_to(server_->address());
+    const std::string line = "{\"verb\":\"state\"}\n";
+    ASSERT_EQ(send(late.get(), line.data(), line.size(), MSG_NOSIGNAL), std::ssize(line));
+    const auto is_answered = [&late] {
+        pollfd socket{late.get(), POLLIN, 0};
+        return poll(&socket, 1, 0) > 0;
+    };
     ask(*seated.front(), step(1)); // the thread has looked at all of them since
     EXPECT_EQ(server_->clients(), ControlServer::kMostClients);
-    EXPECT_FALSE(late.waits_for_more(0));
+    EXPECT_FALSE(is_answered());
+    EXPECT_THROW(ControlClient(server_->address(), {}, std::chrono::milliseconds(1)),
+                 interaction::Error)
+        << "a command does not wait for ever";
     seated.pop_back();
-    EXPECT_TRUE(eventually([&] { return late.waits_for_more(0); }));
+    EXPECT_TRUE(eventually(is_answered));
+}
+
+TEST_F(ControlServerTest, PicturesThatNobodyReadsTakeLittleMemory) {
+    listen();
+    ControlClient deaf(server_->address()), other(server_->address());
+    ControlRequest now = verb(ControlVerb::picture);
+    now.now = true;
+    const auto give = [&](std::size_t pixels) {
+        ControlPicture picture;
+        picture.image = {.width = static_cast<int>(pixels), .height = 1, .rgba = {}};
+        picture.image.rgba.resize(4 * pixels);
+        picture.answers = desk_.wishes();
+        desk_.give(std::move(picture));
+        for (int i = 0; i < 2; ++i) // the thread has answered with the picture before the second
+            ask(other, verb(ControlVerb::state));
+    };
+    const auto memory = [] {
+        rusage use{};
+        getrusage(RUSAGE_SELF, &use);
+        return use.ru_maxrss; // [KiB]
+    };
+    const auto wait_for = [&](std::uint64_t wishes) {
+        return eventually([&] { return desk_.wishes().now == wishes; });
+    };
+    constexpr std::uint64_t kMany = 300;
+    for (std::uint64_t i = 0; i < kMany; ++i)
+        deaf.send(now);
+    ASSERT_TRUE(wait_for(kMany));
+    const auto before = memory();
+    give(100'000);
+    EXPECT_LT(memory() - before, 40'000) << "all have the same bytes";
+    for (std::uint64_t i = 0; i < kMany; ++i)
+        EXPECT_EQ(deaf.next()->bytes.size(), 300'000u);
+
+    for (std::uint64_t i = 1; i <= 2; ++i) {
+        deaf.send(now);
+        ASSERT_TRUE(wait_for(kMany + i));
+        give(kMostBehind / 6 + 1);
+    }
+    deaf.send(now);
+    ask(other, verb(ControlVerb::state));
+    ask(other, verb(ControlVerb::state));
+    EXPECT_EQ(desk_.wishes().now, kMany + 2) << "it has two pictures to read";
+    deaf.next();
+    EXPECT_TRUE(wait_for(kMany + 3));
 }
 
 TEST_F(ControlServerTest, AFloodOfCommandsIsOneOfEachKindInAFrame) {
     listen();
-    constexpr int kMany = 500;
+    constexpr int kMany = 300;
     std::string lines;
     for (int i = 0; i < kMany; ++i)
         lines += "{\"verb\":\"commands\",\"commands\":{\"step\":" + std::to_string(i % 3) + "}}\n";

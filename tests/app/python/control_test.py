@@ -55,6 +55,9 @@ class Control(unittest.TestCase):
             picture = session.picture()
             self.assertEqual(picture.shape[2], 3)
             self.assertGreater(picture.std(), 0)
+            self.assertEqual(session.note["state"]["step"], 1)
+            self.assertEqual(session.note["state"]["isosurfaces"][0]["isovalue"], isovalue)
+            self.assertEqual(session.note["footprint"], "surface")
             session.tell(undo=True)
             self.assertEqual(session.state()["step"], 0)
             with self.assertRaisesRegex(isochron.Error, "step is 9, expected at most 2"):

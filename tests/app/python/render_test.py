@@ -30,6 +30,10 @@ class Render(SeriesTest):
         np.testing.assert_array_equal(self.picture(step=2), self.picture(step=2))
         self.assertFalse(np.array_equal(self.picture(step=2), self.picture(step=0)))
 
+    def test_numbers_may_be_those_of_numpy(self):
+        steps = np.array([0, 2])
+        np.testing.assert_array_equal(self.picture(step=steps.max()), self.picture(step=2))
+
     def test_a_saved_session_says_what_is_shown(self):
         state = {"array": "depth", "isovalue": 0.6, "bounding_box": False, "step": 1}
         with open("kept.isochron-session", "w") as file:

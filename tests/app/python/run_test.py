@@ -142,19 +142,22 @@ class Cells(SeriesTest):
     def test_of_values_that_are_scaled(self):
         import h5py
 
-        with h5py.File("scaled.nc", "w") as file:  # as NetCDF packs values
-            stored = file.create_dataset("rho", data=self.data[0]["rho"])
-            stored.attrs["scale_factor"], stored.attrs["add_offset"] = 0.5, 10.0
-            for number, name in enumerate("zyx"):
-                axis = file.create_dataset(name, data=np.arange(SHAPE[number], dtype=np.float64))
-                axis.make_scale(name)
-                stored.dims[number].attach_scale(axis)
-        run = isochron.build("scaled.nc", "scaled.isochron", array="rho")
-        expected = self.data[0]["rho"] * 0.5 + 10
-        values = run.values(0)
-        self.assertEqual(values.dtype, np.float64)
-        np.testing.assert_array_equal(values, expected)
-        np.testing.assert_array_equal(run.cells(10.5), active_cells(expected, 10.5))
+        cases = [("rho", 0.5, 10.0, 10.5), ("depth", 0.125, 1e9, 1e9 + 0.0625)]  # which single precision does not hold
+        for name, slope, intercept, isovalue in cases:
+            with h5py.File(f"{name}.nc", "w") as file:  # as NetCDF packs values
+                stored = file.create_dataset(name, data=self.data[0][name])
+                stored.attrs["scale_factor"], stored.attrs["add_offset"] = slope, intercept
+                for number, axis_name in enumerate("zyx"):
+                    axis = file.create_dataset(axis_name, data=np.arange(SHAPE[number], dtype=np.float64))
+                    axis.make_scale(axis_name)
+                    stored.dims[number].attach_scale(axis)
+            run = isochron.build(f"{name}.nc", f"{name}.isochron", array=name)
+            expected = self.data[0][name].astype(np.float64) * slope + intercept
+            with self.subTest(array=name):
+                for values in (run.values(0), run[0].values(), run.to_xarray()[name].values[0]):
+                    self.assertEqual(values.dtype, np.float64)
+                    np.testing.assert_array_equal(values, expected)
+                np.testing.assert_array_equal(run.cells(isovalue), active_cells(expected, isovalue))
 
 
 class Changes(SeriesTest):
@@ -329,6 +332,18 @@ class Use(SeriesTest):
         np.testing.assert_array_equal(again.cells(0, 2), self.run_.cells(0, 2))
         self.assertLess(len(pickle.dumps(self.run_)), 200)
         self.assertEqual(copy.copy(self.run_).path, "run.isochron")
+
+    def test_a_pickle_is_opened_from_any_folder(self):
+        pickles = pickle.dumps(self.run_), pickle.dumps(self.run_[2])
+        expected = self.run_.cells(0, 2)
+        os.chdir("/")
+        try:
+            run, step = map(pickle.loads, pickles)
+        finally:
+            os.chdir(self.folder.name)
+        self.assertEqual(run.path, "run.isochron")
+        np.testing.assert_array_equal(run.cells(0, 2), expected)
+        np.testing.assert_array_equal(step.cells(0), expected)
 
     def test_steps_are_counted_as_those_of_a_list(self):
         self.assertEqual([self.run_[0].number, self.run_[-1].number], [0, STEPS - 1])

@@ -56,6 +56,31 @@ TEST(CaptureWait, CellsThatWillNotComeAreNotWaitedFor) {
     EXPECT_FALSE(wait.take(failed)) << "there is nothing to see";
 }
 
+TEST(CaptureWait, WhatWasBeforeItWasWantedIsNotCounted) {
+    for (const bool is_called : {false, true}) { // by the session in each frame, by others not
+        CaptureWait wait;
+        wait.ask();
+        EXPECT_TRUE(wait.take(view(0, kBefore, kBefore, true)));
+        if (is_called)
+            EXPECT_FALSE(wait.take(view(1, kBefore, kBefore, true)));
+        wait.ask();
+        EXPECT_FALSE(wait.take(view(3600, kAsked, kBefore, true))) << is_called;
+        EXPECT_FALSE(wait.take(view(3601, kAsked, kAsked, false))) << is_called;
+        EXPECT_TRUE(wait.take(view(3602, kAsked, kAsked, true)));
+    }
+}
+
+TEST(CaptureWait, APictureThatIsBeingMadeIsWaitedForAsLongAsItTakes) {
+    CaptureWait wait;
+    wait.ask();
+    CaptureView made = view(0, kAsked, kAsked, false);
+    made.improves = true;
+    for (int frame = 0; frame < 10000; ++frame, made.time += Seconds(1))
+        ASSERT_FALSE(wait.take(made));
+    made.final = true;
+    EXPECT_TRUE(wait.take(made));
+}
+
 /// Frames at 10 Hz until the capture is taken; the time of that, or 1000 seconds.
 double taken_at(CaptureWait& wait, const std::function<CaptureView(double)>& at) {
     double time = 0;

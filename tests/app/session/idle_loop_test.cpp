@@ -4,6 +4,7 @@
 #include "tests/support/session_fixture.h"
 
 #include "app/command_line/cancel.h"
+#include "app/control/control_client.h"
 #include "app/session/live_loop.h"
 #include "index/indexing/appended_series.h"
 #include "index/system/growing_file.h"
@@ -11,11 +12,14 @@
 #include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fcntl.h>
 #include <filesystem>
+#include <future>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -317,6 +321,52 @@ TEST_F(IdleLoop, WakesToSaveTheSession) {
          },
          [&](auto&, Seconds longest) { EXPECT_LE(longest, SessionKeeper::kInterval); }});
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "kept.json"));
+}
+
+TEST_F(IdleLoop, APictureForAClientShowsWhatTheClientToldBeforeHoweverLongTheLoopHasWaited) {
+    std::optional<SessionControl> control;
+    std::shared_ptr<const stereo::Wake> wake;
+    prepare_ = [&](LiveLoop& live) {
+        control.emplace(control_address((folder_.path() / "control.sock").string()), *session_,
+                        file_, ControlServerOptions{});
+        live.steer(*control);
+        wake = live.wake();
+    };
+    std::future<std::string> answer;
+    std::atomic<bool> answered{false};
+    const auto ask = [&](double isovalue) {
+        ControlClient client(control->server().address());
+        ControlRequest command{.verb = ControlVerb::commands};
+        command.commands.isovalue = isovalue;
+        client.ask(command);
+        const auto picture = client.ask({.verb = ControlVerb::picture});
+        answered = true;
+        (*wake)();
+        return picture.line;
+    };
+    const auto begin = [&](double isovalue) {
+        return [&, isovalue](const stereo::Wake& woken, Seconds) {
+            now_ += kAnHour;
+            answer = std::async(std::launch::async, ask, isovalue);
+            woken.wait(-1, std::chrono::duration<double>(1e9)); // the test's limit ends a hang
+            woken.take();
+        };
+    };
+    const auto end = [&](double isovalue) {
+        return [&, isovalue](const stereo::Wake& woken, Seconds) {
+            if (!answered.exchange(false)) {
+                woken.wait(-1, std::chrono::duration<double>(1e9));
+                woken.take();
+                --next_;
+                return;
+            }
+            const std::string line = answer.get();
+            EXPECT_THAT(line, testing::HasSubstr(fmt::format(R"(\"isovalue\":{:.1f})", isovalue)));
+            EXPECT_THAT(line, testing::HasSubstr(R"(\"footprint\":\"surface\")"));
+        };
+    };
+    run({begin(4), end(4), begin(6), end(6)});
+    EXPECT_EQ(next_, 4u);
 }
 
 /// Of a growing index, which keeps its values' range.

@@ -35,7 +35,7 @@ class SessionQuality : public SessionTest {
     static std::vector<std::uint8_t> shown(const Session& session) {
         return session.outputs().display().read_window().rgba;
     }
-    interaction::Seconds now() const { return interaction::Seconds(frame_ / kRate); }
+    interaction::Seconds now() const { return waited_ + interaction::Seconds(frame_ / kRate); }
 
     /// Frames with a head at rest.
     FrameReport rest(Session& session, int frames, const interaction::Commands& first = {}) {
@@ -61,16 +61,20 @@ class SessionQuality : public SessionTest {
         }
         return report;
     }
-    /// Starts with cells on the screen.
+    /// Starts with cells on the screen. A session of some age has waited since its picture was final.
     void start(Session& session) {
         session.frame(head_at_rest(now().count()), {}, Waiting::for_cells);
         ++frame_;
+        if (GetParam().age > interaction::Seconds(0))
+            rest_until(session, [](const FrameReport& frame) { return frame.final; });
+        waited_ += grow_old(session);
     }
     bool captured(Session& session) const {
         session.outputs().pictures().finish();
         return std::filesystem::exists(folder_.path() / "isochron_0001.png");
     }
     int frame_ = 0;
+    interaction::Seconds waited_{0};
 };
 
 } // namespace isochron::app

@@ -68,7 +68,7 @@ TEST(House, WhatIsPrintedCannotCommandTheTerminal) {
 }
 
 TEST(House, ALoosePrintIsFound) {
-    const PlantedTree tree("prints");
+    const PlantedTree tree;
     tree.plant("app/bad.cpp", "fmt::print(stderr, \"{}\", name_of(file));\n");
     tree.plant("app/good.cpp", "print_safely(name_of(file));\n");
     EXPECT_EQ(loose_prints(tree.root()), std::vector<std::string>{"app/bad.cpp"});

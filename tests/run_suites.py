@@ -326,9 +326,11 @@ def kept_costs():
     return loop, costs
 
 
-def keep_costs(groups, loop):
-    """Writes what this run found for its suites; suites that did not run keep their rows."""
+def keep_costs(groups, loop, whole):
+    """Writes what this run found for its suites. Others keep their rows, unless the run was whole."""
     kept_loop, costs = kept_costs()
+    if whole:
+        costs = {}
     scale = kept_loop / loop if kept_loop else 1.0
     for group in groups:
         cost = group.cost
@@ -455,7 +457,8 @@ def main():
         print(f"{len(unrun)} of {len(groups)} suites did not begin within {arguments.seconds:.0f} s: "
               f"{', '.join(sorted(g.suite for g in unrun)[:10])} ...")
     if arguments.keep_costs:
-        keep_costs([g for g in ran if not g.failed], speed.loop())
+        parts = (arguments.only, arguments.programs, arguments.part, arguments.seconds, arguments.singly)
+        keep_costs([g for g in ran if not g.failed], speed.loop(), whole=not any(parts))
     failed = [f"{name} ({group.program['name']})" for group in ran for name, _ in group.failed] + over
     passed = sum(max(0, g.cost.claims - len(g.failed)) for g in ran)
     print(f"{arguments.build} {arguments.selection}: {passed} passed, {len(failed)} failed, "

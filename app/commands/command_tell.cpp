@@ -150,9 +150,7 @@ void run_tell(const TellArguments& arguments) {
     case ControlVerb::picture: write_picture(answer, *arguments.out); break;
     case ControlVerb::cells: write_cells(answer, *arguments.out); break;
     case ControlVerb::subscribe: print_events(client); break;
-    case ControlVerb::state:
-        print_data(json::parse(answer.line).at("state").dump(2) + '\n');
-        break;
+    case ControlVerb::state: print_data(json::parse(answer.line).at("state").dump(2) + '\n'); break;
     default: break;
     }
 }

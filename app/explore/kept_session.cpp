@@ -114,10 +114,11 @@ std::optional<SavedSession> earlier_session(const ExploreOptions& options,
             stderr);
     const auto all = earlier_sessions(options, file);
     if (all.size() > 1)
-        print_safely(fmt::format("isochron: --resume --session FILE goes on with an earlier one, of "
-                                 "which there are {} beside it; the newest is {}\n",
-                                 all.size() - 1, all[1].path.filename().string()),
-                     stderr);
+        print_safely(
+            fmt::format("isochron: --resume --session FILE goes on with an earlier one, of "
+                        "which there are {} beside it; the newest is {}\n",
+                        all.size() - 1, all[1].path.filename().string()),
+            stderr);
     return std::nullopt;
 }
 

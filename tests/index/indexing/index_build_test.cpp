@@ -11,9 +11,7 @@
 #include <csignal>
 #include <fstream>
 
-#include <fcntl.h>
 #include <sched.h>
-#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -132,22 +130,6 @@ TEST_F(IndexBuildTest, AFullDiskIsToldAndLeavesNothingBehind) {
         EXPECT_THAT(names_in(folder.path()), IsEmpty()) << limit;
     }
     std::signal(SIGXFSZ, previous);
-}
-
-TEST_F(IndexBuildTest, WhatAKilledBuildLeftIsRemovedAndWhatALivingOneWritesIsNot) {
-    const auto place = [&](const std::string& name) {
-        std::ofstream(folder.path() / name) << "half an index";
-        const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
-        std::filesystem::last_write_time(folder.path() / name, long_ago);
-    };
-    place(".a.dead.tmp");
-    place(".a.live.tmp");
-    place(".other.dead.tmp");
-    const int living = ::open((folder.path() / ".a.live.tmp").c_str(), O_WRONLY | O_CLOEXEC);
-    ASSERT_EQ(0, ::flock(living, LOCK_EX));
-    build_index(series, folder.path() / "a", {});
-    ::close(living);
-    EXPECT_THAT(names_in(folder.path()), ElementsAre(".a.live.tmp", ".other.dead.tmp", "a"));
 }
 
 TEST_F(IndexBuildTest, PlacesThatCannotBeWrittenAreToldBeforeAnythingIsRead) {

@@ -10,7 +10,8 @@ namespace isochron::test_support {
 namespace {
 
 /// One function for each of the entry points that draw and each driver of a process.
-template <auto Entry, int Driver> struct Counted;
+template <auto Entry, int Driver>
+struct Counted;
 template <typename... Arguments, void (*render::Gl::*Entry)(Arguments...), int Driver>
 struct Counted<Entry, Driver> {
     static inline void (*real)(Arguments...) = nullptr;
@@ -28,7 +29,8 @@ struct Counted<Entry, Driver> {
     }
 };
 
-template <auto Entry> void count(render::Gl& gl) {
+template <auto Entry>
+void count(render::Gl& gl) {
     if (gl.*Entry)
         Counted<Entry, 0>::take(gl) || Counted<Entry, 1>::take(gl) || Counted<Entry, 2>::take(gl);
 }

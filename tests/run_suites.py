@@ -33,6 +33,10 @@ PATIENCE = 300
 # What a test may cost: on average, and at most [s of processor time at the speed that tests/costs.tsv notes].
 BUDGET_MEAN, BUDGET_CLAIM = 0.5, 5.0
 
+# Suites about the state of a process (its fence, limits, signals, current folder, what it leaves behind): each test has a
+# process of its own.
+SINGLY = r"^(Fence\w*|ForeignFile|IdleLoop|LeftFiles|MemoryLimit|ProgramFolder|Readers|Wake)$"
+
 # OSMesa draws with llvmpipe, as EGL does here: what is left of it in a landing are contexts, the golden pictures, one
 # session and one replay.
 OSMESA = r"/osmesa$"
@@ -160,9 +164,9 @@ def groups_of(programs, arguments):
         names = chosen(selection, program, names)
         if arguments.only:
             names = [n for n in names if re.search(arguments.only, n)]
-        singly = arguments.singly or "singly" in program["labels"]
         suites = {}
         for name in names:
+            singly = arguments.singly or re.search(SINGLY, suite_of(name))
             suites.setdefault(name if singly else suite_of(name), []).append(name)
         for suite, cases in suites.items():
             if arguments.part and not in_part(suite, arguments.part):

@@ -37,8 +37,6 @@ const std::map<std::string, std::string> kReasons{
     {"tests/app/commands/mpi_test.cpp", "--timeout: as long as for users, and who is stopped never "
                                         "answers"},
     {"tests/app/indexing/kept_index_test.cpp", "files of which the time of writing is hours ago"},
-    {"tests/index/indexing/index_build_test.cpp",
-     "a file of which the time of writing is an hour ago"},
     {"tests/index/indexing/index_append_test.cpp",
      "a file of which the time of writing is an hour ago"},
     {"tests/app/commands/cli_test.cpp", "files of which the time of writing is hours ago"},

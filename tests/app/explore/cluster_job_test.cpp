@@ -161,18 +161,15 @@ constexpr const char* kReplay = "$isochron replay walk.jsonl --out out --every 1
 
 TEST_F(ClusterJobTest, PicturesEqualThoseOfASingleProcess) {
     record(small_cave());
-    for (const std::string eyes : {"each", "window"}) {
+    for (const auto& [eyes, processes] : {std::pair<std::string, int>{"window", 2}, {"each", 5}}) {
         const std::string replay =
             "$isochron replay walk.jsonl --stamps --eyes " + eyes + " --out ";
         ASSERT_EQ(alone(replay + eyes).status, 0);
         const auto expected = files_in(eyes);
         EXPECT_EQ(expected.size(), 4u * 4 * 2);
-        for (const int processes : {2, 5}) {
-            const std::string out = fmt::format("{}{}", eyes, processes);
-            const ChildResult result = job(processes, replay + out + " --report timing.json");
-            ASSERT_EQ(result.status, 0) << result.err;
-            EXPECT_EQ(files_in(out), expected) << processes << " processes";
-        }
+        const ChildResult result = job(processes, replay + eyes + "_job --report timing.json");
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_EQ(files_in(eyes + "_job"), expected) << processes << " processes";
     }
     EXPECT_THAT(folder_.read("timing.json"), HasSubstr("\"barrier\""));
     EXPECT_THAT(folder_.read("timing.json"), HasSubstr("\"surface\": "));

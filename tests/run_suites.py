@@ -56,6 +56,13 @@ UNDRAWN = (
 # Of what is drawn, besides the first test of each suite of passes: the golden pictures, every shader, one window.
 SMOKE = r"Golden\w*\.\w+/egl|^Shaders\.\w+/egl|SurfacePasses\.\w+/egl|^Window\w*\.\w*Shows"
 SMOKE_PROGRAMS = {"render_gl_tests", "look_tests", "surface_tests"}
+# What takes long under the address sanitizer though it handles no bytes from elsewhere: claims of sizes and of advice,
+# and what is made and searched in memory alone.
+LONG_OF_BYTES = (
+    r"IndexAppendTest\.WritesLittleMore|StayingChunks\.TakeHardlyAnyBytes|BlendAdvice\.IsRightForForty|^ThiTree\."
+    r"|KeptExtraction\.IsTheSameWithArrays|WideIds\.OfASurfaceAreColored"
+)
+
 # Tests that do less in a landing than they can: of random input a third of the rounds, of faults every fourth call.
 LONG = r"^(Explore)?Faults\.|FootprintGeometry.*egl|ThiTree|CellDamage|RandomWalks|Recompute|RandomDamage"
 
@@ -80,7 +87,8 @@ SELECTIONS = {
     "long": Selection(only=LONG),
     "drawn": Selection(labels=("gl",), without=("bench",), unless=UNDRAWN),
     "smoke": Selection(labels=("gl",), without=("bench",), unless=UNDRAWN, only=SMOKE, firsts=True),
-    "bytes": Selection(labels=("bytes",)),
+    "bytes": Selection(labels=("bytes",), unless=LONG_OF_BYTES),
+    "bytes-long": Selection(labels=("bytes",), only=LONG_OF_BYTES),
     "logic": Selection(labels=("cpu",), without=("bytes",)),
     "cpu": Selection(labels=("cpu",)),
     "threads": Selection(labels=("threads",)),

@@ -69,7 +69,8 @@ TEST_P(IndexDamage, WithMatchingChecksumsIsRefusedOrHarmless) {
     const std::string good = read_file(folder.path() / "a");
     const auto sound = IndexFile::open(folder.path() / "a");
     int refused = 0, usable = 0;
-    for (int i = 0; i < tries(1500); ++i) {
+    const int rounds = tries(1500);
+    for (int i = 0; i < rounds; ++i) {
         auto damaged = std::make_unique<DamagedIndex>(good);
         for (int hits = 1 + static_cast<int>(random() % 3); hits > 0; --hits) {
             // Half of the damage goes where little is: into the sections and the steps' ends.
@@ -94,8 +95,8 @@ TEST_P(IndexDamage, WithMatchingChecksumsIsRefusedOrHarmless) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         }
     }
-    EXPECT_GT(refused, 50);
-    EXPECT_GT(usable, 50);
+    EXPECT_GT(refused, rounds / 10);
+    EXPECT_GT(usable, rounds / 10);
 }
 INSTANTIATE_TEST_SUITE_P(Types, IndexDamage, testing::Values(ValueType::u8, ValueType::f32));
 

@@ -96,6 +96,10 @@ TEST_F(ReproduceTest, WindowsAndEyesOfACaveAreTheSame) {
     record(small_windows("cave4"), "quadbuffer");
     expect_same({}, 5);
     expect_same({"--eyes", "each"}, 5);
+}
+
+TEST_F(ReproduceTest, WhatAnEmulatedCaveShowsIsTheSame) {
+    record(small_windows("cave4"), "quadbuffer");
     expect_same({"--emulate", "--size", "96", "64"}, 3);
 }
 

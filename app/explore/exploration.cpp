@@ -228,7 +228,7 @@ bool Exploration::prepare_session() {
 
 void Exploration::open_session() {
     if (job_.size() == 1)
-        earlier_ = earlier_session(options_, *file_);
+        earlier_ = earlier_session(earlier_kept_in(options_, *file_), options_.resume);
     else if (options_.resume)
         throw UsageError("--resume is for one process, without mpirun");
     if (!windows_)
@@ -346,12 +346,20 @@ void Exploration::keep(LiveLoop& live) {
                  earlier_ && path == kept_in(options_, *file_));
 }
 
-/// Offers to go on with one of the sessions before, if there are any that fit.
+/// Offers to go on with one of the sessions before, if there are any that fit. What is beside the
+/// last one is said on stderr as well.
 void Exploration::offer_earlier() {
     if (earlier_)
         return;
+    const auto all = earlier_sessions(options_, *file_);
+    if (all.size() > 1)
+        print_safely(
+            fmt::format("isochron: --resume --session FILE goes on with an earlier one, of "
+                        "which there are {} beside it; the newest is {}\n",
+                        all.size() - 1, all[1].path.filename().string()),
+            stderr);
     std::vector<OfferedSession> offers;
-    for (const EarlierSession& each : earlier_sessions(options_, *file_)) {
+    for (const EarlierSession& each : all) {
         try {
             const std::string hash = held_hash(*file_, each.session.data_hash);
             offers.push_back({words_of(each), state_of(each.session, session_->state(), hash,

@@ -99,25 +99,17 @@ std::vector<EarlierSession> earlier_sessions(const ExploreOptions& options,
     return all;
 }
 
-std::optional<SavedSession> earlier_session(const ExploreOptions& options,
-                                            const index::IndexFile& file) {
-    const auto path = earlier_kept_in(options, file);
+std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
+                                            bool resume) {
     const bool there = path && std::filesystem::exists(*path);
-    if (options.resume && !there)
+    if (resume && !there)
         throw interaction::Error(fmt::format("--resume: there is no saved session for these data{}",
                                              path ? " in " + path->string() : ""));
-    if (options.resume)
+    if (resume)
         return read_session(*path);
     if (there)
         print_safely(
             fmt::format("isochron: --resume goes on with the session in {}\n", path->string()),
-            stderr);
-    const auto all = earlier_sessions(options, file);
-    if (all.size() > 1)
-        print_safely(
-            fmt::format("isochron: --resume --session FILE goes on with an earlier one, of "
-                        "which there are {} beside it; the newest is {}\n",
-                        all.size() - 1, all[1].path.filename().string()),
             stderr);
     return std::nullopt;
 }

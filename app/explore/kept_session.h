@@ -36,10 +36,11 @@ std::optional<std::filesystem::path> earlier_kept_in(const ExploreOptions& optio
 std::vector<EarlierSession> earlier_sessions(const ExploreOptions& options,
                                              const index::IndexFile& file);
 
-/// The session to resume. Without `--resume` it is empty, and stderr tells of existing sessions.
-/// @throws interaction::Error when there is no session to resume
-std::optional<SavedSession> earlier_session(const ExploreOptions& options,
-                                            const index::IndexFile& file);
+/// The session to resume. Without `resume` it is empty, and stderr tells of an existing session.
+/// @param path of the saved session; empty if there is no place for it
+/// @throws interaction::Error when `resume` is set and there is no session
+std::optional<SavedSession> earlier_session(const std::optional<std::filesystem::path>& path,
+                                            bool resume);
 
 /// Why a session cannot be kept in this file, in one line; empty: it can.
 /// @param path empty: there is no folder for it

@@ -22,6 +22,7 @@ import sys
 import tempfile
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -84,7 +85,7 @@ SELECTIONS = {
     "landing": Selection(without=("bench",), unless=OSMESA, kept=OSMESA_KEPT),
     "osmesa": Selection(without=("bench",), only=OSMESA, unless=OSMESA_KEPT),
     "bench": Selection(labels=("bench",)),
-    "long": Selection(only=LONG),
+    "long": Selection(without=("bench",), only=LONG),
     "drawn": Selection(labels=("gl",), without=("bench",), unless=UNDRAWN),
     "smoke": Selection(labels=("gl",), without=("bench",), unless=UNDRAWN, only=SMOKE, firsts=True),
     "bytes": Selection(labels=("bytes",), unless=LONG_OF_BYTES),
@@ -133,21 +134,32 @@ def cases_of(program):
             suite = line
         elif line:
             names.append(suite + line.strip())
-    return [name for name in names if "DISABLED_" not in name]
+    return names
 
 
 def environment_of(program):
-    return {**os.environ, "ISOCHRON_TEST_COSTS": "1", **program["environment"]}
+    return {**os.environ, **dict(setting.split("=", 1) for setting in program["environment"])}
 
 
 def suite_of(name):
     return name.rsplit(".", 1)[0]
 
 
+def programs_of(arguments):
+    """The programs of a selection, or of one part of them: those of one floor, which stand together, stay together."""
+    selection = SELECTIONS[arguments.selection]
+    programs = []
+    for program in json.loads((arguments.build / "tests/programs.json").read_text()):
+        labels = set(program["labels"])
+        if (labels & set(selection.labels) or not selection.labels) and not labels & set(selection.without):
+            programs.append(program)
+    if arguments.programs:
+        at, parts = part_of(arguments.programs)
+        programs = programs[len(programs) * at // parts:len(programs) * (at + 1) // parts]
+    return programs
+
+
 def chosen(selection, program, names):
-    labels = set(program["labels"])
-    if (selection.labels and not labels & set(selection.labels)) or labels & set(selection.without):
-        return []
     if selection.unless:
         left_out = re.compile(selection.unless)
         kept = re.compile(selection.kept) if selection.kept else None
@@ -190,15 +202,19 @@ def groups_of(programs, arguments):
 
 
 def listed(programs, jobs):
-    from concurrent.futures import ThreadPoolExecutor
-
     with ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(cases_of, programs))
 
 
+def part_of(text):
+    """K and N of a part, written K/N; K counts from 0."""
+    at, parts = (int(number) for number in text.split("/"))
+    return at, parts
+
+
 def in_part(suite, part):
-    """Whether a suite is in part K of N, written K/N; the same for every run."""
-    at, parts = (int(number) for number in part.split("/"))
+    """Whether a suite is in a part; the same for every run."""
+    at, parts = part_of(part)
     return int(hashlib.sha256(suite.encode()).hexdigest(), 16) % parts == at
 
 
@@ -212,7 +228,7 @@ def run_process(program, arguments, output):
 
     Returns the status of the wait and the processor time of it and of what it waited for."""
     process = subprocess.Popen([*program["command"], *arguments], stdout=output, stderr=subprocess.STDOUT,
-                               stdin=subprocess.DEVNULL, cwd=program.get("folder"), env=environment_of(program),
+                               stdin=subprocess.DEVNULL, cwd=program["folder"] or None, env=environment_of(program),
                                start_new_session=True)
     with guard:
         running[process.pid] = process
@@ -338,12 +354,18 @@ def kept_costs():
     return loop, costs
 
 
+def scale_of(loop):
+    """From processor time now to that at the speed of tests/costs.tsv. @param loop what the loop takes now [s]"""
+    kept_loop = kept_costs()[0]
+    return kept_loop / loop if kept_loop else 1.0
+
+
 def keep_costs(groups, loop, whole):
     """Writes what this run found for its suites. Others keep their rows, unless the run was whole."""
     kept_loop, costs = kept_costs()
     if whole:
         costs = {}
-    scale = kept_loop / loop if kept_loop else 1.0
+    scale = scale_of(loop)
     for group in groups:
         cost = group.cost
         costs[group.suite] = Cost(cost.claims, round(cost.time * scale, 2), cost.processes, cost.contexts, cost.draws)
@@ -357,8 +379,7 @@ def keep_costs(groups, loop, whole):
 
 def told_costs(groups, loop, check):
     """Prints the ten dearest suites beside what is kept of them. Returns what is over twice its budget."""
-    kept_loop, kept = kept_costs()
-    scale = kept_loop / loop if kept_loop else 1.0
+    kept, scale = kept_costs()[1], scale_of(loop)
     total = Cost()
     for group in groups:
         total.add(group.cost)
@@ -441,7 +462,8 @@ def main():
     parser.add_argument("build", type=Path, help="folder of the build, as build/release")
     parser.add_argument("selection", choices=SELECTIONS)
     parser.add_argument("--only", default="", help="regular expression of names of tests")
-    parser.add_argument("--programs", default="", help="names of programs; the others are left out")
+    parser.add_argument("--programs", default="", metavar="K/N", help="one part of the programs, in their order")
+    parser.add_argument("--list-programs", action="store_true", help="name the programs, built or not; run nothing")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--singly", action="store_true", help="each test in a process of its own")
     parser.add_argument("--shuffle", type=int, default=0, metavar="SEED", help="in another order")
@@ -454,9 +476,16 @@ def main():
     arguments = parser.parse_args()
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)
-    programs = [p for p in json.loads((arguments.build / "tests/programs.json").read_text())
-                if Path(p["command"][0]).exists() and
-                (not arguments.programs or p["name"] in arguments.programs.split())]
+    os.environ["ISOCHRON_TEST_COSTS"] = "1"
+    # Shaders that one test has compiled are there for all others, also where a test gives its program folders of its own
+    # for what it keeps, or the user's folder cannot be written.
+    os.environ["MESA_SHADER_CACHE_DIR"] = str(arguments.build.resolve() / "tests/shader_cache")
+    programs = programs_of(arguments)
+    if arguments.list_programs:
+        print(*(p["name"] for p in programs))
+        return 0
+    missing = [f"{p['name']} is not built" for p in programs if not Path(p["command"][0]).exists()]
+    programs = [p for p in programs if Path(p["command"][0]).exists()]
     groups = groups_of(programs, arguments)
     if arguments.list:
         for group in groups:
@@ -473,7 +502,7 @@ def main():
     if arguments.keep_costs:
         parts = (arguments.only, arguments.programs, arguments.part, arguments.seconds, arguments.singly)
         keep_costs([g for g in ran if not g.failed], speed.loop(), whole=not any(parts))
-    failed = [f"{name} ({group.program['name']})" for group in ran for name, _ in group.failed] + over
+    failed = [f"{name} ({group.program['name']})" for group in ran for name, _ in group.failed] + over + missing
     passed = sum(max(0, g.cost.claims - len(g.failed)) for g in ran)
     print(f"{arguments.build} {arguments.selection}: {passed} passed, {len(failed)} failed, "
           f"in {time.monotonic() - begin:.0f} s", flush=True)

@@ -1,5 +1,5 @@
 """What tests/run_suites.py makes of test programs that pass, fail, crash, leak at their end, hang, or say nothing."""
-import os
+import json
 import subprocess
 import sys
 import tempfile
@@ -43,7 +43,7 @@ class Suites(unittest.TestCase):
             program.write_text(PROGRAM.format(tests=tests, status=status))
             program.chmod(0o700)
             described = {"name": "program", "kind": "gtest", "command": [str(program)], "labels": [],
-                         "environment": {}, "folder": folder}
+                         "environment": [], "folder": folder}
             names = run_suites.cases_of(described)
             self.assertEqual(names, ["Suite." + name for name in tests])
             return run_suites.run_group(run_suites.Group(described, "Suite", names))
@@ -75,6 +75,21 @@ class Suites(unittest.TestCase):
         patience, run_suites.PATIENCE = run_suites.PATIENCE, 1
         self.addCleanup(setattr, run_suites, "PATIENCE", patience)
         self.assertIn("printed nothing", self.failures({"A": "hang", "B": ""})["Suite.A"])
+
+    def test_every_program_is_in_one_part_and_what_is_not_built_has_failed(self):
+        with tempfile.TemporaryDirectory() as build:
+            names = [f"program{number}" for number in range(5)]
+            Path(build, "tests").mkdir()
+            Path(build, "tests/programs.json").write_text(json.dumps(
+                [{"name": name, "kind": "gtest", "command": [f"{build}/{name}"], "labels": ["threads"],
+                  "environment": [], "folder": build} for name in names]))
+            def run(*more):
+                return subprocess.run([run_suites.__file__, build, "threads", *more], capture_output=True, text=True)
+            parts = [run("--list-programs", "--programs", f"{k}/2").stdout.split() for k in range(2)]
+            self.assertEqual(parts[0] + parts[1], names)
+            ran = run()
+            self.assertEqual(ran.returncode, 1)
+            self.assertIn("0 passed, 5 failed", ran.stdout)
 
     def test_every_suite_is_in_one_part(self):
         for suite in ("A", "B", "Contexts/C", "D/0"):

@@ -1,5 +1,7 @@
-// The main function of every test program: GoogleTest's, and after each test a line that says what the test cost.
+// The main function of every test program: GoogleTest's, and after each test lines that say what the test cost, and by
+// which command it fails again.
 #include "tests/support/test_costs.h"
+#include "tests/support/test_seed.h"
 
 #include <gmock/gmock.h>
 
@@ -7,6 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 
@@ -52,6 +55,18 @@ long processor_time() {
     return sum;
 }
 
+/// Says after a test that failed by which command it fails again.
+class RepeatingCommand final : public testing::EmptyTestEventListener {
+    void OnTestEnd(const testing::TestInfo& test) override {
+        if (!test.result()->Failed())
+            return;
+        const char* seed = std::getenv("ISOCHRON_SEED");
+        std::printf("Repeat it: ISOCHRON_SEED=%s ISOCHRON_ROUNDS=%d %s --gtest_filter=%s.%s\n",
+                    seed ? seed : "1", rounds_percent(), program_invocation_name,
+                    test.test_suite_name(), test.name());
+    }
+};
+
 /// Prints what `tests/run_suites.py` reads, when that asks for it.
 class CostPrinter final : public testing::EmptyTestEventListener {
     void OnTestStart(const testing::TestInfo&) override {
@@ -76,8 +91,9 @@ class CostPrinter final : public testing::EmptyTestEventListener {
 
 int main(int argc, char** argv) {
     testing::InitGoogleMock(&argc, argv);
+    testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+    listeners.Append(new isochron::test_support::RepeatingCommand);
     if (std::getenv("ISOCHRON_TEST_COSTS"))
-        testing::UnitTest::GetInstance()->listeners().Append(
-            new isochron::test_support::CostPrinter);
+        listeners.Append(new isochron::test_support::CostPrinter);
     return RUN_ALL_TESTS();
 }

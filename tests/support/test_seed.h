@@ -1,10 +1,7 @@
-// The seed of tests with random input, how often they try, and how a failure is repeated.
+// The seed of tests with random input, and how often they try.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -37,21 +34,5 @@ inline int tries(int whole) {
 #endif
     return std::max(1, whole * rounds_percent() / 100);
 }
-
-/// Says after a test that failed by which command it fails again.
-class RepeatingCommand : public testing::EmptyTestEventListener {
-    void OnTestEnd(const testing::TestInfo& test) override {
-        if (!test.result()->Failed())
-            return;
-        const char* seed = std::getenv("ISOCHRON_SEED");
-        std::printf("Repeat it: ISOCHRON_SEED=%s ISOCHRON_ROUNDS=%d %s --gtest_filter=%s.%s\n",
-                    seed ? seed : "1", rounds_percent(), program_invocation_name,
-                    test.test_suite_name(), test.name());
-    }
-};
-inline const bool kTellsHowToRepeat = [] {
-    testing::UnitTest::GetInstance()->listeners().Append(new RepeatingCommand);
-    return true;
-}();
 
 } // namespace isochron

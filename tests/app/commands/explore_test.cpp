@@ -1,6 +1,7 @@
 // The whole program in a window: a user presses keys, leaves, and the recording tells and replays
 // it.
 #include "tests/app/commands/explore_fixture.h"
+#include "tests/app/explore/small_cave.h"
 #include "tests/support/eventually.h"
 
 #include "app/config/shipped_configs.h"
@@ -14,9 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
-#include <regex>
 
 namespace isochron::app {
 namespace {
@@ -191,9 +189,7 @@ TEST_F(ExploreTest, TheScreenshotKeyWritesASettledPictureWithoutThePanel) {
 }
 
 TEST_F(ExploreTest, AnEmulatedCaveTurnsWhileItsKeyIsHeldAndTheRecordingHoldsTheCamera) {
-    std::ifstream shipped(test_support::source_root() + "/configs/cave4.toml");
-    const std::string cave(std::istreambuf_iterator<char>(shipped), {});
-    folder_.write("cave.toml", std::regex_replace(cave, std::regex("1920, 1200"), "192, 120"));
+    folder_.write("cave.toml", cave_of("192, 120"));
     const auto program = explore(
         {"--config", file("cave.toml"), "--emulate", "--record", file("walk.jsonl"), "--no-panel"});
     screen_.xdotool({"keydown", "c", "mousedown", "1"});

@@ -1,4 +1,5 @@
 // A picture that the program has written is drawn again from its note, with the same bytes.
+#include "tests/app/explore/small_cave.h"
 #include "tests/support/child_process.h"
 #include "tests/support/session_fixture.h"
 
@@ -83,23 +84,16 @@ class ReproduceTest : public testing::Test {
     TestFolder folder_;
 };
 
-std::string small_windows(const std::string& name) {
-    std::string text = read_config(name).text;
-    for (std::size_t at; (at = text.find("1920, 1200")) != text.npos;)
-        text.replace(at, 10, "48, 30");
-    return text;
-}
-
 const std::string kOne = "[[windows]]\nsize = [96, 64]\n";
 
 TEST_F(ReproduceTest, WindowsAndEyesOfACaveAreTheSame) {
-    record(small_windows("cave4"), "quadbuffer");
+    record(cave_of("48, 30"), "quadbuffer");
     expect_same({}, 5);
     expect_same({"--eyes", "each"}, 5);
 }
 
 TEST_F(ReproduceTest, WhatAnEmulatedCaveShowsIsTheSame) {
-    record(small_windows("cave4"), "quadbuffer");
+    record(cave_of("48, 30"), "quadbuffer");
     expect_same({"--emulate", "--size", "96", "64"}, 3);
 }
 

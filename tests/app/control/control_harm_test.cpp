@@ -1,0 +1,164 @@
+// The control socket and clients that do harm: floods, nonsense, deafness, too many of them.
+#include "tests/app/control/control_fixture.h"
+
+#include <fstream>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace isochron::app {
+namespace {
+
+TEST_F(ControlServerTest, HasAnEndOfWhatWaitsForFrames) {
+    interaction::Commands undo;
+    undo.undo = true;
+    std::size_t taken = 0;
+    while (taken < 1000 && desk_.post(undo) != 0)
+        ++taken;
+    EXPECT_EQ(taken, ControlDesk::kMostBatches);
+}
+
+TEST_F(ControlServerTest, HalfLinesHugeLinesAndNonsenseEndInAnAnswerAndHarmNobody) {
+    listen();
+    ControlClient other(server_->address());
+    EXPECT_EQ(answer_to("{\"verb\":\"sta"), "") << "a line without its end is none";
+    EXPECT_EQ(answer_to("GET / HTTP/1.1\r\n\r\n"),
+              "{\"id\":null,\"ok\":false,\"error\":\"request: expected an object as JSON in one "
+              "line\"}\n");
+    EXPECT_NE(answer_to(std::string(10'000'000, 'x')).find("a line of more than"),
+              std::string::npos);
+    EXPECT_NE(answer_to(std::string(60'000, '[') + "\n").find("nested deeper"), std::string::npos);
+    EXPECT_NE(answer_to(std::string("\0\xff\n{\"verb\":\"state\"}\n", 20)).find("\"ok\":true"),
+              std::string::npos)
+        << "the next line is read all the same";
+    EXPECT_NO_THROW(ask(other, verb(ControlVerb::state)));
+}
+
+TEST_F(ControlServerTest, AClientThatReadsNothingIsNotReadFromForever) {
+    listen();
+    const ControlSocket deaf = connect_to(server_->address());
+    fcntl(deaf.get(), F_SETFL, O_NONBLOCK);
+    const std::string line = "{\"verb\":\"state\"}\n";
+    std::string many;
+    for (int i = 0; i < 4000; ++i)
+        many += line;
+    std::size_t sent = 0, refused = 0;
+    ControlClient other(server_->address());
+    EXPECT_TRUE(eventually([&] {
+        const ssize_t count = send(deaf.get(), many.data(), many.size(), MSG_NOSIGNAL);
+        sent += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+        refused = count < 0 ? refused + 1 : 0;
+        ask(other, verb(ControlVerb::state)); // which is answered meanwhile
+        return refused > 20;
+    })) << sent;
+    EXPECT_LT(sent, std::size_t{64} << 20);
+}
+
+TEST_F(ControlServerTest, ClientsThatVanishLeaveNothingBehind) {
+    listen();
+    for (int i = 0; i < 50; ++i) {
+        const ControlSocket socket = connect_to(server_->address());
+        const std::string asks = "{\"verb\":\"subscribe\",\"to\":[\"state\"]}\n{\"verb\":"
+                                 "\"picture\"}\n{\"verb\":\"mesh\",\"isovalue\":0}\n{\"ver";
+        send(socket.get(), asks.data(), asks.size(), MSG_NOSIGNAL);
+    }
+    EXPECT_TRUE(eventually([&] {
+        show();
+        return server_->clients() == 0;
+    }));
+    ControlClient client(server_->address());
+    EXPECT_NO_THROW(ask(client, step(1)));
+}
+
+TEST_F(ControlServerTest, MoreClientsThanThereAreSeatsWaitUntilOneLeaves) {
+    listen();
+    std::vector<std::unique_ptr<ControlClient>> seated;
+    for (std::size_t i = 0; i < ControlServer::kMostClients; ++i) {
+        seated.push_back(std::make_unique<ControlClient>(server_->address()));
+        ask(*seated.back(), verb(ControlVerb::state));
+    }
+    const ControlSocket late = connect_to(server_->address());
+    const std::string line = "{\"verb\":\"state\"}\n";
+    ASSERT_EQ(send(late.get(), line.data(), line.size(), MSG_NOSIGNAL), std::ssize(line));
+    const auto is_answered = [&late] {
+        pollfd socket{late.get(), POLLIN, 0};
+        return poll(&socket, 1, 0) > 0;
+    };
+    ask(*seated.front(), step(1)); // the thread has looked at all of them since
+    EXPECT_EQ(server_->clients(), ControlServer::kMostClients);
+    EXPECT_FALSE(is_answered());
+    EXPECT_THROW(ControlClient(server_->address(), {}, std::chrono::milliseconds(1)),
+                 interaction::Error)
+        << "a command does not wait for ever";
+    seated.pop_back();
+    EXPECT_TRUE(eventually(is_answered));
+}
+
+TEST_F(ControlServerTest, PicturesThatNobodyReadsTakeLittleMemory) {
+    listen();
+    ControlClient deaf(server_->address()), other(server_->address());
+    ControlRequest now = verb(ControlVerb::picture);
+    now.now = true;
+    const auto give = [&](std::size_t pixels) {
+        ControlPicture picture;
+        picture.image = {.width = static_cast<int>(pixels), .height = 1, .rgba = {}};
+        picture.image.rgba.resize(4 * pixels);
+        picture.answers = desk_.wishes();
+        desk_.give(std::move(picture));
+        for (int i = 0; i < 2; ++i) // the thread has answered with the picture before the second
+            ask(other, verb(ControlVerb::state));
+    };
+    const auto memory = [] { // [KiB]; not the most so far, which another test may have set
+        long all = 0, resident = 0;
+        std::ifstream("/proc/self/statm") >> all >> resident;
+        return resident * (sysconf(_SC_PAGESIZE) / 1024);
+    };
+    const auto wait_for = [&](std::uint64_t wishes) {
+        return eventually([&] { return desk_.wishes().now == wishes; });
+    };
+    constexpr std::uint64_t kMany = 300;
+    for (std::uint64_t i = 0; i < kMany; ++i)
+        deaf.send(now);
+    ASSERT_TRUE(wait_for(kMany));
+    const auto before = memory();
+    give(100'000);
+    EXPECT_LT(memory() - before, 40'000) << "all have the same bytes";
+    for (std::uint64_t i = 0; i < kMany; ++i)
+        EXPECT_EQ(deaf.next()->bytes.size(), 300'000u);
+
+    for (std::uint64_t i = 1; i <= 2; ++i) {
+        deaf.send(now);
+        ASSERT_TRUE(wait_for(kMany + i));
+        give(kMostBehind / 6 + 1);
+    }
+    deaf.send(now);
+    ask(other, verb(ControlVerb::state));
+    ask(other, verb(ControlVerb::state));
+    EXPECT_EQ(desk_.wishes().now, kMany + 2) << "it has two pictures to read";
+    deaf.next();
+    EXPECT_TRUE(wait_for(kMany + 3));
+}
+
+TEST_F(ControlServerTest, AFloodOfCommandsIsOneOfEachKindInAFrame) {
+    listen();
+    constexpr int kMany = 300;
+    std::string lines;
+    for (int i = 0; i < kMany; ++i)
+        lines += "{\"verb\":\"commands\",\"commands\":{\"step\":" + std::to_string(i % 3) + "}}\n";
+    std::atomic<bool> answered{false};
+    auto answers = std::async(std::launch::async, [&] {
+        const Finally tell([&] { answered = true; });
+        return answer_to(lines);
+    });
+    EXPECT_TRUE(eventually([&] {
+        show();
+        return answered.load();
+    }));
+    const std::string all = answers.get();
+    EXPECT_EQ(std::ranges::count(all, '\n'), kMany) << "each is answered";
+    EXPECT_EQ(state_->step, (kMany - 1) % 3) << "the last one counts";
+    EXPECT_LE(taken_.size(), frames_);
+}
+
+} // namespace
+} // namespace isochron::app

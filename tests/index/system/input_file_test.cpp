@@ -14,6 +14,8 @@
 
 #include <array>
 #include <cstring>
+#include <filesystem>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,15 @@ TEST_F(InputFiles, APipeNobodyWritesToIsRefusedAtOnce) {
     const auto pipe = folder_.path() / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_THAT(complaints(pipe), testing::Each(HasSubstr("pipe: not a regular file")));
+}
+
+TEST_F(InputFiles, AreClosedAgain) {
+    const auto open_now = [] {
+        return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+    };
+    const auto before = open_now();
+    EXPECT_THAT(complaints(folder_.write("a", "text")), testing::Each("opened"));
+    EXPECT_EQ(open_now(), before);
 }
 
 TEST_F(InputFiles, ADeviceThatNeverEndsIsRefused) {

@@ -73,6 +73,14 @@ TEST(NewFile, OfANewNameLeavesNothingWhenItsProcessIsKilled) {
     EXPECT_EQ(folder.names(), std::vector<std::string>{});
 }
 
+TEST(NewFile, LeavesNothingWithoutACommitHoweverManyWrite) {
+    const TestFolder folder;
+    for (const auto writers : {NewFile::Writers::one, NewFile::Writers::several}) {
+        NewFile(folder.path() / "new", writers).reserve(4096);
+        EXPECT_TRUE(folder.names().empty());
+    }
+}
+
 TEST(NewFile, IsWholeWhereAnotherTookTheNameMeanwhile) {
     const TestFolder folder;
     NewFile first(folder.path() / "a"), second(folder.path() / "a");

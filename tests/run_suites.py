@@ -29,7 +29,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 COSTS = ROOT / "tests/costs.tsv"
 
-# A test that prints nothing new for so long hangs [s].
+# A test that prints nothing new for so long hangs [s]; `--patience` says otherwise.
 PATIENCE = 300
 # What a test may cost: on average, and at most [s of processor time at the speed that tests/costs.tsv notes].
 BUDGET_MEAN, BUDGET_CLAIM = 0.5, 5.0
@@ -261,7 +261,7 @@ COST = re.compile(r"\[   COST   \] (\d+) ms, (\d+) processes, (\d+) contexts, (\
 
 def words_of(status):
     if status == "hung":
-        return f"printed nothing for {PATIENCE} s"
+        return f"printed nothing for {PATIENCE:g} s"
     if status < 0:
         return f"ended by {signal.Signals(-status).name}"
     return f"ended with status {status}"
@@ -458,6 +458,7 @@ def stop(*_):
 
 
 def main():
+    global PATIENCE
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=Path, help="folder of the build, as build/release")
     parser.add_argument("selection", choices=SELECTIONS)
@@ -469,11 +470,13 @@ def main():
     parser.add_argument("--shuffle", type=int, default=0, metavar="SEED", help="in another order")
     parser.add_argument("--part", default="", metavar="K/N", help="one part of the suites")
     parser.add_argument("--seconds", type=float, default=0, help="no suite begins after so long")
+    parser.add_argument("--patience", type=float, default=PATIENCE, help="a test that prints nothing new for so long hangs")
     parser.add_argument("--check-costs", action="store_true", help="what costs twice its budget fails")
     parser.add_argument("--keep-costs", action="store_true", help="write tests/costs.tsv")
     parser.add_argument("--list", action="store_true", help="name the tests, run none")
     parser.add_argument("--summary", type=Path, help="where to write how many passed and failed, and which failed")
     arguments = parser.parse_args()
+    PATIENCE = arguments.patience
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)
     os.environ["ISOCHRON_TEST_COSTS"] = "1"

@@ -26,7 +26,7 @@ class ExploreFaults : public Faults {
     }
     /// These alone, unless all are tried.
     static std::vector<Fault> file_faults_like(std::vector<Fault> some) {
-        return tries_all() ? file_faults() : some;
+        return test_support::tries_every_fault() ? file_faults() : some;
     }
     void clear(const std::string& name) { fs::remove_all(folder.path() / name); }
     bool has(const std::string& name) const { return fs::exists(folder.path() / name); }

@@ -3,6 +3,7 @@
 
 #include "tests/app/commands/command_line.h"
 #include "tests/support/eventually.h"
+#include "tests/support/every_fault.h"
 
 #include <nlohmann/json.hpp>
 
@@ -40,7 +41,6 @@ class Faults : public CommandLine {
                              fmt::format("ISOCHRON_FAULT={}:{}:{}", fault.kind, at, fault.how),
                              "ISOCHRON_FAULT_MARK=" + mark()}});
     }
-    static bool tries_all() { return std::getenv("ISOCHRON_EVERY_FAULT") != nullptr; }
     bool was_met() const { return std::filesystem::exists(mark()); }
     std::string mark() const { return marks_.path() / "met"; }
 
@@ -50,7 +50,8 @@ class Faults : public CommandLine {
     int each_call(const Fault& fault, const std::vector<std::string>& arguments, Prepare prepare,
                   Check check) {
         int met = 0;
-        for (long at = 1;; at = tries_all() ? at + 1 : 3 * at + 1) {
+        test_support::FaultyCalls calls([](long at) { return 3 * at + 1; });
+        for (long at = calls.next();; at = calls.next()) {
             prepare();
             const ChildResult result = with(fault, at, arguments);
             SCOPED_TRACE(fmt::format("{} {} {}: status {}, {}", fault.kind, at, fault.how,

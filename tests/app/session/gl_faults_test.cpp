@@ -3,9 +3,9 @@
 #include "tests/support/drawing/context_in_between.h"
 #include "tests/support/drawing/faulty_driver.h"
 #include "tests/support/drawing/golden_fixture.h"
+#include "tests/support/every_fault.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -31,7 +31,6 @@ class GlFaults : public GoldenPictures {
 };
 
 TEST_P(GlFaults, GiveALineOrTheRightPicture) {
-    const bool all = std::getenv("ISOCHRON_EVERY_FAULT") != nullptr;
     std::map<std::string, int> met; // how often each call failed
     int lines = 0;
     for (const Footprint footprint : {Footprint::gaussian, Footprint::mesh, Footprint::surface}) {
@@ -39,7 +38,8 @@ TEST_P(GlFaults, GiveALineOrTheRightPicture) {
         std::string line;
         const Image right = picture_with_fault(0, footprint, line);
         ASSERT_EQ(line, "");
-        for (long at = 1;; at = all ? at + 1 : at + 1 + at / 6) {
+        test_support::FaultyCalls calls([](long at) { return at + 1 + at / 6; });
+        for (long at = calls.next();; at = calls.next()) {
             line.clear();
             const Image picture = picture_with_fault(at, footprint, line);
             const std::string call = test_support::failed_call();
@@ -59,7 +59,7 @@ TEST_P(GlFaults, GiveALineOrTheRightPicture) {
     }
     EXPECT_GE(met.size(), 8u);
     EXPECT_GE(lines, 20);
-    if (all) {
+    if (test_support::tries_every_fault()) {
         for (const auto& [call, times] : met)
             RecordProperty(call, times);
     }

@@ -9,7 +9,6 @@
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measures/changing_series.h"
-#include "tests/bench/measures/data_sets.h"
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/measures/timing.h"
 #include "tests/bench/measures/work_folder.h"
@@ -39,8 +38,6 @@ struct ChangeCase {
     std::string what;
     index::SurfacesQuery before, after;
     double floor = 0;
-    index::SearchMethod anew = index::SearchMethod::bricks; ///< the fastest with nothing at hand
-    bool colors = true;                                     ///< of a second array
 };
 
 /// What the sets are for: cells for a GPU, cells with planes, and the same with a mesh.
@@ -94,7 +91,8 @@ ChangeTime time_change(const render::Gl& gl, const fs::path& path, const ChangeU
     const auto file = index::IndexFile::open(path);
     // A method that is asked for takes nothing over.
     const index::Extract extract = index::extract_from(
-        file, how == How::kept ? std::nullopt : std::optional(of.anew), use.shading);
+        file, how == How::kept ? std::nullopt : std::optional(index::SearchMethod::bricks),
+        use.shading);
     index::SurfacesQuery before = of.before, after = of.after;
     before.mesh_room = after.mesh_room = use.mesh_room;
     before.coloring = after.coloring = use.coloring;
@@ -188,24 +186,6 @@ std::string load_now() {
     return getloadavg(&load, 1) == 1 ? fmt::format("{:.1f}", load) : "unknown";
 }
 
-/// Builds an index of the paper's sphere with cells and deltas, which are for series such as this.
-std::vector<ChangeCase> next_steps_of_sphere(const fs::path& path, unsigned repeats) {
-    app::ProgressBar bar;
-    const auto file =
-        build_file(data_set("sphere-55", index::ValueType::u8, {}), path, bar.progress());
-    const double isovalue = 112.5; // the middle of its values
-    std::vector<ChangeCase> alike;
-    const auto steps = static_cast<std::uint32_t>(file->info().times.size());
-    for (std::uint32_t step = 0; step + 1 < steps; step += std::max(1u, steps / (6 * repeats)))
-        alike.push_back({"sphere-55, with deltas",
-                         {.step = step, .isovalues = {isovalue}},
-                         {.step = step + 1, .isovalues = {isovalue}},
-                         0.8,
-                         index::SearchMethod::cells,
-                         false});
-    return alike;
-}
-
 void run_bench_change(const ChangeArguments& arguments) {
     const app::CancelOnSignal signals;
     const WorkFolder folder(arguments.work);
@@ -230,8 +210,7 @@ void run_bench_change(const ChangeArguments& arguments) {
                 for (const bool again : {false, true}) {
                     const bool wanted =
                         alike.front().what.find(arguments.only) != std::string::npos;
-                    if (!wanted ||
-                        (use.coloring != index::CellColoring::none && !alike.front().colors))
+                    if (!wanted)
                         continue;
                     signals.check();
                     rows.push_back(measure(gl, path, use, alike, again));
@@ -274,8 +253,6 @@ void run_bench_change(const ChangeArguments& arguments) {
         }
         measure_cases(path, cases);
     }
-    const fs::path path = folder.path() / "sphere.isochron";
-    measure_cases(path, {next_steps_of_sphere(path, arguments.repeats)});
     const std::string load = load_now();
     fmt::print("load of the machine: {}\n", load);
     if (!arguments.json.empty())

@@ -118,43 +118,35 @@ void forget(const fs::path& path) {
 
 void measure_cold_steps(const fs::path& folder, const index::Progress& progress,
                         const std::function<void(const std::string& row)>& print) {
-    using index::Tier, index::TierSet;
     for (const ValueType type : {ValueType::u8, ValueType::f32})
         for (const auto& vertices : std::array<std::array<std::uint32_t, 3>, 3>{
                  {{64, 64, 64}, {128, 128, 64}, {256, 128, 64}}}) {
             SmallSteps steps(vertices, type, folder / "steps.raw");
-            for (const bool cells : {false, true}) {
-                const auto tiers = cells ? TierSet().with(Tier::bricks).with(Tier::cells)
-                                         : TierSet().with(Tier::bricks);
-                const fs::path path = folder / "steps.isochron";
-                index::build_index(*steps.series(), path, {.tiers = tiers}, progress);
-                std::vector<double> ours, plain;
-                std::size_t found = 0;
-                for (const bool first : {true, false}) // each comes first once
-                    for (std::uint32_t step = 0; step < kColdSteps; ++step) {
-                        index::CellSet scanned;
-                        if (!first)
-                            plain.push_back(steps.read_and_scan(step, scanned));
-                        const auto file = index::IndexFile::open(path);
-                        const index::Search search =
-                            index::search_in(file, {}, index::Shading::cells);
-                        forget(path);
-                        index::CellSetPtr set;
-                        ours.push_back(
-                            seconds_of([&] { set = search({step, kColdIsovalue}, {}); }));
-                        if (first)
-                            plain.push_back(steps.read_and_scan(step, scanned));
-                        if (scanned.ids != set->ids)
-                            throw index::Error("the index and the scan find different cells");
-                        found = set->ids.size();
-                    }
-                print(fmt::format(
-                    "{}x{}x{} {}{}, {} cells, cold step: index {:.2f} ms; read and scan {:.2f} ms, "
-                    "{:.2f}x\n",
-                    vertices[0], vertices[1], vertices[2], name_of(type),
-                    cells ? " with cells" : "", found, 1e3 * median(ours), 1e3 * median(plain),
-                    median(plain) / median(ours)));
-            }
+            const fs::path path = folder / "steps.isochron";
+            index::build_index(*steps.series(), path, {}, progress);
+            std::vector<double> ours, plain;
+            std::size_t found = 0;
+            for (const bool first : {true, false}) // each comes first once
+                for (std::uint32_t step = 0; step < kColdSteps; ++step) {
+                    index::CellSet scanned;
+                    if (!first)
+                        plain.push_back(steps.read_and_scan(step, scanned));
+                    const auto file = index::IndexFile::open(path);
+                    const index::Search search = index::search_in(file, {}, index::Shading::cells);
+                    forget(path);
+                    index::CellSetPtr set;
+                    ours.push_back(seconds_of([&] { set = search({step, kColdIsovalue}, {}); }));
+                    if (first)
+                        plain.push_back(steps.read_and_scan(step, scanned));
+                    if (scanned.ids != set->ids)
+                        throw index::Error("the index and the scan find different cells");
+                    found = set->ids.size();
+                }
+            print(fmt::format(
+                "{}x{}x{} {}, {} cells, cold step: index {:.2f} ms; read and scan {:.2f} ms, "
+                "{:.2f}x\n",
+                vertices[0], vertices[1], vertices[2], name_of(type), found, 1e3 * median(ours),
+                1e3 * median(plain), median(plain) / median(ours)));
         }
 }
 

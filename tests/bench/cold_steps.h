@@ -10,7 +10,7 @@
 
 namespace isochron::bench {
 
-/// Measures series of 64^3 to 256 x 128 x 64 vertices, of u8 and f32, with bricks and with cells.
+/// Measures series of 64^3 to 256 x 128 x 64 vertices, of u8 and f32.
 /// @param folder on a disk @param print gets each row
 /// @throws Error where the index finds other cells than the scan
 void measure_cold_steps(const std::filesystem::path& folder, const index::Progress& progress,

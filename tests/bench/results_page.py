@@ -127,10 +127,6 @@ def over_scan(row):
     return row.scan_us / row.search_ids_us
 
 
-def over_following(row):
-    return row.search_ids_us / row.incremental_us
-
-
 def build_rate(row):
     return row.build_mcs_per_s
 
@@ -139,27 +135,11 @@ INDEX_GOALS = [
     # The false positives of the published structure are those of its method.
     ("false positives and negatives, all types, steps and isovalues", "", 0, 0, "(?!thi).*",
      lambda row: row.false_positives + row.false_negatives),
-    ("cells (u8), sphere, of raw", " %", 4.5, 7, "cells sphere u8 .*", size),
-    ("cells + deltas (u8), sphere, of raw", " %", 9, 14, r"cells\+deltas sphere u8 .*", size),
-    ("cells (u8), vorticity 64^3, of raw", " %", 9, 11, "cells vorticity64 u8 .*", size),
-    ("cells (u8), 256^3, of raw", " %", 6.7, 9, "cells fourier256 u8 .*", size),
     ("bricks (u8), of raw", " %", 0.07, 0.1, "bricks .* u8 .*", size),
     ("bricks (f32), of raw, above the plain volume", " %", 0.08, 0.1, "bricks .* f32 .*", size),
     ("ids from bricks (f32) against the scan, sphere", "x", 6, 2, "bricks sphere f32 .*", over_scan),
     ("ids from bricks (f32) against the scan, vorticity 64^3", "x", 3, 1.5, "bricks vorticity64 f32 .*", over_scan),
     ("ids from bricks (f32) against the scan, 256^3", "x", 40, 12, "bricks fourier256 f32 .*", over_scan),
-    ("ids from cells (u8) against flying edges, sphere", "x", 500, 100, "cells sphere u8 .*",
-     lambda row: row.flying_edges_us / row.search_ids_us),
-    ("ids, positions and normals (u8) against flying edges with normals, sphere", "x", 20, 8, "cells sphere u8 .*",
-     lambda row: row.flying_edges_normals_us / row.search_full_us),
-    ("ids from cells (u8), time of memcpy of them, 90,000 cells or more", "x", 2, 3.5, "cells .* u8 large",
-     lambda row: row.search_ids_us / row.memcpy_us),
-    ("ids from cells (u8) against the scan, sphere", "x", 12, 5, "cells sphere u8 .*", over_scan),
-    ("ids from cells (u8) against the scan, 256^3", "x", 60, 25, "cells fourier256 u8 .*", over_scan),
-    ("incremental against full (u8), sphere", "x", 10, 5, r"cells\+deltas sphere u8 .*", over_following),
-    ("incremental against full (u8), vorticity 64^3", "x", 1.4, 1.2, r"cells\+deltas vorticity64 u8 .*",
-     over_following),
-    ("building of cells (u8), per core", " Mcs/s", 300, 100, "cells .* u8 .*", build_rate),
     ("building of bricks, per core", " Mcs/s", 1500, 500, "bricks .*", build_rate),
 ]
 
@@ -336,12 +316,15 @@ def median_of(rows, key):
 def search_time(index):
     """Searches of one step in memory: the largest series of bytes."""
     rows = [row for row in index.rows if (row.data, row.type) == ("fourier256", "u8")]
-    of_structure = {row.structure: row for row in rows}
-    cells, bricks = of_structure["cells"], of_structure["bricks"]
-    return Row(active=int(cells.active), logarithmic=True, bars=[
-        us("ids: cells", cells.search_ids_us, True), us("ids: bricks", bricks.search_ids_us, True),
-        us("ids: plain scan", median_of(rows, "scan_us"), False),
-        us("with normals: cells", cells.search_full_us, True), us("with normals: bricks", bricks.search_full_us, True),
+    bricks = next(row for row in rows if row.structure == "bricks")
+    # The paper's series, small enough for its tree: the fastest tree of any setting.
+    paper = [row for row in index.rows if (row.data, row.type, row.steps) == ("sphere", "u8", 25)]
+    tree = min((row for row in paper if row.structure == "thi" and row.max_variation == 2),
+               key=lambda row: row.search_ids_us)
+    return Row(active=int(bricks.active), logarithmic=True, tree=tree,
+               paper=next(row for row in paper if row.structure == "bricks"), bars=[
+        us("ids: bricks", bricks.search_ids_us, True), us("ids: plain scan", median_of(rows, "scan_us"), False),
+        us("with normals: bricks", bricks.search_full_us, True),
         us("VTK: triangles with normals", median_of(rows, "flying_edges_normals_us"), False)])
 
 
@@ -417,11 +400,11 @@ def outlines(agreement):
 
 
 def wrong_cells(index):
-    """What the published structure finds too much; the tiers find nothing too much."""
-    ours = [row for row in index.rows if row.structure == "bricks" or row.structure.startswith("cells")]
+    """What the published structure finds too much; bricks find nothing too much."""
+    ours = [row for row in index.rows if row.structure == "bricks"]
     active = sum(row.detail.active for row in ours)
     wrong = sum(row.false_positives + row.false_negatives for row in ours)
-    bars = [percent("bricks, cells, deltas: all series", 100 * wrong / active, True)]
+    bars = [percent("bricks: all series", 100 * wrong / active, True)]
     bars += [percent(f"published: {row.data}, {row.type}, {row.steps} steps", row.detail.percent_at_isovalue, False)
              for row in index.rows if (row.structure, row.l, row.max_variation) == ("thi", 64, 2)]
     return Row(bars=bars, active=active, queries=sum(row.detail.queries for row in ours),

@@ -73,14 +73,7 @@ std::shared_ptr<const index::IndexFile> build_file(const DataSet& data,
                                                    const std::filesystem::path& file,
                                                    const index::Progress& progress) {
     const auto series = made_series(data, progress);
-    // All structures that the table compares, also where the program would leave some out.
-    index::BuildOptions options;
-    if (size_of(series->info().type) == 1)
-        options.tiers = index::TierSet()
-                            .with(index::Tier::bricks)
-                            .with(index::Tier::cells)
-                            .with(index::Tier::deltas);
-    index::build_index(*series, file, options, progress);
+    index::build_index(*series, file, {}, progress);
     return index::IndexFile::open(file);
 }
 

@@ -111,17 +111,7 @@ void time_searches(const StepValues& values, const Structure& structure,
         else
             make_set(values, structure, set.query, set);
     });
-    std::optional<std::size_t> runs, change, follow;
-    if (structure.runs) {
-        runs = operations.size();
-        operations.push_back([&](std::uint32_t step) { structure.runs({step, isovalue}); });
-    }
-    if (structure.change && steps > 1) {
-        change = operations.size();
-        operations.push_back([&](std::uint32_t step) {
-            structure.change({step, isovalue}, {neighbor(step), isovalue});
-        });
-    }
+    std::optional<std::size_t> follow;
     if (structure.follow && steps > 1) {
         follow = operations.size();
         operations.push_back([&](std::uint32_t step) { // there and back, so that it can be repeated
@@ -137,10 +127,6 @@ void time_searches(const StepValues& values, const Structure& structure,
         &row.memcpy_us, &row.search_ids_us, &row.search_full_us};
     for (std::size_t i = 0; i < columns.size(); ++i)
         *columns[i] = microseconds(i);
-    if (runs)
-        row.search_runs_us = microseconds(*runs);
-    if (change)
-        row.incremental_us = microseconds(*change);
     if (follow)
         row.incremental_full_us = microseconds(*follow) / 2;
 }

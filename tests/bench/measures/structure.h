@@ -29,13 +29,8 @@ struct Structure {
 
     /// Replaces the ids by the cells of a full search, in any order, each once.
     std::function<void(const index::Query&, Ids&)> ids;
-    /// A full search that does not copy the ids. @return the number of runs
-    std::function<std::size_t(const index::Query&)> runs;
     /// Ids, positions and normals of the active cells; if this is empty, they are made from `ids`.
     std::function<void(const index::Query&, index::CellSet&)> full;
-    /// Finds the added and the removed ids between two queries, without an earlier result.
-    /// @return their number
-    std::function<std::size_t(const index::Query& from, const index::Query& to)> change;
     /// Updates the set of the last query to that of this one. @return its size
     std::function<std::size_t(const index::Query&)> follow;
     /// The error of normals that are stored once for a time span, at an isovalue.

@@ -1,6 +1,7 @@
 // The search structures that are measured.
 #include "tests/bench/measures/structures.h"
 
+#include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/system/parallel.h"
 #include "index/thi/thi_tree.h"
@@ -32,6 +33,39 @@ Recipe scan_of(const FilePtr& file) {
                 structure.full = [file](const Query& query, index::CellSet& set) {
                     index::scan(file->values(), query, set.ids); // already in order
                     index::shade_cells(file->values(), set);
+                };
+                return structure;
+            }};
+}
+
+/// Bytes of the file without the volume, its levels of detail, and the tree.
+std::uint64_t bytes_of_bricks(const index::IndexStats& stats) {
+    return stats.file_bytes - stats.volume_bytes - stats.detail_bytes - stats.tree_bytes -
+           stats.cells_bytes - stats.deltas_bytes;
+}
+
+/// Time to build the bricks of all steps again, on one thread.
+double seconds_for_bricks(const IndexFile& file) {
+    const index::StepValues& values = file.values();
+    std::vector<std::uint8_t> bricks(index::BrickGrid(values.grid).bytes_per_step());
+    const Stopwatch watch;
+    for (std::size_t step = 0; step < values.steps; ++step)
+        index::build_bricks(values, *file.chunks().levels(static_cast<std::uint32_t>(step)), step,
+                            bricks);
+    return watch.seconds();
+}
+
+Recipe bricks_of(const FilePtr& file) {
+    return {"bricks", [file](const index::Progress&) {
+                Structure structure;
+                structure.name = "bricks";
+                structure.bytes = bytes_of_bricks(file->stats());
+                structure.build_seconds = seconds_for_bricks(*file);
+                structure.ids = [file](const Query& query, Ids& out) {
+                    out.clear();
+                    const index::LoadedStep step = file->load(query.step);
+                    index::search_bricks(step.values, *file->chunks().levels(query.step),
+                                         step.bricks, query, out);
                 };
                 return structure;
             }};
@@ -169,8 +203,8 @@ std::vector<Recipe> structures_of(const FilePtr& file, const Structure& tbon,
                                   const StructureOptions& options) {
     std::vector<Recipe> all{scan_of(file),
                             {tbon.name, [tbon](const index::Progress&) { return tbon; }}};
-    for (Recipe& recipe : tiers_of(file))
-        all.push_back(std::move(recipe));
+    if (file->plan().tiers.has(index::Tier::bricks))
+        all.push_back(bricks_of(file));
     for (const std::uint32_t lattice : options.lattices)
         for (const std::uint32_t max_variation : options.max_variations) {
             const auto common = std::make_shared<CommonEntries>(

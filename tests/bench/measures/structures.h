@@ -27,10 +27,7 @@ struct StructureOptions {
 /// The T-BON, with which all others are also compared.
 Structure build_tbon(const std::shared_ptr<const index::IndexFile>& file, unsigned threads);
 
-/// The tiers that the index itself holds: bricks, cells, cells with deltas.
-std::vector<Recipe> tiers_of(const std::shared_ptr<const index::IndexFile>& file);
-
-/// The scan, the T-BON, the tiers, and for every setting the THI tree and its variants.
+/// The scan, the T-BON, the index's bricks, and for every setting the THI tree and its variants.
 std::vector<Recipe> structures_of(const std::shared_ptr<const index::IndexFile>& file,
                                   const Structure& tbon, const StructureOptions& options);
 

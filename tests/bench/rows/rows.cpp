@@ -27,10 +27,8 @@ void each_field(AnyRow& row, Field&& field)
     field("percent_with_volume", row.percent_with_volume);
     field("false_positives", row.false_positives);
     field("false_negatives", row.false_negatives);
-    field("search_runs_us", row.search_runs_us);
     field("search_ids_us", row.search_ids_us);
     field("search_full_us", row.search_full_us);
-    field("incremental_us", row.incremental_us);
     field("incremental_full_us", row.incremental_full_us);
     field("delta_ids", row.delta_ids);
     field("sweep_ms", row.sweep_ms);
@@ -67,12 +65,11 @@ std::string cell_text(const std::optional<double>& value) {
 std::string line_of(const Row& row, const ErrorDetail& detail) {
     const auto setting = row.l ? fmt::format("L {} MV {}", *row.l, *row.max_variation) : "";
     return fmt::format("{:<20} {:<12} {:>11} {:>7.3g} {:>7.3g} {:>7.3g} {:>5} {:>8} {:>8} {:>8} "
-                       "{:>8} {:>8} {:>8} {:>7}\n",
+                       "{:>8} {:>7}\n",
                        row.structure, setting, app::human_bytes(static_cast<double>(row.bytes)),
                        row.percent_of_raw, row.percent_with_volume, detail.percent_at_isovalue,
-                       row.false_negatives, cell_text(row.search_runs_us),
-                       cell_text(row.search_ids_us), cell_text(row.search_full_us),
-                       cell_text(row.incremental_us), cell_text(row.incremental_full_us),
+                       row.false_negatives, cell_text(row.search_ids_us),
+                       cell_text(row.search_full_us), cell_text(row.incremental_full_us),
                        cell_text(row.sweep_ms), cell_text(row.build_mcs_per_s));
 }
 
@@ -104,13 +101,12 @@ std::string table_of(const Results& results) {
                 "\n{} {}, {} steps, isovalue {:.5g}: {:.0f} active cells, {} added or removed per "
                 "step\nus: scan {}, tbon {}, flying edges {}, with normals {}, memcpy {}; errors "
                 "over {} queries\n"
-                "{:<20} {:<12} {:>11} {:>7} {:>7} {:>7} {:>5} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} "
-                "{:>7}\n",
+                "{:<20} {:<12} {:>11} {:>7} {:>7} {:>7} {:>5} {:>8} {:>8} {:>8} {:>8} {:>7}\n",
                 row.data, row.type, row.steps, row.isovalue, row.active, cell_text(row.delta_ids),
                 cell_text(row.scan_us), cell_text(row.tbon_us), cell_text(row.flying_edges_us),
                 cell_text(row.flying_edges_normals_us), cell_text(row.memcpy_us),
                 results.details[i].queries, "structure", "", "bytes", "% raw", "% +vol", "% FP",
-                "FN", "runs us", "ids us", "full us", "incr us", "whole us", "sweep ms", "Mcs/s");
+                "FN", "ids us", "full us", "whole us", "sweep ms", "Mcs/s");
         text += line_of(row, results.details[i]);
         before = &row;
     }

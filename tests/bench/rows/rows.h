@@ -23,10 +23,8 @@ struct Row {
     std::uint64_t bytes = 0; ///< without the volume
     double percent_of_raw = 0, percent_with_volume = 0;     ///< raw: steps x cells x 24 bytes
     std::uint64_t false_positives = 0, false_negatives = 0; ///< over all steps and isovalues
-    std::optional<double> search_runs_us;
     double search_ids_us = 0;
     double search_full_us = 0; ///< ids (tested if they are candidates), positions and normals
-    std::optional<double> incremental_us;      ///< added and removed ids, to a neighboring step
     std::optional<double> incremental_full_us; ///< the complete new set
     std::optional<double> delta_ids;           ///< added and removed cells from step to step, mean
     double sweep_ms = 0; ///< all steps once: the mean of forwards and backwards

@@ -65,7 +65,7 @@ LONG_OF_BYTES = (
 )
 
 # Tests that do less in a landing than they can: of random input a third of the rounds, of faults every fourth call.
-LONG = r"^(Explore)?Faults\.|FootprintGeometry.*egl|ThiTree|CellDamage|RandomWalks|Recompute|RandomDamage"
+LONG = r"^(Explore)?Faults\.|FootprintGeometry.*egl|ThiTree|RandomWalks|Recompute|RandomDamage"
 
 
 @dataclass

@@ -99,10 +99,12 @@ template Option& Option::between(unsigned, unsigned);
 template Option& Option::between(std::size_t, std::size_t);
 template Option& Option::between(double, double);
 
-Option& Option::one_of(const std::vector<std::string>& names) {
+Option& Option::one_of(const std::vector<std::string>& names,
+                       const std::vector<std::string>& former) {
     return accepted_by(
-        [names](const std::string& text) {
-            if (std::ranges::find(names, text) != names.end())
+        [names, former](const std::string& text) {
+            if (std::ranges::find(names, text) != names.end() ||
+                std::ranges::find(former, text) != former.end())
                 return std::string();
             return fmt::format("expected one of {}, got {}{}", fmt::join(names, ", "), text,
                                meant(nearest_word(text, names)));

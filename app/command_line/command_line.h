@@ -60,7 +60,9 @@ class Option {
     /// Refuses values outside [low, high]. T: int, unsigned or std::size_t.
     template <class T>
     Option& between(T low, T high);
-    Option& one_of(const std::vector<std::string>& names);
+    /// @param former names of earlier versions, which are accepted and not told
+    Option& one_of(const std::vector<std::string>& names,
+                   const std::vector<std::string>& former = {});
     /// Accepts finite numbers above zero.
     Option& positive();
     Option& existing_file();

@@ -78,12 +78,10 @@ std::string write_index(const BuildSources& sources, const BuildArguments& argum
                         const index::BuildOptions& options, const index::IndexFile* held,
                         index::GrowingFile* file, const index::Progress& progress,
                         index::Team& team) {
-    std::string reason = held ? reason_to_rewrite(*held, options) : std::string();
+    const std::string reason = held ? reason_to_rewrite(*held, options) : std::string();
     if (held && reason.empty()) {
-        if (index::append_index(*sources.volume, *held, *file, arguments.out, options, progress,
-                                team))
-            return {};
-        reason = "the cells have no levels for values of the new steps";
+        index::append_index(*sources.volume, *held, *file, arguments.out, options, progress, team);
+        return {};
     }
     index::build_index(*sources.volume, arguments.out, options, progress, team);
     return held ? fmt::format("note: written anew: {}\n", reason) : std::string();
@@ -127,6 +125,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
             arguments = with_held(asked, *held);
         });
     }
+    if (reports)
+        print_safely(former_tiers_note(asked.tiers), stderr);
     BuildSources sources;
     index::BuildOptions options;
     team.together([&] {
@@ -240,8 +240,8 @@ void add_build(Command& program) {
     const char* index_group = "Index";
     command
         .option("--tiers", arguments->tiers,
-                "Search structures to build: a list of bricks, cells, deltas and tree, or `none` "
-                "(default: chosen by cost)")
+                "Search structures to build: bricks, tree (the paper's), both with a comma between "
+                "them, or `none` (default: bricks)")
         .type_name("LIST")
         .group(index_group);
     command

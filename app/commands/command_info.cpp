@@ -70,8 +70,8 @@ void add_info(Command& program) {
         .required()
         .type_name("FILES");
     command.flag("--tree", arguments->tree,
-                 "Print the number of cells stored at every time node: of the paper's tree if "
-                 "there is one, else of the cells tier");
+                 "Print the number of cells stored at every time node of the paper's tree, if the "
+                 "index has it");
     command.flag(
         "--measure-time", arguments->measure_time,
         "Measure how well the blend of two steps stands for what lies between them, and say "
@@ -91,8 +91,9 @@ void add_info(Command& program) {
         "unless\n"
         "the unit has a reference date), uniform_time, type,\n"
         "slope, intercept, low, high (of finite values), value_unit, nan_values, histogram (256\n"
-        "equal bins over low to high), file_bytes, volume_bytes, bricks_bytes, cells_bytes,\n"
-        "deltas_bytes, tree_bytes, staying_chunks and staying_percent (chunks that are as in the "
+        "equal bins over low to high), file_bytes, volume_bytes, bricks_bytes, tree_bytes,\n"
+        "unused_bytes (of tiers that earlier versions built), staying_chunks and staying_percent "
+        "(chunks that are as in the "
         "step before, of those of all steps but the first), raw_bytes, percent_of_raw (file "
         "without volume), tiers, plan\n"
         "(why these), levels, lossless, refers_to (files; null when it carries the values),\n"

@@ -46,8 +46,6 @@ struct Measured {
 };
 
 /// Every repetition starts a new search: otherwise it would find its own last result.
-/// @param method if none is asked for, the first look is by what reads least, the others are by
-///        what is fastest
 Measured measure(const std::shared_ptr<const index::IndexFile>& file, const index::Query& query,
                  std::optional<index::SearchMethod> method, std::uint32_t level,
                  std::uint32_t repeats) {
@@ -61,8 +59,6 @@ Measured measure(const std::shared_ptr<const index::IndexFile>& file, const inde
     result.cold = {result.set->search_time, result.set->shading_time};
     result.usage = process_usage();
     std::vector<std::chrono::nanoseconds> search, shading;
-    if (!method)
-        method = index::cheapest_method(*file);
     for (std::uint32_t i = 0; i < repeats; ++i) {
         const index::CellSetPtr again = run();
         result.repeated_by = again->method;
@@ -86,6 +82,12 @@ std::string_view name_of(index::SearchMethod method) {
 /// The method that is asked for, if any.
 std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
                                              const index::IndexFile& file) {
+    if (index::is_former_tier(arguments.method)) {
+        print_safely(fmt::format("isochron: --method {}: no longer there; searched by {}\n",
+                                 arguments.method, name_of(index::cheapest_method(file))),
+                     stderr);
+        return std::nullopt;
+    }
     for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
         const auto method = static_cast<index::SearchMethod>(i);
         if (index::kSearchMethodNames[i] != arguments.method)
@@ -239,15 +241,15 @@ void add_query(Command& program) {
         .shows_default();
     command
         .option("--method", arguments->method,
-                "Search structure to use (default: first the one with fewer bytes left to "
-                "read, then the fastest)")
+                "Search structure to use (default: the fastest that the index has)")
         .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
-                                         index::kSearchMethodNames.end()));
+                                         index::kSearchMethodNames.end()),
+                {"cells"});
     command.flag("--json", arguments->json, "Print one JSON object");
     command.footer(
         "JSON keys: file, array, step, fraction, time, time_unit, isovalue (null unless finite), "
         "value_unit,\n"
-        "level (of detail), method (cells, bricks, tree or scan) of the first run, active_cells, "
+        "level (of detail), method (bricks, tree or scan) of the first run, active_cells, "
         "id_bits (32, or 64 "
         "where ids do not fit),\ncandidates (tested exactly), reused (of the active cells, taken "
         "over from an earlier result and not looked for again: 0, as a query begins without one), "

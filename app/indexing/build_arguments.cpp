@@ -163,13 +163,23 @@ index::TierSet tiers_of(const std::string& list) {
         return tiers;
     std::istringstream names(list);
     for (std::string name; std::getline(names, name, ',');) {
-        const auto tier = index::tier_from_name(name);
+        const auto tier =
+            index::tier_from_name(index::is_former_tier(name) ? std::string_view("bricks") : name);
         if (!tier)
             throw UsageError(fmt::format("--tiers: {}: expected none, or some of {}", name,
                                          fmt::join(index::kTierNames, ",")));
         tiers = tiers.with(*tier);
     }
     return tiers;
+}
+
+std::string former_tiers_note(const std::string& list) {
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');)
+        if (index::is_former_tier(name))
+            return fmt::format(
+                "isochron: --tiers {}: {} is no longer built; bricks take its place\n", list, name);
+    return {};
 }
 
 index::Referral referral_to(const std::vector<fs::path>& files, const BuildArguments& arguments) {

@@ -41,8 +41,11 @@ BuildArguments with_path_within(BuildArguments arguments);
 index::ReadOptions read_options(const BuildArguments& arguments);
 /// Read options of the second array: the same files and options, but another array.
 index::ReadOptions color_options(const BuildArguments& arguments);
-/// Parses `bricks,cells`, or `none` for an index that only scans. @throws UsageError
+/// Parses `bricks,tree`, or `none` for an index that only scans. Bricks stand for `cells` and `deltas`,
+/// which earlier programs built. @throws UsageError
 index::TierSet tiers_of(const std::string& list);
+/// The line that says so; empty if the list has none of these two.
+std::string former_tiers_note(const std::string& list);
 /// The files as the index will refer to them: relative to its own folder.
 index::Referral referral_to(const std::vector<std::filesystem::path>& files,
                             const BuildArguments& arguments);

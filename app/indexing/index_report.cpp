@@ -38,7 +38,8 @@ double percent_of_raw(const index::IndexFile& file) {
 /// Bytes of the parts of one array.
 std::uint64_t own_bytes(const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
-    std::uint64_t bytes = stats.volume_bytes + stats.detail_bytes + stats.color_bytes;
+    std::uint64_t bytes =
+        stats.volume_bytes + stats.detail_bytes + stats.color_bytes + stats.unused_bytes;
     for (std::size_t i = 0; i < index::kTierNames.size(); ++i)
         bytes += stats.bytes_of(static_cast<index::Tier>(i));
     return bytes;
@@ -74,17 +75,16 @@ nlohmann::ordered_json array_json(const index::IndexFile& file) {
             {"content_hash", fmt::format("{:016x}", file.content_hash())}};
 }
 
-/// The time nodes of the paper's tree if the index has one, else of the cell tier; may be empty.
+/// The time nodes of the paper's tree; none without it.
 std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
-    if (const auto tree = index::tree_of(file))
-        return tree->nodes();
-    return file.cells() ? file.cells()->nodes() : std::vector<index::TimeNodeCells>{};
+    const auto tree = index::tree_of(file);
+    return tree ? tree->nodes() : std::vector<index::TimeNodeCells>{};
 }
 
 /// Number of entries in the same tree; 0 without one.
 std::uint64_t entries_of(const index::IndexFile& file) {
     const auto tree = index::tree_of(file);
-    return tree ? tree->entries() : file.stats().cell_entries;
+    return tree ? tree->entries() : 0;
 }
 
 /// Mean number of entries per cell and step.
@@ -94,11 +94,8 @@ double coherence(const index::IndexFile& file) {
             static_cast<double>(file.info().steps()));
 }
 
-/// The level map of the cells if the index has cells, else of the bricks; for wide value types the
-/// last step's level map.
+/// The level map of the bricks; for wide value types the last step's level map.
 index::LevelMapPtr levels_of(const index::IndexFile& file) {
-    if (file.cells())
-        return std::make_shared<index::LevelMap>(file.levels());
     return file.plan().tiers.has(index::Tier::bricks)
                ? file.chunks().levels(static_cast<std::uint32_t>(file.info().steps() - 1))
                : nullptr;
@@ -107,8 +104,8 @@ index::LevelMapPtr levels_of(const index::IndexFile& file) {
 std::string levels_text(const index::IndexFile& file) {
     const auto levels = levels_of(file);
     if (!levels)
-        return "none: there are no bricks and no cells";
-    const bool by_step = !file.cells() && index::size_of(file.info().type) > 1;
+        return "none: there are no bricks";
+    const bool by_step = index::size_of(file.info().type) > 1;
     return fmt::format("{}, {}{}", levels->levels(),
                        levels->lossless() ? "one for every value" : "shared by several values",
                        by_step ? " (of the last step; each has its own)" : "");
@@ -188,6 +185,8 @@ std::string sizes_of(const std::vector<const index::IndexFile*>& arrays, std::ui
                 ", {} {}", index::kTierNames[i],
                 words(sum([&](const index::IndexStats& of) { return of.bytes_of(tier); })));
     }
+    if (const std::uint64_t unused = sum(&index::IndexStats::unused_bytes))
+        text += fmt::format(", no longer used {}", words(unused));
     if (const std::uint64_t detail = sum(&index::IndexStats::detail_bytes))
         text += fmt::format(", levels of detail {}", words(detail));
     if (const std::uint64_t colors = sum(&index::IndexStats::color_bytes))
@@ -221,17 +220,6 @@ std::string staying_text(const index::IndexFile& file) {
                        staying_percent(file));
 }
 
-/// How a step is searched that is asked for the first time, and why.
-std::string first_visit_text(const index::IndexFile& file) {
-    if (!file.cells() || !file.plan().tiers.has(index::Tier::bricks))
-        return {};
-    const auto held = file.cells()->hold();
-    return fmt::format("the first search of a step uses the tier with fewer bytes left to read "
-                       "(cells: about {} for step 0, besides the values; bricks are read with the "
-                       "values); later searches use cells, the fastest",
-                       human_bytes(static_cast<double>(file.cells()->missing_bytes(0))));
-}
-
 std::string as_text(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
@@ -258,25 +246,16 @@ std::string as_text(const IndexReport& report) {
                          fmt::join(file.chunks(level).info().grid.vertices, " x ")));
     for (const std::string& reason : file.plan().reasons)
         line("plan", reason);
-    if (const std::string visits = first_visit_text(file); !visits.empty())
-        line("plan", visits);
     if (file.plan().steps < info.steps())
         line("plan",
              fmt::format("made when it had {} of its {} steps", file.plan().steps, info.steps()));
-    if (file.cells() && file.cells()->steps() < info.steps())
-        line("cells", fmt::format("of the first {} steps; the others are searched by bricks until "
-                                  "their epoch of {} is complete",
-                                  file.cells()->steps(), index::TimePath::kMaxSteps));
     line("ranks", levels_text(file));
     if (entries_of(file) > 0)
         line("coherence",
              fmt::format("{:.4f} entries for each cell and step: the fewer, the longer "
-                         "cells stay as they are ({} entries{})",
-                         coherence(file), grouped(entries_of(file)),
-                         file.has_tree() ? fmt::format("; lattice {}, max variation {}",
-                                                       file.tree_options().lattice,
-                                                       file.tree_options().max_variation)
-                                         : ""));
+                         "cells stay as they are ({} entries; lattice {}, max variation {})",
+                         coherence(file), grouped(entries_of(file)), file.tree_options().lattice,
+                         file.tree_options().max_variation));
     if (report.blends)
         line("between", blends_text(file));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
@@ -303,9 +282,8 @@ std::string as_json(const IndexReport& report) {
         {"file_bytes", stats.file_bytes},
         {"volume_bytes", stats.volume_bytes},
         {"bricks_bytes", stats.bricks_bytes},
-        {"cells_bytes", stats.cells_bytes},
-        {"deltas_bytes", stats.deltas_bytes},
         {"tree_bytes", stats.tree_bytes},
+        {"unused_bytes", stats.unused_bytes},
         {"detail_bytes", stats.detail_bytes},
         {"staying_chunks", stats.staying},
         {"staying_percent", staying_percent(file)},

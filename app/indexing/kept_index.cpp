@@ -210,8 +210,6 @@ class KeptBuild {
         const bool small = step_bytes_ * steps_ <= kSmall;
         const std::size_t steps = small ? steps_ : 1;
         Part part(sources_, arguments_, steps);
-        if (!small)
-            part.options.tiers = index::TierSet().with(index::Tier::bricks);
         index::build_index(part.volume, path_, part.options, progress_to(steps));
         held_ = index::IndexFile::open(path_);
         report_held();
@@ -234,11 +232,8 @@ class KeptBuild {
         if (steps > held()) {
             Part part(sources_, arguments_, steps);
             const auto team = index::alone();
-            if (!index::append_index(part.volume, *held_, *file, path_, part.options,
-                                     progress_to(steps), *team))
-                throw index::Error(fmt::format("{}: new steps hold values that its cells have no "
-                                               "place for; delete it and open the data again",
-                                               path_.string()));
+            index::append_index(part.volume, *held_, *file, path_, part.options, progress_to(steps),
+                                *team);
             held_ = index::IndexFile::open(path_);
         }
         report_held();

@@ -5,10 +5,19 @@
 #include "index/error.h"
 #include "index/extraction/volume_blocks.h"
 #include "index/file/index_states.h"
+#include "index/shell_word.h"
 
 #include <fmt/format.h>
 
 namespace isochron::app {
+namespace {
+
+/// An index that has nothing but tiers of an earlier program is scanned.
+bool is_only_scanned(const index::IndexFile& file) {
+    return file.stats().unused_bytes > 0 && file.plan().tiers == index::TierSet();
+}
+
+} // namespace
 
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes, LostState lost) {
@@ -16,6 +25,12 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
     const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
     if (line)
         print_safely(fmt::format("isochron: {}\n", one_line(*line)), stderr);
+    if (lost == LostState::is_said && is_only_scanned(*file))
+        print_safely(fmt::format("isochron: {}: the search structures that it holds are no longer "
+                                 "used, so each search scans a whole step; isochron build {} -o "
+                                 "NEW.isochron gives it bricks\n",
+                                 one_line(path.string()), index::shell_word(path.string())),
+                     stderr);
     return file;
 }
 

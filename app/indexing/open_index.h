@@ -15,6 +15,7 @@ namespace isochron::app {
 /// Whether a command says itself what a damaged index has lost.
 enum class LostState : std::uint8_t { is_said, is_for_the_caller };
 
+/// Says on stderr what a damaged index has lost, and that one is scanned whose tiers no search uses.
 /// @param cache_bytes as IndexFile::open
 /// @throws index::Error as index::open_named_index
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,

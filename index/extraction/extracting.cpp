@@ -80,7 +80,7 @@ class Extracting {
     ExtractionPtr make(const std::shared_ptr<Extraction>& result, const StepView& step,
                        const std::stop_token& stop) {
         const SurfacesQuery& query = result->query;
-        at_hand_.begin(query, file_->has_cells(query.step));
+        at_hand_.begin(query);
         const bool keeps = keeps_any(query);
         const bool may_have_too_many = this->may_have_too_many(query);
         // A large step is not searched as a whole before it is known that its cells fit.

@@ -47,9 +47,9 @@ bool ExtractionAtHand::may_keep(const SurfacesQuery& query) const {
            (file_->has_since() && file_->plan().tiers.has(Tier::bricks));
 }
 
-void ExtractionAtHand::begin(const SurfacesQuery& query, bool by_cells) {
+void ExtractionAtHand::begin(const SurfacesQuery& query) {
     query_ = query;
-    finds_anew_ = by_cells && shading_ == Shading::none;
+    finds_anew_ = false;
     staying_.reset();
     step_.reset();
     mesh_.reset();

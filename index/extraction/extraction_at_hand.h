@@ -34,8 +34,7 @@ class ExtractionAtHand {
     }
 
     /// Decides what of the extraction at hand is taken over for a query.
-    /// @param by_cells its cells are found faster by the tier `cells`
-    void begin(const SurfacesQuery& query, bool by_cells);
+    void begin(const SurfacesQuery& query);
 
     /// Whether the cells of a surface are taken over where they stay.
     bool keeps_cells(std::size_t surface) const;

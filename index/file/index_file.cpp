@@ -5,7 +5,6 @@
 #include "index/file/sections/step_levels.h"
 #include "index/scan/bricks.h"
 #include "index/system/memory_limit.h"
-#include "index/volume/stretches.h"
 
 #include <fmt/format.h>
 
@@ -92,10 +91,10 @@ void IndexFile::read() {
         throw damaged(fmt::format("metadata: {}", error.what()));
     }
     step_entries_ = section<StepEntry>(SectionKind::steps);
-    directory_ = section<UnitEntry>(SectionKind::directory);
+    unused_ = section<UnusedParts>(SectionKind::directory);
     checksums_ = section<std::uint64_t>(SectionKind::checksums);
     set_arrays();
-    set_cells();
+    check_unused();
     IndexStats& stats = metadata_.stats;
     stats.file_bytes = header_.file_bytes;
     stats.tree_bytes = header_.section(SectionKind::tree).bytes;
@@ -113,12 +112,6 @@ std::vector<T> IndexFile::section(SectionKind kind) const {
     if (checksum_of(bytes) != where.checksum)
         throw mismatch(kind);
     return items;
-}
-
-std::span<const std::byte> IndexFile::part(std::size_t unit, std::uint64_t offset,
-                                           std::uint64_t bytes) const {
-    const std::size_t epoch = unit / Stretches(metadata_.info.grid).count();
-    return units_[epoch]->bytes().subspan(offset - epoch_begins_[epoch], bytes);
 }
 
 bool IndexFile::lies_within(std::uint64_t offset, std::uint64_t bytes) const {
@@ -179,7 +172,7 @@ void IndexFile::set_arrays() {
     if (const std::size_t entries = arrays * details_ * steps(); step_entries_.size() != entries)
         throw damaged(
             fmt::format("{} steps of chunks, expected {}", step_entries_.size(), entries));
-    const std::size_t checksums = (arrays + 1) * steps() + 2 * directory_.size();
+    const std::size_t checksums = (arrays + 1) * steps() + 2 * unused_.size();
     if (checksums_.size() != checksums)
         throw damaged(fmt::format("{} checksums, expected {}", checksums_.size(), checksums));
     const auto sums = checksums_.begin();
@@ -212,59 +205,20 @@ void IndexFile::set_arrays() {
         std::vector<std::uint64_t>(sums_of_colors.begin(), sums_of_colors.end()));
 }
 
-void IndexFile::set_cells() {
-    if (!metadata_.plan.tiers.has(Tier::cells)) {
-        if (!directory_.empty())
-            throw damaged("a directory of cells that there are none of");
-        return;
-    }
-    const Grid& grid = metadata_.info.grid;
-    if (grid.cells()[0] > Stretches::kMaxCells || has_wide_ids(grid))
-        throw damaged(fmt::format("cells in rows of {}", grid.cells()[0]));
-    const std::uint32_t held = metadata_.cell_steps, stretches = Stretches(grid).count();
-    if (held < 1 || held > steps() || !metadata_.levels)
-        throw damaged(fmt::format("cells of {} steps, the volume has {}", held, steps()));
-    const std::uint64_t expected = stretches * std::uint64_t{epoch_count(held)};
-    if (directory_.size() != expected)
-        throw damaged(
-            fmt::format("directory of {} units, expected {}", directory_.size(), expected));
-    for (std::size_t first = 0; first < directory_.size(); first += stretches) {
-        std::uint64_t begin = header_.file_bytes, end = kDataBegin;
-        for (const UnitEntry& unit : std::span(directory_).subspan(first, stretches))
-            for (const auto& [offset, length] :
-                 {std::pair{unit.cells_offset, unit.cells_bytes},
-                  std::pair{unit.deltas_offset, unit.deltas_bytes}}) {
-                if (!lies_within(offset, length))
-                    throw damaged("a unit of cells lies outside the file");
-                begin = std::min(begin, offset);
-                end = std::max(end, offset + length);
-            }
-        epoch_begins_.push_back(begin);
-        units_.push_back(std::make_unique<LazyPart>(*bytes_, begin, end - begin));
-    }
-    const bool with_deltas = metadata_.plan.tiers.has(Tier::deltas);
-    CellTier::Units cells, deltas;
-    IndexStats& stats = metadata_.stats;
-    for (std::size_t i = 0; i < directory_.size(); ++i) {
-        const UnitEntry& unit = directory_[i];
-        cells.push_back(part(i, unit.cells_offset, unit.cells_bytes));
-        if (with_deltas)
-            deltas.push_back(part(i, unit.deltas_offset, unit.deltas_bytes));
-        stats.cells_bytes += unit.cells_bytes;
-        stats.deltas_bytes += unit.deltas_bytes;
-        stats.cell_entries += unit.entries;
-    }
-    // Cells, of all arrays, and values share the budget.
-    const std::uint64_t of_cells = cache_bytes_ / 2;
-    cells_.emplace(Stretches(grid), held, cells, deltas, &units_,
-                   of_cells / (first().metadata_.further.size() + 1));
-    cache_->limit(std::min(cache_->use().budget, cache_bytes_ - of_cells));
+void IndexFile::check_unused() {
+    for (const UnusedParts& two : unused_)
+        for (const auto& [offset, bytes] : two.parts) {
+            if (!lies_within(offset, bytes))
+                throw damaged("a part that is no longer used lies outside the file");
+            std::uint64_t& all = metadata_.stats.unused_bytes;
+            if ((all += bytes) > header_.file_bytes)
+                throw damaged("parts that are no longer used overlap");
+        }
 }
 
 std::span<const std::uint64_t> IndexFile::color_checksums() const {
-    return !colors_.empty()
-               ? std::span(checksums_).subspan(steps() + 2 * directory_.size(), steps())
-               : std::span<const std::uint64_t>();
+    return !colors_.empty() ? std::span(checksums_).subspan(steps() + 2 * unused_.size(), steps())
+                            : std::span<const std::uint64_t>();
 }
 std::span<const std::uint64_t> IndexFile::source_states() const {
     return std::span(checksums_).last(steps());
@@ -272,14 +226,10 @@ std::span<const std::uint64_t> IndexFile::source_states() const {
 
 ReadUse IndexFile::reading() const {
     const ByteCache::Use use = cache_->use();
-    std::uint64_t held = use.held;
-    for (std::size_t number = 0; number < arrays(); ++number)
-        if (const CellTier* cells = array(number).cells())
-            held += cells->held_bytes();
     return {.bytes = bytes_->bytes_read(),
             .hits = use.hits,
             .misses = use.misses,
-            .held = held,
+            .held = use.held,
             .budget = cache_bytes_};
 }
 
@@ -335,23 +285,14 @@ IndexFile::Parts IndexFile::parts() const {
         const IndexFile& of = array(number);
         for (const StepEntry& step : of.step_entries_)
             parts.emplace_back(step.offset, step.bytes);
-        for (const UnitEntry& unit : of.directory_) {
-            parts.emplace_back(unit.cells_offset, unit.cells_bytes);
-            parts.emplace_back(unit.deltas_offset, unit.deltas_bytes);
-        }
+        for (const UnusedParts& two : of.unused_)
+            for (const auto& [offset, bytes] : two.parts)
+                parts.emplace_back(offset, bytes);
         for (const Section& section : of.header_.sections)
             if (section.bytes > 0)
                 parts.emplace_back(section.offset, section.bytes);
     }
     return parts;
-}
-
-std::span<const std::byte> IndexFile::read_unit(std::size_t unit, bool deltas) const {
-    const UnitEntry& entry = directory_[unit];
-    const auto bytes = deltas ? part(unit, entry.deltas_offset, entry.deltas_bytes)
-                              : part(unit, entry.cells_offset, entry.cells_bytes);
-    units_[unit / Stretches(metadata_.info.grid).count()]->need(bytes);
-    return bytes;
 }
 
 void IndexFile::verify(const Progress& progress) const {

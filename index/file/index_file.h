@@ -1,7 +1,6 @@
 // The .isochron file: the volume in chunks and its search structures, read when they are needed.
 #pragma once
 
-#include "index/cells/cell_tier.h"
 #include "index/error.h"
 #include "index/file/chunks/byte_cache.h"
 #include "index/file/chunks/chunk_store.h"
@@ -12,8 +11,6 @@
 #include "index/file/step_source.h"
 #include "index/progress.h"
 #include "index/system/byte_source.h"
-#include "index/system/lazy_part.h"
-#include "index/volume/level_map.h"
 #include "index/volume/volume_series.h"
 
 #include <cstddef>
@@ -63,9 +60,6 @@ class IndexFile {
     const IndexStats& stats() const { return metadata_.stats; }
     const TierPlan& plan() const { return metadata_.plan; }
     Codec codec() const { return metadata_.codec; }
-    const LevelMap& levels() const {
-        return *metadata_.levels;
-    } ///< of the cells, which the index must have
     const ThiOptions& tree_options() const { return metadata_.tree; }
     const std::optional<Referral>& referral() const { return metadata_.referral; }
     /// The whole metadata section.
@@ -99,10 +93,6 @@ class IndexFile {
     LoadedStep load_color(std::uint32_t step, const std::stop_token& stop) const;
     LoadedStep load_color(std::uint32_t step) const { return load_color(step, {}); }
 
-    /// The cells, with the deltas if there are any; null if the plan has none. They may hold the
-    /// first steps only.
-    const CellTier* cells() const { return cells_ ? &*cells_ : nullptr; }
-    bool has_cells(std::uint32_t step) const { return cells_ && step < cells_->steps(); }
     bool has_tree() const { return header_.section(SectionKind::tree).bytes > 0; }
     /// The bytes of the THI tree (index/search/tree_of_file.h opens it). Reads them, and checks the
     /// checksum. @throws Error when they are damaged
@@ -117,11 +107,10 @@ class IndexFile {
     /// Whether new steps may have values of several bytes in packed rows.
     bool has_wide_rows() const { return header_.version > kVersionWithoutWideRows; }
     std::span<const StepEntry> step_entries() const { return step_entries_; }
-    std::span<const UnitEntry> directory() const { return directory_; }
-    /// The bytes of a unit of the directory, read and not checked.
-    std::span<const std::byte> read_unit(std::size_t unit, bool deltas) const;
-    /// The section `checksums` as stored: of the values of each step, of each unit, of the array to
-    /// color by, and the state of each step's source.
+    /// Parts that an earlier program wrote, of tiers that no search uses any more.
+    std::span<const UnusedParts> unused() const { return unused_; }
+    /// The section `checksums` as stored: of the values of each step, of each unused part, of the
+    /// array to color by, and the state of each step's source.
     std::span<const std::uint64_t> checksums() const { return checksums_; }
     /// The part for the array to color by.
     std::span<const std::uint64_t> color_checksums() const;
@@ -154,11 +143,9 @@ class IndexFile {
     std::size_t steps() const { return metadata_.info.steps(); }
     template <class T>
     std::vector<T> section(SectionKind kind) const;
-    std::span<const std::byte> part(std::size_t unit, std::uint64_t offset,
-                                    std::uint64_t bytes) const;
 
     void set_arrays();
-    void set_cells();
+    void check_unused();
     std::vector<std::unique_ptr<ChunkStore>> array_of(const char* called, std::size_t first,
                                                       const SeriesInfo& info);
     ChunkArray level_of(const std::string& called, std::size_t number, const SeriesInfo& info,
@@ -179,10 +166,7 @@ class IndexFile {
     std::vector<std::unique_ptr<ChunkStore>> volume_, colors_; ///< by level of detail
     std::optional<Referral> color_referral_;
     std::unique_ptr<StepSource> source_, color_source_; ///< if it refers to its sources
-    std::vector<UnitEntry> directory_;
-    std::vector<std::uint64_t> epoch_begins_; ///< file offsets of the units of each epoch
-    CellTier::Pages units_;                   ///< by epoch
-    std::optional<CellTier> cells_;
+    std::vector<UnusedParts> unused_;
     /// Guards the parts that are read when they are first asked for; after a failure the next
     /// caller tries again.
     mutable std::mutex reading_;

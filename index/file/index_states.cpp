@@ -74,9 +74,13 @@ std::optional<std::string> lost_state(const IndexFile& file) {
         return std::nullopt;
     // A header fits in one sector of any disk, so a power failure leaves it either whole or
     // unwritten; a broken one has been damaged later. Sections only grow, so a larger section is
-    // newer.
+    // newer; but the first state after that of an earlier program names its unused parts no longer,
+    // and may have a larger section `steps` alone.
+    const bool unused = other.header.section(SectionKind::directory).bytes >
+                        file.header().section(SectionKind::directory).bytes;
     for (std::size_t i = 0; i < kSectionNames.size(); ++i)
         if (const Section& section = other.header.sections[i];
+            (!unused || i == static_cast<std::size_t>(SectionKind::steps)) &&
             section.bytes > file.header().sections[i].bytes && is_whole(file.bytes(), section))
             return fmt::format(
                 "{}: the header of a newer state is damaged, though what it names is "

@@ -1,4 +1,4 @@
-// Builds one array of an index: what to do with its values when they are read, then its tiers.
+// Builds one array of an index: what to do with its values when they are read, then the tree.
 #pragma once
 
 #include "index/indexing/build_options.h"
@@ -20,7 +20,7 @@ struct ArrayWork {
 };
 
 /// All members of a team make one with the same arguments, which outlive it, and call the same
-/// functions: `pass`, then `take`, then `write_tiers`. All throw as `build_index`.
+/// functions: `pass`, then `take`, then `write_tree`. All throw as `build_index`.
 class ArrayBuild {
   public:
     /// @param options of this array @param number of this array in the index
@@ -29,14 +29,14 @@ class ArrayBuild {
                std::size_t number, Team& team, BuildTarget& target, const IndexFile* held);
     ~ArrayBuild();
 
-    /// Estimates; better ones once values have been taken.
+    /// Estimates.
     ArrayWork work() const;
     /// What the pass over the sources has to do with this array. Valid as long as this.
     ArrayPass pass();
-    /// @return false if it cannot be appended to: its cells' levels lack values of the new steps
-    bool take(VolumeFindings found);
-    /// @return the end of the file with these tiers, a multiple of 64
-    std::uint64_t write_tiers(std::uint64_t end, const Progress& progress);
+    void take(VolumeFindings found);
+    /// Writes the paper's tree, if the index is to have one.
+    /// @return the end of the file then, a multiple of 64
+    std::uint64_t write_tree(std::uint64_t end, const Progress& progress);
     /// What the sections have to hold. Call it once, on rank 0.
     ArraySections take_sections();
 

@@ -23,12 +23,10 @@ struct FurtherArray {
 };
 
 struct BuildOptions {
-    std::optional<TierSet> tiers =
-        {}; ///< instead of the planner's choice, which never includes the tree
-    /// The plan of an index that is written anew: kept, instead of a choice, if it is still
-    /// possible.
+    std::optional<TierSet> tiers = {}; ///< none: bricks
+    /// The plan of an index that is written anew: kept, instead of `tiers`.
     std::optional<TierPlan> plan = {};
-    bool with_tree = false; ///< add the tree to the planner's choice
+    bool with_tree = false; ///< add the tree
     ThiOptions tree = {};
     unsigned threads = 0; ///< 0: one for each processor
     /// Most bytes that wait in memory to be packed: planes of a level of detail, and of steps whose

@@ -1,4 +1,4 @@
-// Builds .isochron files: one pass over the sources of all arrays, then their tiers, then their
+// Builds .isochron files: one pass over the sources of all arrays, then their trees, then their
 // sections.
 #include "index/indexing/index_build.h"
 
@@ -20,6 +20,7 @@
 #include <deque>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::index {
@@ -39,10 +40,10 @@ void refuse_foreign_file(const std::filesystem::path& out) {
 
 void check_array(const SeriesInfo& info, const BuildOptions& options) {
     check_limits(info);
-    if (options.tiers)
-        check_tiers(info.grid, *options.tiers);
-    if (options.with_tree)
-        check_tiers(info.grid, TierSet().with(Tier::tree));
+    const bool tree = options.with_tree || (options.tiers && options.tiers->has(Tier::tree));
+    if (tree && has_wide_ids(info.grid))
+        throw Error(fmt::format("{} cells, expected fewer than 2^32 for the tier tree",
+                                info.grid.cell_count()));
     if (options.referral && has_wide_ids(info.grid))
         throw Error(fmt::format("{} cells, expected fewer than 2^32 for an index that refers to "
                                 "its sources",
@@ -103,9 +104,8 @@ class Arrays {
         }
     }
 
-    /// Reads every step once, writes its chunks, then the tiers of one array after the other.
-    /// @return false if appending is impossible
-    bool write(const PassTarget& to, std::size_t fresh, Team& team) {
+    /// Reads every step once, writes its chunks, then the trees of one array after the other.
+    void write(const PassTarget& to, std::size_t fresh, Team& team) {
         plan_work();
         std::vector<ArrayPass> passes;
         for (ArrayBuild& build : builds_) {
@@ -117,18 +117,15 @@ class Arrays {
                 work_.report(phase, done);
             });
         for (std::size_t number = 0; number < builds_.size(); ++number)
-            if (!builds_[number].take(std::move(found[number])))
-                return false;
-        plan_work();
+            builds_[number].take(std::move(found[number]));
         double before = 0;
         for (ArrayBuild& build : builds_) {
             const double own = build.work().indexing;
-            to.end = build.write_tiers(to.end, [&](std::string_view phase, double done) {
+            to.end = build.write_tree(to.end, [&](std::string_view phase, double done) {
                 work_.report(phase, indexing_ > 0 ? (before + own * done) / indexing_ : done);
             });
             before += own;
         }
-        return true;
     }
 
     std::vector<ArraySections> take_sections() {
@@ -150,9 +147,11 @@ class Arrays {
             reading += build.work().reading;
             indexing_ += build.work().indexing;
         }
-        work_.plan({{"reading", reading},
-                    {"indexing", indexing_},
-                    {"flushing to disk", (reading + indexing_) / 20}});
+        std::vector<std::pair<std::string, double>> phases{{"reading", reading}};
+        for (const char* of_tree : {"dividing span space", "finding coherence", "sorting lists"})
+            phases.emplace_back(of_tree, indexing_ / 3);
+        phases.emplace_back("flushing to disk", (reading + indexing_) / 20);
+        work_.plan(std::move(phases));
     }
 
     WorkProgress work_;
@@ -182,15 +181,13 @@ void measure(ArraySections& array, const ByteSource& written, std::uint32_t vers
 }
 
 /// Writes all arrays, then their sections.
-/// @return false if appending is impossible
-bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
+void build_arrays(VolumeSeries& first, const std::filesystem::path& out, const BuildOptions& all,
                   const Progress& progress, Team& team, BuildTarget& target,
                   const IndexFile* held) {
     Arrays arrays(first, out, all, progress, team, target, held);
     std::uint64_t end = align_up(held ? held->header().file_bytes : kDataBegin, kPartAlignment);
-    if (!arrays.write({target.sink(), end, out.string() + ".chunks", thread_count(all.threads)},
-                      held ? held->info().steps() : 0, team))
-        return false;
+    arrays.write({target.sink(), end, out.string() + ".chunks", thread_count(all.threads)},
+                 held ? held->info().steps() : 0, team);
     FileHeader header;
     header.version = held ? held->header().version : kFileVersion;
     header.sequence = held ? held->header().sequence + 1 : 0;
@@ -208,7 +205,6 @@ bool build_arrays(VolumeSeries& first, const std::filesystem::path& out, const B
     });
     arrays.report_flushing();
     target.commit(header);
-    return true;
 }
 
 } // namespace
@@ -227,12 +223,12 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
     build_index(series, out, options, progress, *alone());
 }
 
-bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
+void append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
                   const std::filesystem::path& out, const BuildOptions& options,
                   const Progress& progress, Team& team) {
     check_options(series.info(), options);
     GrowingTarget target(team, file, held.header());
-    return build_arrays(series, out, options, progress, team, target, &held);
+    build_arrays(series, out, options, progress, team, target, &held);
 }
 
 } // namespace isochron::index

@@ -16,8 +16,7 @@ namespace isochron::index {
 /// nothing behind. An existing index is replaced; any other existing file is refused. The same
 /// series and options give the same bytes for any number of threads and processes. Memory of each
 /// process: a few layers of 16 planes, if the format can be read piece by piece, and a little more
-/// than twice `waiting_bytes`. Building cells takes some 150 MiB more for each thread, and the
-/// paper's tree 30 bytes more for each cell and step.
+/// than twice `waiting_bytes`. Building the paper's tree takes 30 bytes more for each cell and step.
 /// @param team all its members call this with the same series and options
 /// @throws Error: as reading the series, unwritable, disk full, larger than `CellId` can count
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
@@ -28,17 +27,14 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
 /// Appends, in place, the steps that an index does not hold yet. It writes after the end of the
 /// file and where the present header names nothing, and writes the header last. If it is killed at
 /// any moment, the old index or the new one is left; programs that have the old one open can go on
-/// with it. Queries and the content hash are the same as of an index built anew. Cells are added
-/// for whole epochs: if an epoch has fewer new steps than old ones, its cells wait until it is
-/// complete, and searches use bricks there meanwhile.
-/// @param series all steps; steps that the index holds are read only if cells need their values
+/// with it. Queries and the content hash are the same as of an index built anew. Tiers of earlier
+/// programs that no search uses are not named in the new state.
+/// @param series all steps; of those that the index holds, at most the last is read
 /// @param held the newest state of the file, with as many arrays as are given
 /// @param file opened for writing, with `alone` on rank 0 only
 /// @param options tiers, codec, referral and colors as the index has them
-/// @return false, with the index as it was, if appending is impossible: the type of an array has
-///         more than 8 bits and the levels of its cells lack values of the new steps
 /// @throws Error as `build_index`; the index stays as it was
-bool append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
+void append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
                   const std::filesystem::path& out, const BuildOptions& options,
                   const Progress& progress, Team& team);
 

@@ -15,7 +15,6 @@ struct ArraySections {
     std::uint64_t content_hash = 0;
     Section tree; ///< which is in the file already
     std::vector<StepEntry> steps;
-    std::vector<UnitEntry> directory;
     std::vector<std::uint64_t> checksums;
     Metadata metadata; ///< its list of further arrays is filled in here
 };

@@ -5,7 +5,6 @@
 #include "index/file/sections/metadata.h"
 #include "index/indexing/chunk_history.h"
 #include "index/indexing/layer_stream.h"
-#include "index/indexing/level_choice.h"
 #include "index/indexing/value_stats.h"
 #include "index/system/running_checksum.h"
 
@@ -20,31 +19,19 @@ namespace {
 /// Statistics of the steps of one member.
 class Observer {
   public:
-    explicit Observer(const SeriesInfo& info) : info_(info), chooser_(info.type) {}
+    explicit Observer(const SeriesInfo& info) : info_(info) {}
 
-    void look(std::size_t step, const LayerView& layer) {
+    void look(const LayerView& layer) {
         counts_.add(info_.type, info_.scaling, layer.own());
-        const std::size_t plane = layer.plane / size_of(info_.type);
-        chooser_.add(step, {layer.begin * plane, layer.end * plane, info_.grid.vertex_count()},
-                     layer.own());
         checksum_.add(layer.own());
         if (layer.end == info_.grid.vertices[2])
             checksums_.push_back(checksum_.take());
     }
 
-    bool lossless() const { return chooser_.lossless(); }
-
     VolumeFindings agreed(const std::vector<std::uint64_t>& states, Team& team) {
-        LevelChooser chooser(info_.type);
-        const std::vector<std::uint64_t> seen = chooser_.state();
-        for (const auto& bytes : team.gather(std::as_bytes(std::span(seen)))) {
-            const auto* state = reinterpret_cast<const std::uint64_t*>(bytes.data());
-            chooser.merge(LevelChooser(info_.type, {state, bytes.size() / sizeof *state}));
-        }
         return {agreed_counts(counts_, info_.type, team),
                 team.gather_items(checksums_),
                 team.gather_items(states),
-                chooser.choose(),
                 {},
                 0,
                 {}};
@@ -53,7 +40,6 @@ class Observer {
   private:
     const SeriesInfo& info_;
     ValueCounts counts_;
-    LevelChooser chooser_;
     RunningChecksum checksum_;
     std::vector<std::uint64_t> checksums_;
 };
@@ -67,15 +53,10 @@ class Reading {
 
     const ArrayPass& pass() const { return pass_; }
 
-    void keep(std::size_t step, const LayerView& layer) {
-        if (pass_.kept.file && (pass_.kept.always || observer_.lossless()))
-            pass_.kept.file->write_at((step - pass_.first) * stride_ + layer.begin * layer.plane,
-                                      layer.own());
-    }
-
     void take(std::size_t step, const LayerView& layer, PartWriter& parts) {
-        observer_.look(step, layer);
-        keep(step, layer);
+        observer_.look(layer);
+        if (pass_.kept)
+            pass_.kept->write_at(step * stride_ + layer.begin * layer.plane, layer.own());
         writer_.take(layer, parts, steps_);
     }
 
@@ -158,13 +139,6 @@ void read_share(std::deque<Reading>& readings, std::size_t fresh, const PassTarg
     std::vector<Part> of;
     for (Reading& reading : readings) {
         const ArrayPass& pass = reading.pass();
-        // Held steps are divided among the members, and so are new steps.
-        VolumeSeries* const alone[]{&pass.series};
-        if (const auto [begin, end] = team.share(fresh - pass.first); begin < end)
-            stream(alone, pass.first + begin, pass.first + end,
-                   [&](std::size_t, std::size_t step, const LayerView& layer) {
-                       reading.keep(step, layer);
-                   });
         arrays.push_back(&pass.series);
         of.push_back({&reading, false});
         if (!pass.colors)

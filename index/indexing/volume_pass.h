@@ -8,7 +8,6 @@
 #include "index/progress.h"
 #include "index/system/byte_sink.h"
 #include "index/system/team.h"
-#include "index/volume/level_map.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,18 +26,10 @@ struct PassTarget {
     unsigned threads = 1;
 };
 
-/// Keeps the values from which cells or the tree are built.
-struct KeptValues {
-    ByteSink* file = nullptr; ///< null: nothing is kept
-    /// Keep values even if levels turn out not to be lossless.
-    bool always = true;
-};
-
 /// What a pass does with one of the arrays that it reads.
 struct ArrayPass {
     VolumeSeries& series;
-    std::size_t first; ///< the first step whose values are kept
-    KeptValues kept;
+    ByteSink* kept; ///< gets the values, for the tree, step after step; null: they are not kept
     ChunkContents contents;
     WriterMeans means;
     ColorPass* colors; ///< gets each new step right after this array; null if there is none
@@ -50,17 +41,15 @@ struct VolumeFindings {
     ValueCounts counts;
     std::vector<std::uint64_t> checksums; ///< of every step
     std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
-    LevelMap levels;
-    std::vector<StepEntry> steps; ///< level after level
-    std::uint64_t stayed = 0;     ///< chunk-steps that are as in the step before
+    std::vector<StepEntry> steps;         ///< level after level
+    std::uint64_t stayed = 0;             ///< chunk-steps that are as in the step before
     std::optional<ColorFindings> colors;
 };
 
 /// Reads each member's share of the steps, a layer of chunks ahead of the work: of every step from
 /// `fresh` on all arrays, one right after the other, so that a file with several arrays is read
-/// from disk once. Their parts lie in the index in the same order. Keeps the values of steps from
-/// an array's first on, step after step, each padded to `step_stride`; analyzes and packs only
-/// those from `fresh` on.
+/// from disk once. Their parts lie in the index in the same order. Each step of the kept values is
+/// padded to `step_stride`.
 std::vector<VolumeFindings> read_volumes(std::span<const ArrayPass> arrays, std::size_t fresh,
                                          const PassTarget& target, Team& team,
                                          const Progress& progress);

@@ -18,10 +18,9 @@ struct CellChange {
     std::span<const CellId> added, removed; ///< unordered, each cell once
 };
 
-/// Finds changes in the cheapest way that the index allows: by the deltas of a transition, the
-/// levels between two isovalues, the time nodes that two steps do not share, the chunks that differ
-/// between two steps, or a full search for the second query. It chooses the way that moves the fewest ids, so that a change never costs
-/// more than a full search. Not thread-safe: keeps its work space.
+/// Finds changes in the cheapest way that the index allows: in the chunks that differ between two
+/// steps if at least half of the chunks stay, else by a full search for the second query. Not
+/// thread-safe: keeps its work space.
 class ChangeSearch {
   public:
     explicit ChangeSearch(std::shared_ptr<const IndexFile> file);
@@ -34,7 +33,6 @@ class ChangeSearch {
   private:
     struct WorkSpace;
     CellChange searched(const Query& to);
-    CellChange without_cells(const Query& from, const Query& to);
     std::optional<CellChange> where_chunks_change(const Query& from, const Query& to);
     std::shared_ptr<const IndexFile> file_;
     std::unique_ptr<WorkSpace> work_;

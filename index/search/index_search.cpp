@@ -3,7 +3,6 @@
 
 #include "index/error.h"
 #include "index/file/step_view.h"
-#include "index/search/first_visit.h"
 #include "index/search/id_sort.h"
 #include "index/search/layer_search.h"
 #include "index/search/tree_of_file.h"
@@ -22,14 +21,13 @@ class IndexSearch {
     IndexSearch(std::shared_ptr<const IndexFile> file, std::optional<SearchMethod> forced,
                 Shading shading)
         : file_(std::move(file)), method_(forced ? *forced : cheapest_method(*file_)),
-          free_(!forced), shading_(shading), answered_(file_->info().steps()),
-          keys_(file_->info().type, file_->info().scaling), layers_(file_) {}
+          shading_(shading), keys_(file_->info().type, file_->info().scaling), layers_(file_) {}
 
     bool operator()(const StepView& step, double isovalue, const std::stop_token& stop,
                     CellSet& set) {
         const auto started = Clock::now();
         set.query = {step.at(), isovalue};
-        set.method = method_at(set.query);
+        set.method = method_at(step);
         try {
             if (std::isfinite(isovalue) && !search(step, set, stop))
                 return false;
@@ -45,62 +43,26 @@ class IndexSearch {
         } catch (const Stopped&) {
             return false;
         }
-        if (!step.between()) {
+        if (!step.between())
             file_->chunks().worked_on(step.at());
-            answered_[step.at()] = true;
-        }
         return true;
     }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// The method for a query: appended steps may not have cells yet, the cells of a step may not
-    /// have been read, and between steps only bricks help.
-    SearchMethod method_at(const Query& query) const {
-        const bool bricks = can_search(*file_, SearchMethod::bricks);
-        if (query.step.between()) // cells and tree are of steps alone
-            return bricks && method_ != SearchMethod::scan ? SearchMethod::bricks
-                                                           : SearchMethod::scan;
-        if (method_ != SearchMethod::cells)
+    /// The method at a step, or between two, where only bricks help.
+    SearchMethod method_at(const StepView& step) const {
+        if (!step.between() || method_ == SearchMethod::scan)
             return method_;
-        if (!file_->has_cells(query.step))
-            return bricks ? SearchMethod::bricks : SearchMethod::scan;
-        if (!free_ || !bricks || answered_[query.step] || !std::isfinite(query.isovalue))
-            return method_;
-        const MissingBytes missing = missing_bytes(*file_, query, shading_ != Shading::none);
-        return missing.bricks < missing.cells ? SearchMethod::bricks : method_;
+        return can_search(*file_, SearchMethod::bricks) ? SearchMethod::bricks : SearchMethod::scan;
     }
 
     bool search(const StepView& step, CellSet& set, const std::stop_token& stop) {
-        switch (set.method) {
-        case SearchMethod::cells: return search_cells(step, set, stop);
-        case SearchMethod::tree: return search_tree(step, set, stop);
-        case SearchMethod::bricks:
-        case SearchMethod::scan: break;
-        }
+        if (set.method == SearchMethod::tree)
+            return search_tree(step, set, stop);
         return layers_.search(step, set, set.method == SearchMethod::bricks,
                               shading_ != Shading::none, stop);
-    }
-
-    bool search_cells(const StepView& step, CellSet& set, const std::stop_token& stop) {
-        const auto cut = file_->levels().cut(step.scaling(), set.query.isovalue);
-        if (!cut)
-            return true;
-        const auto held = file_->cells()->hold();
-        certain_.clear();
-        ambiguous_.clear();
-        file_->cells()->search(set.query.step, *cut, certain_, ambiguous_);
-        assign_ids(certain_, set.ids);
-        set.candidates = set.ids.size();
-        if (!ambiguous_.empty()) {
-            assign_ids(ambiguous_, candidates_);
-            set.candidates += candidates_.size();
-            if (!test_candidates(step, set, stop))
-                return false;
-        }
-        sort_ids(set.ids, step.grid().cell_count());
-        return !stop.stop_requested();
     }
 
     bool search_tree(const StepView& step, CellSet& set, const std::stop_token& stop) {
@@ -134,23 +96,18 @@ class IndexSearch {
 
     std::shared_ptr<const IndexFile> file_;
     SearchMethod method_;
-    bool free_; ///< to search by bricks instead of cells
     Shading shading_;
-    std::vector<bool> answered_; ///< by step
     KeyMap keys_;
     std::shared_ptr<const ThiTree> tree_; ///< once it is needed
     ThiTree::Cursor cursor_;
     LayerSearch layers_;
-    // Kept for their memory:
-    std::vector<CellId> candidates_;
-    std::vector<IdRun> certain_, ambiguous_;
+    std::vector<CellId> candidates_; ///< kept for its memory
 };
 
 } // namespace
 
 bool can_search(const IndexFile& file, SearchMethod method) {
     switch (method) {
-    case SearchMethod::cells: return file.cells();
     case SearchMethod::bricks: return file.plan().tiers.has(Tier::bricks);
     case SearchMethod::tree: return file.stats().tree_bytes > 0;
     case SearchMethod::scan: break;
@@ -159,8 +116,7 @@ bool can_search(const IndexFile& file, SearchMethod method) {
 }
 
 SearchMethod cheapest_method(const IndexFile& file) {
-    for (const SearchMethod method :
-         {SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree})
+    for (const SearchMethod method : {SearchMethod::bricks, SearchMethod::tree})
         if (can_search(file, method))
             return method;
     return SearchMethod::scan;

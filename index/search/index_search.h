@@ -22,8 +22,7 @@ using SearchInto =
 /// The step of a query. @throws Error if the series does not have it
 StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues = {});
 
-/// The fastest method that the file's tiers allow: cells, else bricks, else the paper's tree, else
-/// the scan.
+/// The fastest method that the file's tiers allow: bricks, else the paper's tree, else the scan.
 SearchMethod cheapest_method(const IndexFile& file);
 /// Whether the file has the tier that a method needs.
 bool can_search(const IndexFile& file, SearchMethod method);
@@ -31,9 +30,7 @@ bool can_search(const IndexFile& file, SearchMethod method);
 /// `cells`: a set gets points and rows. `none`: it stays a list of ids.
 enum class Shading : std::uint8_t { none, cells };
 
-/// The search over an open index. Copies share their state. If the file has cells and bricks, the
-/// first search of a step uses the tier with fewer bytes left to read, and later ones use cells,
-/// which are fastest.
+/// The search over an open index. Copies share their state.
 /// @param method used instead of `cheapest_method`; the file must have that tier
 /// @param shading `cells` completes the sets by `shade_cells`
 Search search_in(std::shared_ptr<const IndexFile> file,

@@ -7,25 +7,11 @@
 #include <fmt/format.h>
 
 #include <sys/mman.h>
-#include <unistd.h>
 
-#include <cassert>
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 
 namespace isochron::index {
-namespace {
-
-/// Advises the system on whole pages; it may ignore the advice.
-void advise(std::span<const std::byte> part, int advice) {
-    const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-    const auto begin = reinterpret_cast<std::uintptr_t>(part.data()) / page * page;
-    const auto end = reinterpret_cast<std::uintptr_t>(part.data() + part.size());
-    ::madvise(reinterpret_cast<void*>(begin), end - begin, advice);
-}
-
-} // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& path) {
     const InputFile file(path);
@@ -43,12 +29,6 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
 MappedFile::~MappedFile() {
     if (!bytes_.empty())
         ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
-}
-
-void MappedFile::let_go(std::span<const std::byte> part) const {
-    assert(part.data() >= bytes_.data() &&
-           part.data() + part.size() <= bytes_.data() + bytes_.size());
-    advise(part, MADV_DONTNEED); // the mapping is shared, so file and page cache stay
 }
 
 } // namespace isochron::index

@@ -19,10 +19,6 @@ class MappedFile {
 
     std::span<const std::byte> bytes() const { return bytes_; }
 
-    /// Drops the pages of a part that has been read, so that they no longer count as memory of this
-    /// process. It may be read again at any time.
-    void let_go(std::span<const std::byte> part) const;
-
   private:
     std::span<const std::byte> bytes_;
 };

@@ -12,8 +12,8 @@
 namespace isochron::index {
 
 /// How the active cells are found.
-enum class SearchMethod : std::uint8_t { cells, bricks, tree, scan };
-constexpr std::array<std::string_view, 4> kSearchMethodNames{"cells", "bricks", "tree", "scan"};
+enum class SearchMethod : std::uint8_t { bricks, tree, scan };
+constexpr std::array<std::string_view, 3> kSearchMethodNames{"bricks", "tree", "scan"};
 
 /// Asks for the active cells: a cell is active if min < isovalue <= max over its 8 scaled vertex
 /// values and none of these is NaN. An isovalue that is NaN or infinite has no active cells.

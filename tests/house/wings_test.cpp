@@ -36,7 +36,7 @@ const std::map<std::string, Steps> kOrder{
       {"search"},
       {"surface"},
       {"file"},
-      {"thi", "cells", "scan", "formats"},
+      {"thi", "scan", "formats"},
       {"reader"},
       {"volume", "system"},
       {"error", "lower_case", "progress", "shell_word", "utf8"}}},

@@ -1,8 +1,6 @@
 // Repairs all checksums of a modified index.
 #include "tests/support/index_repair.h"
 
-#include "index/cells/cell_table_head.h"
-#include "index/cells/cell_unit.h"
 #include "index/error.h"
 #include "index/file/chunks/chunk_grid.h"
 #include "index/file/chunks/chunk_table.h"
@@ -107,16 +105,14 @@ class IndexRepair {
             if (const Grid& grid = grids[i / steps % grids.size()];
                 grid.vertex_count() / (kChunkEdge * kChunkEdge * kChunkEdge) < file_.size())
                 repair_step(at<StepEntry>(entries.offset + i * sizeof(StepEntry)), ChunkGrid(grid));
-        const Section units = header_.section(SectionKind::directory);
+        const Section unused = header_.section(SectionKind::directory);
         const std::uint64_t checksums =
             header_.section(SectionKind::checksums).offset + steps * sizeof(std::uint64_t);
-        for (std::uint64_t i = 0; i < std::min(units.bytes, file_.size()) / sizeof(UnitEntry);
-             ++i) {
-            const auto unit = at<UnitEntry>(units.offset + i * sizeof(UnitEntry));
-            repair_unit(unit.cells_offset, unit.cells_bytes);
-            repair_unit(unit.deltas_offset, unit.deltas_bytes);
-            put(checksums + 16 * i, sum(unit.cells_offset, unit.cells_bytes));
-            put(checksums + 16 * i + 8, sum(unit.deltas_offset, unit.deltas_bytes));
+        const std::uint64_t rows = std::min(unused.bytes, file_.size()) / sizeof(UnusedParts);
+        for (std::uint64_t i = 0; i < rows; ++i) {
+            const auto two = at<UnusedParts>(unused.offset + i * sizeof(UnusedParts));
+            for (std::uint64_t n = 0; n < 2; ++n)
+                put(checksums + 16 * i + 8 * n, sum(two.parts[n].offset, two.parts[n].bytes));
         }
     }
 
@@ -139,29 +135,6 @@ class IndexRepair {
         if (const std::uint64_t end = entry.offset + entry.bytes;
             end > table + 8 && has(table, end - table))
             put(table, sum(table + 8, end - table - 8));
-    }
-
-    void repair_unit(std::uint64_t begin, std::uint64_t bytes) {
-        if (bytes < sizeof(CellUnitHead) || !has(begin, bytes))
-            return;
-        auto head = at<CellUnitHead>(begin);
-        const std::uint64_t tables =
-            std::min<std::uint64_t>(head.tables, (bytes - sizeof head) / sizeof(TableRef));
-        for (std::uint64_t i = 0; i < tables; ++i) {
-            const std::uint64_t place = begin + sizeof head + i * sizeof(TableRef);
-            auto ref = at<TableRef>(place);
-            const std::uint64_t table = begin + ref.offset * CellTableHead::kAlignment;
-            const std::uint64_t directory = at<CellTableHead>(table).ids;
-            if (ref.offset == 0 || !has(table, directory))
-                continue;
-            ref.checksum = cell_checksum(file_.subspan(table, directory));
-            put(place, ref);
-        }
-        head.checksum = 0;
-        put(begin, head);
-        head.checksum =
-            cell_checksum(file_.subspan(begin, sizeof head + tables * sizeof(TableRef)));
-        put(begin, head);
     }
 
     std::span<std::byte> file_;

@@ -5,20 +5,22 @@
 // with the higher sequence number; a new index has only the first. The parts begin at 8192:
 // - for each array and step: the step's chunks, their tables and the levels of their bricks
 //   (chunk_table.h, step_levels.h), at a multiple of 64
-// - units: cells and deltas of a stretch in an epoch (cell_unit.h), each at a multiple of
-//   64; the units of an epoch lie one after the other
+// - parts that are no longer used, each at a multiple of 64: programs up to version 0.2 could write
+//   search structures here that no program searches now
 // - the sections, at multiples of 64. tree: the THI tree's block (thi_tree.h). steps: a StepEntry
 //   for each step, array after array: the volume and its levels of detail, then the array to color
-//   by and its levels. directory: a UnitEntry for each epoch and stretch, stretches faster. checksums:
-//   XXH3, 64 bits, of the stored values of every step of the volume, of cells and deltas of every
-//   unit, and of the stored values of every step of the array to color by; then for each step the
-//   state of its source (VolumeSeries::state), which shows whether it has changed, 0 if unknown.
+//   by and its levels. directory: an UnusedParts for each two parts that are no longer used.
+//   checksums: XXH3, 64 bits, of the stored values of every step of the volume, of every part that is
+//   no longer used, and of the stored values of every step of the array to color by; then for each
+//   step the state of its source (VolumeSeries::state), which shows whether it has changed, 0 if
+//   unknown.
 //   metadata: JSON (metadata.h)
 // A section that the plan does not have is empty. Gaps of fewer than 64 bytes are zero; larger gaps
 // hold parts of earlier headers.
 //
 // To append, a writer writes new parts after the end of the file or into gaps, flushes, writes the
-// slot of the header that does not count, and flushes again. The parts of the other header stay.
+// slot of the header that does not count, and flushes again. The parts of the other header stay. The
+// new state names no parts that are no longer used.
 #pragma once
 
 #include "index/system/byte_source.h"
@@ -54,12 +56,15 @@ struct Section {
     std::uint64_t checksum = 0; ///< XXH3, 64 bits
 };
 
-/// Offsets and sizes of the parts of a unit.
-struct UnitEntry {
-    std::uint64_t cells_offset, cells_bytes;
-    std::uint64_t deltas_offset, deltas_bytes;
-    std::uint64_t entries; ///< number of entries of its cells
+/// Two parts that an earlier program wrote and no program uses any more.
+struct UnusedParts {
+    struct Part {
+        std::uint64_t offset = 0, bytes = 0;
+    };
+    std::array<Part, 2> parts;
+    std::uint64_t entries = 0; ///< without a meaning now
 };
+static_assert(sizeof(UnusedParts) == 40);
 
 /// Offset and size of the chunks of a step of one array.
 struct StepEntry {

@@ -22,13 +22,15 @@ struct IndexStats {
     std::uint64_t nan_values = 0;         ///< vertex-steps that are NaN
     std::vector<std::uint64_t> histogram; ///< kHistogramBins equal bins over [low, high], all steps
     ValueCounts counts;                   ///< from which range and histogram follow
-    std::uint64_t file_bytes = 0, volume_bytes = 0, bricks_bytes = 0, cells_bytes = 0,
-                  deltas_bytes = 0, tree_bytes = 0, color_bytes = 0;
+    std::uint64_t file_bytes = 0, volume_bytes = 0, bricks_bytes = 0, tree_bytes = 0,
+                  color_bytes = 0;
+    std::uint64_t unused_bytes = 0; ///< tiers of earlier programs (UnusedParts)
     std::uint64_t detail_bytes = 0; ///< levels of detail of the volume and the array to color by
     std::uint64_t staying = 0;      ///< chunks of all steps that are as in the step before
-    std::uint64_t cell_entries = 0; ///< entries (cell, extremes, time node) in the tier `cells`
 
-    std::uint64_t bytes_of(Tier tier) const;
+    std::uint64_t bytes_of(Tier tier) const {
+        return tier == Tier::bricks ? bricks_bytes : tree_bytes;
+    }
 };
 
 /// A second array with the same grid and times, by which surfaces can be colored.

@@ -75,36 +75,6 @@ SeriesInfo info_of(const json& j) {
     return info;
 }
 
-json json_of(const LevelMap& levels) {
-    if (size_of(levels.type()) == 1 && levels == LevelMap::of_type(levels.type()))
-        return "of the type";
-    if (levels.lossless())
-        return {{"values", levels.distinct()}};
-    return {{"thresholds", levels.thresholds()}};
-}
-
-std::vector<std::uint64_t> ascending(const json& values, std::size_t most) {
-    std::vector<std::uint64_t> numbers(values.is_array() ? values.size() : most + 1);
-    if (numbers.size() > most)
-        throw Error(fmt::format("expected at most {} levels", most));
-    get_whole(values, numbers);
-    for (std::size_t i = 1; i < numbers.size(); ++i)
-        if (numbers[i] <= numbers[i - 1])
-            throw Error("levels that do not ascend");
-    return numbers;
-}
-
-LevelMap levels_of(const json& j, ValueType type) {
-    if (j.is_string()) {
-        if (size_of(type) != 1)
-            throw Error(fmt::format("levels of {}, which has too many values", name_of(type)));
-        return LevelMap::of_type(type);
-    }
-    if (j.contains("values"))
-        return LevelMap::of_values(type, ascending(j.at("values"), LevelMap::kMaxLevels));
-    return LevelMap::of_thresholds(type, ascending(j.at("thresholds"), LevelMap::kMaxLevels - 1));
-}
-
 json json_of(const ValueCounts& counts) {
     return {{"low", counts.low},           {"high", counts.high},   {"nan", counts.nan_values},
             {"exponent", counts.exponent}, {"first", counts.first}, {"bins", counts.bins}};
@@ -141,11 +111,18 @@ TierPlan plan_of(const json& j) {
     TierPlan plan;
     for (const json& name : j.at("tiers")) {
         const auto tier = tier_from_name(name.get<std::string>());
-        if (!tier)
+        if (tier)
+            plan.tiers = plan.tiers.with(*tier);
+        else if (!is_former_tier(name.get<std::string>()))
             throw Error(fmt::format("unknown tier {}", name.dump()));
-        plan.tiers = plan.tiers.with(*tier);
     }
     j.at("reasons").get_to(plan.reasons);
+    std::erase_if(plan.reasons,
+                  [](const std::string& reason) { // why there were former tiers, or not
+                      const std::string_view tier =
+                          std::string_view(reason).substr(reason.starts_with("no ") ? 3 : 0);
+                      return tier.starts_with("cells") || tier.starts_with("deltas");
+                  });
     plan.asked = j.value("asked", false); // version 2 did not say
     if (j.contains("steps"))
         plan.steps = whole<std::uint32_t>(j.at("steps"));
@@ -186,7 +163,6 @@ std::string to_json(const Metadata& metadata) {
         {"sources", exact(info.sources)},
         {"notes", info.notes},
         {"stats", {{"counts", json_of(stats.counts)}, {"staying", stats.staying}}},
-        {"cell_steps", metadata.cell_steps},
         {"plan", json_of(metadata.plan)},
         {"codec", kCodecNames[static_cast<std::size_t>(metadata.codec)]},
         {"tree",
@@ -201,8 +177,6 @@ std::string to_json(const Metadata& metadata) {
         j["missing_after"] = info.missing_after;
     if (!metadata.earlier.empty())
         j["earlier"] = metadata.earlier;
-    if (metadata.levels)
-        j["levels"] = json_of(*metadata.levels);
     put_optional(j, "chosen_array", metadata.chosen_array);
     put_optional(j, "chosen_component", metadata.chosen_component);
     if (metadata.reading)
@@ -228,10 +202,6 @@ Metadata metadata_from_json(std::string_view text) try {
         set_counts(metadata, counts_of(j.at("stats").at("counts"), metadata.info.type));
     if (const auto staying = j.at("stats").find("staying"); staying != j.at("stats").end())
         metadata.stats.staying = whole<std::uint64_t>(*staying);
-    if (j.contains("levels"))
-        metadata.levels = levels_of(j.at("levels"), metadata.info.type);
-    if (j.contains("cell_steps"))
-        metadata.cell_steps = whole<std::uint32_t>(j.at("cell_steps"));
     if (j.contains("earlier")) {
         metadata.earlier.resize(std::min(j.at("earlier").size(), metadata.info.steps()));
         get_whole(j.at("earlier"), metadata.earlier);

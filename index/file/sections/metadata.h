@@ -6,7 +6,6 @@
 #include "index/file/sections/file_layout.h"
 #include "index/file/sections/index_contents.h"
 #include "index/file/sections/series_content.h"
-#include "index/volume/level_map.h"
 #include "index/volume/tree_options.h"
 
 #include <array>
@@ -33,9 +32,7 @@ struct Metadata {
     SeriesInfo info = {};
     IndexStats stats = {};
     TierPlan plan = {};
-    Codec codec = Codec::fitting;        ///< with which values were packed
-    std::optional<LevelMap> levels = {}; ///< of the cells, if there are any
-    std::uint32_t cell_steps = 0;        ///< number of first steps that the cells hold
+    Codec codec = Codec::fitting; ///< with which values were packed
     /// Content hashes of the states from which the index has grown, oldest first.
     std::vector<std::uint64_t> earlier = {};
     ThiOptions tree = {};

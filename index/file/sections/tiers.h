@@ -12,17 +12,21 @@ namespace isochron::index {
 
 enum class Tier : std::uint8_t {
     bricks, ///< extremes of bricks: small, exact together with the volume, for every type
-    cells,  ///< ids sorted by extremes in a time tree: fast, exact by itself if levels are lossless
-    deltas, ///< the cells that each step adds and removes: for incremental search
     tree,   ///< the paper's Temporal Hierarchical Index Tree
 };
-constexpr std::array<std::string_view, 4> kTierNames{"bricks", "cells", "deltas", "tree"};
+constexpr std::array<std::string_view, 2> kTierNames{"bricks", "tree"};
 
 constexpr std::optional<Tier> tier_from_name(std::string_view name) {
     for (std::size_t i = 0; i < kTierNames.size(); ++i)
         if (kTierNames[i] == name)
             return static_cast<Tier>(i);
     return std::nullopt;
+}
+
+/// Whether a name is that of a tier that programs up to version 0.2 built, and that no search uses
+/// any more.
+constexpr bool is_former_tier(std::string_view name) {
+    return name == "cells" || name == "deltas";
 }
 
 class TierSet {

@@ -4,6 +4,7 @@
 #include "interaction/recording/recording.h"
 #include "tests/app/commands/command_line.h"
 #include "tests/support/huge_index.h"
+#include "tests/support/paths.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,12 +15,12 @@ using testing::HasSubstr;
 
 TEST_F(CommandLine, QueryWritesTheActiveCellsOfEveryStepByEveryMethod) {
     const ChildResult built =
-        isochron(build_of("t*.raw", {"--tiers", "bricks,cells", "--lattice", "16"}));
+        isochron(build_of("t*.raw", {"--tiers", "bricks", "--lattice", "16"}));
     ASSERT_EQ(built.status, 0) << built.err;
     EXPECT_THAT(built.out, HasSubstr("14 x 11 x 9 vertices, 5 steps, f32"));
     for (std::size_t step = 0; step < kSteps; ++step)
         for (const double isovalue : {-0.75, 0.1, double(steps[step][500]), 5.0})
-            for (const std::string method : {"", "cells", "bricks", "tree", "scan"}) {
+            for (const std::string method : {"", "bricks", "tree", "scan"}) {
                 std::vector<std::string> query{"query",
                                                "a.isochron",
                                                "--json",
@@ -43,18 +44,54 @@ TEST_F(CommandLine, QueryWritesTheActiveCellsOfEveryStepByEveryMethod) {
                 EXPECT_EQ(ids, expected);
                 const auto json = nlohmann::json::parse(result.out);
                 EXPECT_EQ(json.at("active_cells"), expected.size());
-                if (method.empty()) { // the first look is by what reads least
-                    EXPECT_TRUE(json.at("method") == "cells" || json.at("method") == "bricks");
-                } else {
-                    EXPECT_EQ(json.at("method"), method);
-                }
-                EXPECT_EQ(json.at("repeated_method"), method.empty() ? "cells" : method);
+                EXPECT_EQ(json.at("method"), method.empty() ? "bricks" : method);
+                EXPECT_EQ(json.at("repeated_method"), method.empty() ? "bricks" : method);
                 EXPECT_EQ(json.at("candidates").get<std::size_t>(),
                           expected.size() + json.at("false_positives").get<std::size_t>());
                 for (const char* key :
                      {"cold_search_ms", "cold_shading_ms", "search_ms", "shading_ms"})
                     EXPECT_GE(json.at(key).get<double>(), 0) << key;
             }
+}
+
+TEST_F(CommandLine, TiersOfEarlierVersionsAreTakenWithANote) {
+    const ChildResult built = isochron(build_of("t[0-2].raw", {"--tiers", "bricks,cells,deltas"}));
+    EXPECT_EQ(built.status, 0);
+    EXPECT_THAT(built.err, HasSubstr("isochron: --tiers bricks,cells,deltas: cells is no longer "
+                                     "built; bricks take its place\n"));
+    const ChildResult appended =
+        isochron(build_of("t*.raw", {"--append", "--tiers", "bricks,cells"}));
+    EXPECT_EQ(appended.status, 0);
+    EXPECT_THAT(appended.out, testing::Not(HasSubstr("written anew")));
+    const ChildResult found = isochron(
+        {"query", "a.isochron", "--isovalue", "0.1", "--step", "1", "--method", "cells", "--json"});
+    EXPECT_EQ(found.status, 0);
+    EXPECT_EQ(found.err, "isochron: --method cells: no longer there; searched by bricks\n");
+    const auto json = nlohmann::json::parse(found.out);
+    EXPECT_EQ(json.at("method"), "bricks");
+    EXPECT_EQ(json.at("active_cells"), active(1, 0.1).size());
+}
+
+TEST_F(CommandLine, AnIndexWithNothingButFormerTiersIsScannedAndSaysSo) {
+    std::filesystem::copy_file(test_support::test_data() + "/old/former_alone.isochron",
+                               folder.path() / "old.isochron");
+    const ChildResult found =
+        isochron({"query", "old.isochron", "--isovalue", "100", "--step", "1", "--json"});
+    EXPECT_EQ(found.status, 0);
+    EXPECT_EQ(
+        found.err,
+        "isochron: old.isochron: the search structures that it holds are no longer used, so "
+        "each search scans a whole step; isochron build old.isochron -o NEW.isochron gives it "
+        "bricks\n");
+    EXPECT_EQ(nlohmann::json::parse(found.out).at("method"), "scan");
+    const ChildResult told = isochron({"info", "old.isochron", "--json"});
+    EXPECT_GT(nlohmann::json::parse(told.out).at("unused_bytes"), 1000);
+    EXPECT_EQ(isochron({"build", "old.isochron", "-o", "new.isochron"}).status, 0);
+    const ChildResult anew =
+        isochron({"query", "new.isochron", "--isovalue", "100", "--step", "1", "--json"});
+    EXPECT_EQ(anew.err, "");
+    EXPECT_EQ(nlohmann::json::parse(anew.out).at("active_cells"),
+              nlohmann::json::parse(found.out).at("active_cells"));
 }
 
 TEST_F(CommandLine, InfoTellsWhatWasBuilt) {
@@ -184,8 +221,6 @@ TEST_F(CommandLine, BadInputIsOneLineAndLeavesNothingBehind) {
     fails({"explore", "t0.raw", "--no-panel"},
           "t0.raw: raw values need --dims NX NY NZ and --type");
     fails(build_of("t[01].raw", {"--append"}), "must begin with the 5 steps that it holds");
-    fails(build_of("t*.raw", {"--tiers", "deltas"}),
-          "t0.raw: the tier deltas needs the tier cells");
     fails({"info", "none.isochron"}, "none.isochron: there is no such file");
     fails({"info", "."}, ".: a folder without a file of values");
 }
@@ -196,7 +231,7 @@ TEST_F(CommandLine, BadUsageIsStatus2) {
     expect_failure(isochron({"info", "a.isochron", "--unknown"}), 2, "--unknown");
     expect_failure(isochron(build_of("t*.raw", {"--lattice", "0"})), 2, "--lattice");
     expect_failure(isochron(build_of("t*.raw", {"--tiers", "bricks,cubes"})), 2,
-                   "cubes: expected none, or some of bricks,cells,deltas,tree");
+                   "cubes: expected none, or some of bricks,tree");
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "0"})), 2,
                    "expected a positive number, got 0");
     expect_failure(isochron(build_of("t*.raw", {"--time-step", "nan"})), 2, "got nan");

@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAreArray;
 using testing::HasSubstr;
 
-/// A folder with two series, of bytes (bricks, cells and deltas) and of floats (bricks).
+/// A folder with two series, of bytes and of floats.
 class MpiBuild : public testing::Test {
   protected:
     static constexpr int kX = 70, kY = 50, kZ = 45, kSteps = 5;

@@ -41,7 +41,7 @@ Recipe scan_of(const FilePtr& file) {
 /// Bytes of the file without the volume, its levels of detail, and the tree.
 std::uint64_t bytes_of_bricks(const index::IndexStats& stats) {
     return stats.file_bytes - stats.volume_bytes - stats.detail_bytes - stats.tree_bytes -
-           stats.cells_bytes - stats.deltas_bytes;
+           stats.unused_bytes;
 }
 
 /// Time to build the bricks of all steps again, on one thread.

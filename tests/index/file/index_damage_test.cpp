@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/indexing/index_build.h"
 #include "index/search/cell_change.h"
+#include "index/search/index_search.h"
 #include "index/search/layer_search.h"
 #include "tests/support/index_repair.h"
 #include "tests/support/memory_series.h"
@@ -44,8 +45,7 @@ void use(const std::shared_ptr<const IndexFile>& file) {
     ChangeSearch changes(file);
     for (std::uint32_t step = 0; step < file->info().steps(); ++step) {
         const double isovalue = step % 2 ? 128.0 : 100.5;
-        for (const SearchMethod method :
-             {SearchMethod::cells, SearchMethod::bricks, SearchMethod::scan})
+        for (const SearchMethod method : {SearchMethod::bricks, SearchMethod::scan})
             if (can_search(*file, method))
                 search_in(file, method)({step, isovalue}, {});
         for (std::size_t level = 0; level < file->detail_levels(); ++level)

@@ -87,7 +87,6 @@ class OldVersionTest : public testing::Test {
         Metadata metadata{.info = file->info(),
                           .stats = file->stats(),
                           .plan = file->plan(),
-                          .levels = {},
                           .tree = {},
                           .referral = {},
                           .color = *file->color()};

@@ -89,8 +89,7 @@ TEST_F(IndexBuildTest, CancelingInAnyPhaseLeavesTheOldIndexAsItWas) {
     build_index(series, folder.path() / "a", {});
     const std::string old = read_file(folder.path() / "a");
     std::vector<std::string> phases;
-    const BuildOptions everything{
-        .tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::tree)};
+    const BuildOptions everything{.tiers = TierSet().with(Tier::bricks).with(Tier::tree)};
     build_index(series, folder.path() / "a", everything, [&](std::string_view phase, double) {
         if (phases.empty() || phases.back() != phase)
             phases.emplace_back(phase);

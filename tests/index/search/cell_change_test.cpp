@@ -79,23 +79,27 @@ TEST_F(CellChangeTest, FollowsARandomWalkThroughStepsAndIsovalues) {
         walk(indexed(field.view()), field.view(), 200);
     }
     const TestField sphere({30, 25, 28}, 20, ValueType::u8, moving_sphere);
-    const BuildOptions deltas{
-        .tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::deltas)};
-    const int whole =
-        walk(indexed(sphere.view(), deltas), sphere.view(), 200, {40, 60, 112.5, 180});
-    EXPECT_LT(whole, 100); // most are after an isovalue out of range, or to one
-    // Without deltas the time nodes that steps share serve; with a falling scaling too.
+    walk(indexed(sphere.view()), sphere.view(), 200, {40, 60, 112.5, 180});
     const TestField falling({30, 25, 28}, 20, ValueType::u8, moving_sphere, {-0.5, 3});
-    const BuildOptions cells{.tiers = TierSet().with(Tier::cells)};
-    EXPECT_LT(walk(indexed(falling.view(), cells), falling.view(), 200, {-40, -60, -70.5}), 190);
+    for (const TierSet tiers :
+         {TierSet().with(Tier::bricks), TierSet().with(Tier::tree), TierSet()})
+        walk(indexed(falling.view(), {.tiers = tiers}), falling.view(), 200, {-40, -60, -70.5});
 }
 
-TEST_F(CellChangeTest, IsTheWholeSetWhereTheVolumeDecides) {
+TEST_F(CellChangeTest, IsTheWholeSetWhereFewChunksStayAndNotWhereMostDo) {
     std::mt19937 random(test_seed());
-    const TestField field({20, 20, 20}, 5, ValueType::f32, turbulence(random));
-    EXPECT_GT(walk(indexed(field.view()), field.view(), 50), 30);
-    const BuildOptions cells{.tiers = TierSet().with(Tier::cells)};
-    walk(indexed(field.view(), cells), field.view(), 50);
+    const auto waves = turbulence(random);
+    for (const bool stays : {false, true}) {
+        const TestField field({20, 20, 60}, 5, ValueType::f32,
+                              [&](double x, double y, double z, double t) {
+                                  return waves(x, y, z, stays && z > 10 ? 0 : t);
+                              });
+        const auto file = indexed(field.view());
+        const double isovalue = quantiles(sorted_values(field.view()), 3)[1];
+        ChangeSearch search(file);
+        EXPECT_EQ(search({1, isovalue}, {2, isovalue}).whole, !stays);
+        EXPECT_EQ(walk(file, field.view(), 50) < 45, stays);
+    }
 }
 
 } // namespace

@@ -16,10 +16,8 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::array kMethods{SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree,
-                              SearchMethod::scan};
-const BuildOptions kEveryMethod{
-    .tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::tree)};
+constexpr std::array kMethods{SearchMethod::bricks, SearchMethod::tree, SearchMethod::scan};
+const BuildOptions kEveryMethod{.tiers = TierSet().with(Tier::bricks).with(Tier::tree)};
 
 TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
     const TestFolder folder;
@@ -80,43 +78,6 @@ TEST(IndexSearch, FindsInTheFmriSeriesWhatTheScanFindsAtEveryStepAnd64Quantiles)
         for (const std::size_t i : {5u, 33u, 60u})
             EXPECT_EQ(by_scan({step, isovalues[i]}, {})->ids,
                       BruteForce(file->values(), step).active(isovalues[i]));
-}
-
-/// Noise that changes little from step to step, so that cells merge in time.
-TestField::Function slow_noise() {
-    return [](double x, double y, double z, double t) {
-        const double at = std::sin(91 * x + 57 * y + 13 * z) * 43758.5453;
-        return 200 * (at - std::floor(at)) + (x < 0.1 ? 20 * t : 0);
-    };
-}
-
-TEST(IndexSearch, AFirstLookAtAStepReadsWhatIsLeastAndAnotherIsByCells) {
-    const TestFolder folder;
-    const TestField field({40, 36, 38}, 70, ValueType::u8, slow_noise());
-    const StepValues values = field.view();
-    indexed(folder, values, kEveryMethod);
-    const Query query{33, 100.5};
-    const auto expected = BruteForce(values, query.step).active(query.isovalue);
-    for (const Shading shading : {Shading::none, Shading::cells}) {
-        const auto read_by = [&](std::optional<SearchMethod> method) {
-            const auto file = IndexFile::open(folder.path() / "a.isochron");
-            const auto before = file->reading().bytes;
-            EXPECT_EQ(search_in(file, method, shading)(query, {})->ids, expected);
-            return file->reading().bytes - before;
-        };
-        const auto cells = read_by(SearchMethod::cells), bricks = read_by(SearchMethod::bricks);
-        ASSERT_GT(cells, bricks + bricks / 2);
-        EXPECT_LT(read_by(std::nullopt), bricks + bricks / 4); // heads of some units, too
-
-        const auto file = IndexFile::open(folder.path() / "a.isochron");
-        const Search search = search_in(file, std::nullopt, shading);
-        EXPECT_EQ(search(query, {})->method, SearchMethod::bricks);
-        const CellSetPtr again = search(query, {});
-        EXPECT_EQ(again->method, SearchMethod::cells);
-        EXPECT_EQ(again->ids, expected);
-        // The cells of this step are in memory now, for whoever asks.
-        EXPECT_EQ(search_in(file, std::nullopt, shading)(query, {})->method, SearchMethod::cells);
-    }
 }
 
 TEST(IndexSearch, AStepThatIsSearchedAgainAndAgainGivesTheSameCellsAndTakesNoMoreMemory) {

@@ -25,8 +25,7 @@ constexpr std::uint64_t kNoRoom = 1;
 constexpr std::array<std::array<std::uint32_t, 3>, 7> kChunkyGrids{
     {{2, 2, 2}, {16, 16, 16}, {17, 17, 17}, {18, 33, 31}, {37, 23, 41}, {2, 50, 19}, {70, 3, 34}}};
 
-constexpr std::array kEveryWay{SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree,
-                               SearchMethod::scan};
+constexpr std::array kEveryWay{SearchMethod::bricks, SearchMethod::tree, SearchMethod::scan};
 
 class LayerSearchTest : public testing::Test {
   protected:
@@ -36,8 +35,7 @@ class LayerSearchTest : public testing::Test {
         MemorySeries series(values);
         const auto path = folder_.path() / "a.isochron";
         build_index(series, path,
-                    {.tiers = TierSet().with(Tier::bricks).with(Tier::cells).with(Tier::tree),
-                     .codec = codec});
+                    {.tiers = TierSet().with(Tier::bricks).with(Tier::tree), .codec = codec});
         return {IndexFile::open(path), IndexFile::open(path, kNoRoom)};
     }
 

@@ -88,7 +88,7 @@ TEST_F(ByteSourceTest, ReadsThatComeInPiecesGiveTheSame) {
 
 TEST_F(ByteSourceTest, AFailureIsOneLineOfEveryMethodAndTheNextSearchIsRight) {
     for (const SearchMethod method :
-         {SearchMethod::cells, SearchMethod::bricks, SearchMethod::tree, SearchMethod::scan}) {
+         {SearchMethod::bricks, SearchMethod::tree, SearchMethod::scan}) {
         const Search search = search_in(file_, method);
         source_->fails = true;
         try {

@@ -1,4 +1,4 @@
-// Chooses levels from the distinct values of a series, or from a sample of the values.
+// Chooses levels from the distinct values of a step, or from a sample of the values.
 #include "index/indexing/level_choice.h"
 
 #include "index/volume/ordinal.h"
@@ -11,7 +11,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::size_t kSamples = 1 << 16;
+constexpr std::size_t kSamples = 1 << 14;
 
 /// SplitMix64: different numbers have different hashes. Steele, Lea and Flood, "Fast splittable
 /// pseudorandom number generators", OOPSLA 2014, doi:10.1145/2660193.2660195.
@@ -115,36 +115,17 @@ std::vector<std::uint64_t> even_thresholds(std::span<const WeightedValue> values
 
 } // namespace
 
-LevelChooser::LevelChooser(ValueType type, std::span<const std::uint64_t> state) : type_(type) {
-    assert(state.size() >= 2);
-    many_ = state[0] != 0;
-    const auto distinct = state.subspan(2, state[1]);
-    distinct_.assign(distinct.begin(), distinct.end());
-    for (std::size_t i = 2 + state[1]; i + 1 < state.size(); i += 2)
-        samples_.push_back({state[i], state[i + 1]});
-}
-
-std::vector<std::uint64_t> LevelChooser::state() const {
-    std::vector<Sample> samples = samples_;
-    keep_lowest_hashes(samples);
-    std::vector<std::uint64_t> state{many_, distinct_.size()};
-    state.insert(state.end(), distinct_.begin(), distinct_.end());
-    for (const Sample& sample : samples)
-        state.insert(state.end(), {sample.hash, sample.ordinal});
-    return state;
-}
-
-void LevelChooser::add(std::size_t step, const Part& part, std::span<const std::byte> stored) {
+void LevelChooser::add(const Part& part, std::span<const std::byte> stored) {
     assert(stored.size() == (part.end - part.first) * size_of(type_));
     if (size_of(type_) == 1)
         return;
     visit_value_type(type_, [&]<class T>(std::type_identity<T>) {
-        add_values<T>(step, part, reinterpret_cast<const T*>(stored.data()));
+        add_values<T>(part, reinterpret_cast<const T*>(stored.data()));
     });
 }
 
 template <class T>
-void LevelChooser::add_values(std::size_t step, const Part& part, const T* values) {
+void LevelChooser::add_values(const Part& part, const T* values) {
     if (!many_) {
         DistinctSet distinct;
         bool few = true;
@@ -154,29 +135,18 @@ void LevelChooser::add_values(std::size_t step, const Part& part, const T* value
         take_distinct(distinct.take());
     }
     // Takes one value at random from each of `count` equal ranges.
-    const std::size_t count = std::min(part.all, samples_per_step_);
+    const std::size_t count = std::min(part.all, kSamples);
     for (std::size_t i = part.first * count / part.all; i < count; ++i) {
         const std::size_t first = i * part.all / count;
         const std::size_t end = (i + 1) * part.all / count;
         if (first >= part.end)
             break;
-        const std::uint64_t hash = hash_of(step * samples_per_step_ + i);
-        const std::size_t place = first + hash_of(hash) % (end - first);
+        const std::size_t place = first + hash_of(hash_of(i)) % (end - first);
         if (place < part.first || place >= part.end)
             continue;
         if (const T value = values[place - part.first]; !is_nan(value))
-            samples_.push_back({hash, ordinal(value)});
+            samples_.push_back(ordinal(value));
     }
-    if (samples_.size() > 2 * kSamples)
-        keep_lowest_hashes(samples_);
-}
-
-void LevelChooser::merge(const LevelChooser& other) {
-    assert(other.type_ == type_);
-    many_ |= other.many_;
-    take_distinct(other.distinct_);
-    samples_.insert(samples_.end(), other.samples_.begin(), other.samples_.end());
-    keep_lowest_hashes(samples_);
 }
 
 void LevelChooser::take_distinct(std::vector<std::uint64_t> ordinals) {
@@ -188,27 +158,14 @@ void LevelChooser::take_distinct(std::vector<std::uint64_t> ordinals) {
     distinct_ = many_ ? std::vector<std::uint64_t>() : std::move(both);
 }
 
-void LevelChooser::keep_lowest_hashes(std::vector<Sample>& samples) {
-    if (samples.size() <= kSamples)
-        return;
-    std::nth_element(samples.begin(), samples.begin() + kSamples, samples.end(),
-                     [](const Sample& a, const Sample& b) { return a.hash < b.hash; });
-    samples.resize(kSamples);
-}
-
 LevelMap LevelChooser::choose() const {
     if (size_of(type_) == 1)
         return LevelMap::of_type(type_);
     if (!many_)
         return LevelMap::of_values(type_, distinct_);
-    std::vector<Sample> samples = samples_;
-    keep_lowest_hashes(samples);
-    std::vector<std::uint64_t> ordinals;
-    ordinals.reserve(samples.size());
-    for (const Sample& sample : samples)
-        ordinals.push_back(sample.ordinal);
-    std::sort(ordinals.begin(), ordinals.end());
-    return LevelMap::of_thresholds(type_, even_thresholds(weighted(type_, ordinals)));
+    std::vector<std::uint64_t> sorted = samples_;
+    std::sort(sorted.begin(), sorted.end());
+    return LevelMap::of_thresholds(type_, even_thresholds(weighted(type_, sorted)));
 }
 
 } // namespace isochron::index

@@ -19,7 +19,7 @@ constexpr std::size_t kWorthThreads = 1 << 20; ///< [bytes] of a layer for which
 StepWriter::Level::Level(const Grid& level_grid, ValueType type, const ChunkContents& contents,
                          const WriterMeans& means)
     : grid(level_grid), packer(grid, type, contents.codec, means.threads, contents.wide_rows),
-      coarseners(means.threads, Coarsener(type, grid)), chooser(chooser_of_one_step(type)),
+      coarseners(means.threads, Coarsener(type, grid)), chooser(type),
       waiting(grid.vertex_count() * size_of(type), means.waiting_bytes, means.beside) {
     if (!has_step_levels(type))
         map = LevelMap::of_type(type);
@@ -83,7 +83,7 @@ void StepWriter::look(Level& level, std::uint32_t first_plane,
     const std::size_t first = first_plane * plane;
     if (contents_.since)
         add_extremes(type_, planes, level.extremes);
-    level.chooser.add(0, {first, first + planes.size() / size_of(type_), level.grid.vertex_count()},
+    level.chooser.add({first, first + planes.size() / size_of(type_), level.grid.vertex_count()},
                       planes);
 }
 
@@ -123,7 +123,7 @@ void StepWriter::pack_waiting(std::size_t level, PartWriter* parts) {
         if (const auto extremes = std::exchange(it.extremes, std::nullopt);
             extremes && !it.map->lossless())
             it.map->set_extremes(*extremes);
-        it.chooser = chooser_of_one_step(type_);
+        it.chooser = LevelChooser(type_);
     }
     LayerCutter cutter(it.grid, type_);
     it.waiting.drain([&](std::span<const std::byte> piece) {

@@ -90,8 +90,7 @@ void run_the_program() {}
 namespace isochron::index {
 namespace {
 
-void level_choice_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
-                          const LevelChooser& other) {
+void level_choice_example(ValueType type, std::span<const std::byte> stored) {
 #include "index/indexing/level_choice.example"
 }
 

@@ -283,20 +283,8 @@ void ChunkStore::add_earlier(std::uint32_t step, std::uint32_t layer, const Chun
     }
 }
 
-std::uint64_t ChunkStore::missing_bytes(std::uint32_t step, std::uint32_t layer,
-                                        std::span<const std::uint32_t> places) const {
-    const ChunkLayerPtr table = this->layer(step, layer);
-    const std::vector<std::uint32_t> missing = this->missing(step, layer, places);
-    std::uint64_t bytes = 0;
-    for (const std::uint32_t place : missing)
-        bytes += table->bytes(place);
-    for (const PlacesOfStep& earlier : elsewhere(step, *table, missing))
-        bytes += missing_bytes(earlier.step, layer, earlier.places);
-    return bytes;
-}
-
-std::uint64_t ChunkStore::missing_bytes(std::uint32_t step) const {
-    return cache_.held({{key(whole_kept, step)}})[0] ? 0 : array_.steps[step].bytes;
+bool ChunkStore::holds_whole(std::uint32_t step) const {
+    return cache_.held({{key(whole_kept, step)}})[0];
 }
 
 std::size_t ChunkStore::staying(std::uint32_t step, std::uint32_t layer) const {

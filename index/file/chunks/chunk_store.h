@@ -96,11 +96,8 @@ class ChunkStore {
     void decode(std::uint32_t step, std::uint32_t layer, std::span<const std::uint32_t> places,
                 std::span<std::byte> planes, std::span<std::uint8_t> bricks,
                 const std::stop_token& stop = {}) const;
-    /// Bytes of records of chunks that are not in the cache.
-    std::uint64_t missing_bytes(std::uint32_t step, std::uint32_t layer,
-                                std::span<const std::uint32_t> places) const;
-    /// Bytes that `whole` would read.
-    std::uint64_t missing_bytes(std::uint32_t step) const;
+    /// Whether what `whole` gives is in the cache.
+    bool holds_whole(std::uint32_t step) const;
 
     /// Bytes of the values of a chunk of so many vertices.
     std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;

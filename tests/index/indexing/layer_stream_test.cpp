@@ -292,20 +292,18 @@ TEST(LayerStream, TheMemoryOfABuildDoesNotFollowTheSizeOfAStep) {
 TEST(LayerStream, LevelsAreTheSameHoweverAStepIsCut) {
     std::mt19937 random(test_seed());
     for (const double factor : {20.0, 3e4}) {
-        const TestField field({31, 29, 23}, 2, ValueType::i16,
+        const TestField field({31, 29, 23}, 1, ValueType::i16,
                               scaled(turbulence(random), factor, 0));
         LevelChooser whole(ValueType::i16), cut(ValueType::i16);
         const std::size_t all = field.view().grid.vertex_count();
-        for (std::size_t step = 0; step < 2; ++step) {
-            const auto stored = field.view().step_bytes(step);
-            whole.add(step, stored);
-            for (std::size_t first = 0, end = 0; first < all; first = end) {
-                end = std::min(all, first + 1 + random() % 5000);
-                cut.add(step, {first, end, all}, stored.subspan(2 * first, 2 * (end - first)));
-            }
+        const auto stored = field.view().step_bytes(0);
+        whole.add(stored);
+        for (std::size_t first = 0, end = 0; first < all; first = end) {
+            end = std::min(all, first + 1 + random() % 5000);
+            cut.add({first, end, all}, stored.subspan(2 * first, 2 * (end - first)));
         }
         EXPECT_EQ(whole.choose(), cut.choose());
-        EXPECT_EQ(whole.lossless(), factor < 100);
+        EXPECT_EQ(whole.choose().lossless(), factor < 100);
     }
 }
 

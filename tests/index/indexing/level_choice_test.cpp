@@ -9,24 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace isochron::index {
 namespace {
 
 std::span<const std::byte> bytes(const std::vector<float>& values) {
     return std::as_bytes(std::span(values));
-}
-
-std::span<const std::byte> step_bytes(const StepValues& values, std::size_t step) {
-    return {values.first + step * values.stride, values.grid.vertex_count() * size_of(values.type)};
-}
-
-LevelMap choose_levels(const StepValues& values) {
-    LevelChooser chooser(values.type);
-    for (std::size_t step = 0; step < values.steps; ++step)
-        chooser.add(step, step_bytes(values, step));
-    return chooser.choose();
 }
 
 /// How many of the values have each rank.
@@ -44,14 +32,16 @@ TEST(LevelChoice, EightBitTypesHaveALevelForEveryValue) {
         EXPECT_EQ(LevelChooser(type).choose(), LevelMap::of_type(type));
 }
 
-TEST(LevelChoice, ASeriesOfFewValuesIsLosslessForEveryType) {
+TEST(LevelChoice, AStepOfFewValuesIsLosslessForEveryType) {
     std::mt19937 random(test_seed());
     for (const ValueType type :
          {ValueType::i16, ValueType::u16, ValueType::i32, ValueType::f32, ValueType::f64}) {
-        const TestField field({20, 20, 20}, 3, type, [&](double x, double y, double z, double t) {
+        const TestField field({20, 20, 20}, 1, type, [&](double x, double y, double z, double t) {
             return 100 + std::round(127 * std::sin(x + y * z + t)); // at most 255 values
         });
-        const LevelMap levels = choose_levels(field.view());
+        LevelChooser chooser(type);
+        chooser.add(field.view().step_bytes(0));
+        const LevelMap levels = chooser.choose();
         EXPECT_TRUE(levels.lossless()) << name_of(type);
         const std::vector<double> sorted = sorted_values(field.view());
         EXPECT_EQ(levels.cut({}, sorted.front()), std::nullopt);
@@ -65,41 +55,17 @@ TEST(LevelChoice, Exactly256ValuesAreFewAnd257AreMany) {
         std::vector<float> values{float(kNaN), -0.0f, 0.0f};
         for (int i = 0; i < 5000; ++i)
             values.push_back(float(i % distinct) * 0.25f);
-        LevelChooser one(ValueType::f32), first(ValueType::f32), second(ValueType::f32);
-        one.add(0, bytes(values));
+        LevelChooser one(ValueType::f32), halves(ValueType::f32);
+        one.add(bytes(values));
         EXPECT_EQ(one.choose().lossless(), distinct == 256);
         // Each half has fewer.
         std::sort(values.begin() + 1, values.end());
-        const std::vector<float> low(values.begin(), values.begin() + 2500);
-        const std::vector<float> high(values.begin() + 2500, values.end());
-        first.add(0, bytes(low));
-        second.add(1, bytes(high));
-        EXPECT_TRUE(first.choose().lossless());
-        EXPECT_TRUE(second.choose().lossless());
-        first.merge(second);
-        EXPECT_EQ(first.choose().lossless(), distinct == 256);
-    }
-}
-
-TEST(LevelChoice, DoesNotDependOnWhoHasSeenWhichStep) {
-    std::mt19937 random(test_seed());
-    // More samples than are kept.
-    const TestField field({16, 16, 16}, 80, ValueType::f32, turbulence(random));
-    const StepValues values = field.view();
-    const LevelMap expected = choose_levels(values);
-    EXPECT_GE(expected.levels(), 250u);
-    for (const std::size_t workers : {2u, 3u, 7u}) {
-        std::vector<std::size_t> steps(values.steps);
-        std::iota(steps.begin(), steps.end(), std::size_t{0});
-        std::shuffle(steps.begin(), steps.end(), random);
-        std::vector<LevelChooser> choosers(workers, LevelChooser(values.type));
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            choosers[random() % workers].add(steps[i], step_bytes(values, steps[i]));
-        std::shuffle(choosers.begin(), choosers.end(), random);
-        LevelChooser all(values.type);
-        for (const LevelChooser& chooser : choosers)
-            all.merge(LevelChooser(values.type, chooser.state())); // as between processes
-        EXPECT_EQ(all.choose(), expected) << workers;
+        const std::size_t half = 2500;
+        halves.add({0, half, values.size()}, bytes(values).first(half * sizeof(float)));
+        EXPECT_TRUE(halves.choose().lossless());
+        halves.add({half, values.size(), values.size()},
+                   bytes(values).subspan(half * sizeof(float)));
+        EXPECT_EQ(halves.choose().lossless(), distinct == 256);
     }
 }
 
@@ -110,7 +76,7 @@ TEST(LevelChoice, DividesSmoothValuesEvenly) {
     for (float& value : values)
         value = uniform(random);
     LevelChooser chooser(ValueType::f32);
-    chooser.add(0, bytes(values));
+    chooser.add(bytes(values));
     const LevelMap levels = chooser.choose();
     EXPECT_GE(levels.levels(), 240u);
     const auto counts = histogram(levels, values);
@@ -135,7 +101,7 @@ TEST(LevelChoice, ABackgroundAndOutliersTakeFewLevels) {
         }
     }
     LevelChooser chooser(ValueType::f32);
-    chooser.add(0, bytes(values));
+    chooser.add(bytes(values));
     const auto counts = histogram(chooser.choose(), inner);
     EXPECT_GE(std::count_if(counts.begin(), counts.end(), [](auto n) { return n > 0; }), 100);
     EXPECT_LT(*std::max_element(counts.begin(), counts.end()), inner.size() / 20);
@@ -148,7 +114,7 @@ TEST(LevelChoice, ALongTailIsDividedByItsRange) {
     for (float& value : values)
         value = exponential(random);
     LevelChooser chooser(ValueType::f32);
-    chooser.add(0, bytes(values));
+    chooser.add(bytes(values));
     const LevelMap levels = chooser.choose();
     const auto tail = std::count_if(
         levels.thresholds().begin(), levels.thresholds().end(),
@@ -158,7 +124,7 @@ TEST(LevelChoice, ALongTailIsDividedByItsRange) {
 
 TEST(LevelChoice, NothingButNanIsOneLevel) {
     LevelChooser chooser(ValueType::f32);
-    chooser.add(0, bytes(std::vector<float>(100, float(kNaN))));
+    chooser.add(bytes(std::vector<float>(100, float(kNaN))));
     EXPECT_EQ(chooser.choose().levels(), 1u);
     EXPECT_EQ(LevelChooser(ValueType::f64).choose().levels(), 1u);
 }

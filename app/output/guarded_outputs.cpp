@@ -6,14 +6,12 @@
 #include "index/error.h"
 #include "index/formats/format.h"
 #include "index/formats/series/file_series.h"
-#include "index/lower_case.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -69,38 +67,11 @@ class Places {
     std::map<std::string, fs::path> folders_;
 };
 
-/// The folder that is read with the file that describes it (Zarr, OpenFOAM, AMReX); empty: none.
-fs::path folder_described_by(const fs::path& file) {
-    constexpr std::array<std::string_view, 6> kDescribing{"zarr.json", ".zattrs",     ".zarray",
-                                                          ".zgroup",   "controlDict", "Header"};
-    if (index::lower_case(file.extension().string()) == ".foam")
-        return whole(file).parent_path();
-    if (std::ranges::find(kDescribing, file.filename().string()) == kDescribing.end())
-        return {};
-    fs::path folder = whole(file).parent_path();
-    if (folder.filename() == "system")
-        folder = folder.parent_path();
-    const auto is_described = [](const fs::path& each) {
-        return index::known_file(each).path != each;
-    };
-    if (!is_described(folder))
-        return {};
-    while (folder.has_relative_path() && is_described(folder.parent_path())) // a group around it
-        folder = folder.parent_path();
-    return folder;
-}
-
-/// Files of these kinds name others, in words.
-constexpr std::array<std::string_view, 27> kNamingOthers{
-    ".pvd",    ".series", ".xmf",  ".xdmf", ".pvti", ".pvtr", ".pvtu", ".pvts", ".vtm",
-    ".vth",    ".vthb",   ".nhdr", ".mhd",  ".bov",  ".h5",   ".hdf5", ".he5",  ".hdf",
-    ".vtkhdf", ".nc",     ".nc4",  ".cgns", ".exo",  ".e",    ".ex2",  ".tif",  ".tiff"};
-
 /// Whether a file that may name others names this one.
 bool is_named_in(const fs::path& naming, const std::string& name) {
     constexpr std::uint64_t kMost = std::uint64_t{64} << 20;
-    if (std::ranges::find(kNamingOthers, index::lower_case(naming.extension().string())) ==
-        kNamingOthers.end())
+    const index::Format* format = index::known_file(naming).format;
+    if (!format || !format->names_files)
         return false;
     try {
         const index::InputFile file(naming);
@@ -126,7 +97,7 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
         return "is an input";
     if (found.marked)
         return std::nullopt;
-    fs::path folder = folder_described_by(index::known_file(input).path);
+    fs::path folder = index::described_folder(index::known_file(input).path);
     // Of other folders, files of values are read.
     if (folder.empty() && fs::is_directory(input, ignored) &&
         !(found.known && !index::known_file(found.path).format))

@@ -84,6 +84,31 @@ KnownFile known_file(const fs::path& given) {
     return file;
 }
 
+fs::path described_folder(const fs::path& file) {
+    std::error_code ignored;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+    const auto is_described = [](const fs::path& folder) {
+        return known_file(folder).path != folder;
+    };
+    const std::string name = lower_case(whole.filename().string());
+    for (const Format& format : all_formats()) {
+        for (const NameEnd& end : format.ends)
+            if (end.with_folder && name.ends_with(end.end))
+                return whole.parent_path();
+        for (const fs::path within : format.describe_folder) {
+            fs::path folder = whole;
+            for (auto part = within.end(); part != within.begin() && !folder.empty();)
+                folder = folder.filename() == *--part ? folder.parent_path() : fs::path();
+            if (folder.empty() || !is_described(folder))
+                continue;
+            while (folder.has_relative_path() && is_described(folder.parent_path()))
+                folder = folder.parent_path(); // a group around it
+            return folder;
+        }
+    }
+    return {};
+}
+
 bool is_of_format(const Format& format, const KnownFile& file) {
     if (file.format == &format)
         return true;

@@ -38,6 +38,8 @@ struct NameEnd {
     std::vector<std::string_view> named = {};
     /// Decides whether a file with this end is of the format; null: the end suffices.
     bool (*only_if)(FileStart& start) = nullptr;
+    /// Whether the folder of such a file is read with it.
+    bool with_folder = false;
 };
 
 struct Format {
@@ -69,6 +71,8 @@ struct Format {
     /// Whether files of the same time in a list are parts of one volume.
     bool lists_parts = false;
 
+    /// Whether a file may name others whose values are read with it, in words that stand in it.
+    bool names_files = false;
     /// Whether its files are values alone, which only options describe.
     bool headerless = false;
     /// Files that describe a folder, by their paths within it: the folder is one volume.
@@ -82,6 +86,9 @@ const std::vector<Format>& all_formats();
 
 /// @param name that is one of them
 const Format& format_named(std::string_view name);
+
+/// The folder that is read with a file which describes it; empty: none is.
+std::filesystem::path described_folder(const std::filesystem::path& file);
 
 /// What a name stands for.
 struct KnownFile {

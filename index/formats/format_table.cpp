@@ -69,16 +69,30 @@ bool is_amrex_header(FileStart& start) {
 std::vector<Format> table() {
     return {
         // Lists of files.
-        {.name = "pvd", .ends = {{".pvd"}}, .list = read_pvd, .lists_parts = true},
-        {.name = "json series", .ends = {{".series"}}, .list = read_json_series},
+        {.name = "pvd",
+         .ends = {{".pvd"}},
+         .list = read_pvd,
+         .lists_parts = true,
+         .names_files = true},
+        {.name = "json series",
+         .ends = {{".series"}},
+         .list = read_json_series,
+         .names_files = true},
 
         // VTK's image data, XML and legacy.
         {.name = "vti", .ends = {{".vti"}}, .reader = "vtk"},
         {.name = "vtk", .ends = {{".vtk"}}, .recognize = is_legacy_vtk, .reader = "vtk"},
 
         // Formats of medicine. MetaImage and NRRD may have their data beside them.
-        {.name = "metaimage", .ends = {{".mhd"}, {".mha"}}, .open = open_metaimage},
-        {.name = "nrrd", .ends = {{".nrrd"}, {".nhdr"}}, .recognize = is_nrrd, .open = open_nrrd},
+        {.name = "metaimage",
+         .ends = {{".mhd"}, {".mha"}},
+         .open = open_metaimage,
+         .names_files = true},
+        {.name = "nrrd",
+         .ends = {{".nrrd"}, {".nhdr"}},
+         .recognize = is_nrrd,
+         .open = open_nrrd,
+         .names_files = true},
         {.name = "nifti",
          .ends = {{".nii"},
                   {".nii.gz"},
@@ -92,7 +106,8 @@ std::vector<Format> table() {
          .ends = {{".nc"}, {".nc4"}, {".cdf"}},
          .recognize = is_netcdf,
          .reader = "netcdf",
-         .reads_parts = true},
+         .reads_parts = true,
+         .names_files = true},
 
         // VTK's rectilinear grids, files of several pieces, and, with `resample`, its other grids.
         {.name = "vtk data",
@@ -107,18 +122,21 @@ std::vector<Format> table() {
                   {".vth", {".vti"}},
                   {".vthb", {".vti"}}},
          .reader = "vtk",
-         .decodes_all_arrays = true},
+         .decodes_all_arrays = true,
+         .names_files = true},
 
         {.name = "tiff",
          .ends = {{".tif"}, {".tiff"}, {".btf"}},
          .reader = "tiff",
          .join = tiff_series,
-         .joins_by_names = true},
+         .joins_by_names = true,
+         .names_files = true},
         {.name = "hdf5",
          .ends = {{".h5"}, {".hdf5"}, {".he5"}, {".hdf"}, {".vtkhdf"}},
          .recognize = is_plain_hdf5,
          .reader = "hdf5",
-         .reads_parts = true},
+         .reads_parts = true,
+         .names_files = true},
         {.name = "zarr",
          .ends = {{"zarr.json"}, {".zattrs"}, {".zarray"}, {".zgroup"}, {".zip"}, {".ozx"}},
          .reader = "zarr",
@@ -139,18 +157,20 @@ std::vector<Format> table() {
                   {".ex2"},
                   {".exii"},
                   {".e", {}, is_netcdf_or_hdf5},
-                  {".foam"},
+                  {.end = ".foam", .with_folder = true},
                   {"controldict"}},
          .recognize = is_amrex_header,
          .reader = "mesh",
          .decodes_all_arrays = true,
+         .names_files = true,
          .describe_folder = {"system/controlDict", "Header"}},
 
-        {.name = "bov", .ends = {{".bov"}}, .open = open_bov},
+        {.name = "bov", .ends = {{".bov"}}, .open = open_bov, .names_files = true},
         {.name = "xdmf",
          .ends = {{".xmf", {".h5", ".hdf5", ".hdf", ".raw"}},
                   {".xdmf", {".h5", ".hdf5", ".hdf", ".raw"}}},
-         .reader = "hdf5"},
+         .reader = "hdf5",
+         .names_files = true},
     };
 }
 

@@ -134,8 +134,9 @@ void LiveLoop::make_movies(Session& session) {
 std::optional<interaction::ExportWork> LiveLoop::export_surfaces(Session& session) {
     if (!surfaces_)
         return std::nullopt;
+    auto news = surfaces_->update(session.state(), [&] { return session.scale(); });
     session.show_messages(surfaces_->messages());
-    return surfaces_->update(session.state(), [&] { return session.scale(); });
+    return news;
 }
 
 /// Why these data cannot give way to others now; empty: they can.

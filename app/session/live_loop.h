@@ -98,7 +98,8 @@ class LiveLoop {
     /// Lets the user export surfaces. @param file that is shown @param folder of what is exported
     void offer_surfaces(std::shared_ptr<const index::IndexFile> file,
                         const std::filesystem::path& folder) {
-        surfaces_.emplace(std::move(file), folder, waker());
+        surfaces_.emplace(std::move(file), folder);
+        surfaces_->set_wake(waker());
     }
 
     /// Saves the session to a file, from which it can be resumed. @param start the session as it

@@ -5,6 +5,7 @@
 #include "app/command_line/command_line.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/exploration.h"
+#include "app/frame/asker.h"
 #include "app/frame/history.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/movie_file.h"
@@ -317,6 +318,12 @@ void outputs_example(const Config& config, stereo::Windows windows, const Audien
 void history_example(History& history, const ExplorerState& before, const ExplorerState& after,
                      interaction::Commands& commands, const interaction::InputState& input) {
 #include "app/frame/history.example"
+}
+
+void asker_example(Asker<index::Instant, std::string>::Answering words_of,
+                   Asker<index::Instant, std::string>::Failing why_not,
+                   const std::function<void()>& wake, std::vector<std::string>& messages) {
+#include "app/frame/asker.example"
 }
 
 void movie_file_example(const render::Image& image) {

@@ -15,6 +15,7 @@
 #include "app/quality/frame_quality.h"
 #include "app/quality/quality_controller.h"
 #include "app/scene/scene.h"
+#include "app/session/kept/live_recording.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
@@ -337,7 +338,7 @@ void session_file_example(const std::filesystem::path& path, const std::string& 
 }
 
 void live_loop_example(const Config& config, interaction::CompositeInput trackers, Session& session,
-                       const interaction::RecordingHeader& header) {
+                       const std::shared_ptr<LiveRecording>& recording) {
 #include "app/session/live_loop.example"
 }
 

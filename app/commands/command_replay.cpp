@@ -208,8 +208,7 @@ std::vector<std::string> show(Session& session, const Prepared& all, const Optio
     if (!job.leads()) {
         job.follow(session, done);
     } else if (options.live) {
-        const auto control =
-            opened_control(options.control, session, all.file, {.only_watches = true});
+        const auto control = opened_control(options.control, session, {.only_watches = true});
         replay_live(session, all.recording, all.replay, all.config.rendering.frame_rate_limit,
                     control.get());
     } else {

@@ -1,6 +1,7 @@
 // The thread of the control socket.
 #include "app/control/control_server.h"
 
+#include "app/text.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <new>
 #include <utility>
 
 #include <fcntl.h>
@@ -47,7 +49,8 @@ ControlServerOptions with_clock(ControlServerOptions options) {
 ControlServer::ControlServer(ControlAddress address, ControlDesk& desk,
                              ControlServerOptions options)
     : address_(std::move(address)), desk_(desk), options_(with_clock(std::move(options))),
-      listener_(listen_at(address_)), searches_([this] { wake_(); }) {
+      listener_(listen_at(address_)) {
+    searches_.set_wake([this] { wake_(); });
     fcntl(listener_.get(), F_SETFL, O_NONBLOCK);
     if (address_.is_tcp()) {
         token_ = new_control_token();
@@ -211,11 +214,25 @@ void ControlServer::answer(Connection& client, const ControlRequest& request,
     }
 }
 
+ControlServer::Found ControlServer::found_by(const Search& search, const Asking& asking) {
+    try {
+        return {search.client, searched_answer(search.id, search.request, search.file,
+                                               *search.shown, asking.stop)};
+    } catch (const std::bad_alloc&) {
+        return not_found(search, "there is no memory for the answer", false);
+    }
+}
+
+ControlServer::Found ControlServer::not_found(const Search& search, const std::string& why, bool) {
+    return {search.client, refused(search.id, one_line(why))};
+}
+
 void ControlServer::add_search(Connection& client, const ControlRequest& request,
                                const std::string& id) {
-    if (!searches_.add({client.name(), id, request, desk_.file(), desk_.shown()->state}))
-        throw interaction::Error(fmt::format("busy: {} searches wait already; try again",
-                                             ControlSearches::kMostWaiting));
+    if (!searches_.ask({client.name(), id, request, desk_.file(), desk_.shown()->state},
+                       kMostSearches))
+        throw interaction::Error(
+            fmt::format("busy: {} searches wait already; try again", kMostSearches));
     client.waits.push_back({Unanswered::For::search, 0, id});
 }
 
@@ -282,7 +299,7 @@ void ControlServer::tell_events(Connection& client,
 }
 
 void ControlServer::take_found() {
-    for (ControlSearches::Found& found : searches_.take())
+    for (Found& found : searches_.take())
         for (const auto& client : connections_)
             if (client->name() == found.client) {
                 const auto wait = std::ranges::find_if(client->waits, [](const Unanswered& one) {

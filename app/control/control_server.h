@@ -4,7 +4,7 @@
 #include "app/control/control_address.h"
 #include "app/control/control_connection.h"
 #include "app/control/control_desk.h"
-#include "app/control/control_searches.h"
+#include "app/frame/asker.h"
 #include "stereo/context/wake.h"
 
 #include <atomic>
@@ -26,6 +26,7 @@ struct ControlServerOptions {
 class ControlServer {
   public:
     static constexpr std::size_t kMostClients = 16;
+    static constexpr std::size_t kMostSearches = 8;         ///< that wait, of all clients
     static constexpr interaction::Seconds kTokenWithin{10}; ///< else the connection is closed
 
     /// @param desk has shown a first frame; outlives the server, which is woken through it
@@ -43,6 +44,20 @@ class ControlServer {
 
   private:
     using Connection = ControlConnection;
+    /// A search, for whom it is, and what it is asked of.
+    struct Search {
+        std::uint64_t client = 0;
+        std::string id; ///< of the request, as JSON
+        ControlRequest request;
+        std::shared_ptr<const index::IndexFile> file;
+        std::shared_ptr<const ExplorerState> shown;
+    };
+    struct Found {
+        std::uint64_t client = 0;
+        ControlAnswer answer;
+    };
+    static Found found_by(const Search& search, const Asking& asking);
+    static Found not_found(const Search& search, const std::string& why, bool canceled);
     void run();
     void wait_for_something();
     void accept_clients();
@@ -70,7 +85,7 @@ class ControlServer {
     interaction::Seconds next_look_{0};
     std::atomic<std::size_t> clients_{0};
     std::atomic<bool> ends_{false};
-    ControlSearches searches_;
+    Asker<Search, Found> searches_{found_by, not_found};
     std::jthread thread_; ///< last: begins when all else is there
 };
 

@@ -27,12 +27,11 @@ void check_control(const std::optional<std::string>& control) {
 
 std::unique_ptr<SessionControl> opened_control(const std::optional<std::string>& control,
                                                const Session& session,
-                                               std::shared_ptr<const index::IndexFile> file,
                                                ControlServerOptions options) {
     if (!control)
         return nullptr;
-    auto opened = std::make_unique<SessionControl>(control_address(*control), session,
-                                                   std::move(file), std::move(options));
+    auto opened =
+        std::make_unique<SessionControl>(control_address(*control), session, std::move(options));
     print_safely(fmt::format("isochron: control socket: {}\n", opened->where()), stderr);
     return opened;
 }

@@ -23,7 +23,6 @@ void check_control(const std::optional<std::string>& control);
 /// @throws UsageError, interaction::Error when nothing can listen there
 std::unique_ptr<SessionControl> opened_control(const std::optional<std::string>& control,
                                                const Session& session,
-                                               std::shared_ptr<const index::IndexFile> file,
                                                ControlServerOptions options = {});
 
 } // namespace isochron::app

@@ -12,6 +12,10 @@
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
 #include "app/session/data_choice.h"
+#include "app/session/kept/live_recording.h"
+#include "app/session/new_steps.h"
+#include "app/session/panel_movies.h"
+#include "app/session/surface_exports.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
@@ -236,7 +240,7 @@ void Exploration::open_session() {
     if (!prepare_session())
         return;
     if (job_.leads())
-        control_ = opened_control(options_.control, *session_, file_);
+        control_ = opened_control(options_.control, *session_);
     if (options_.report)
         session_->log().report_to(job_.own_file(*options_.report));
     session_->outputs().set_screenshots(options_.screenshots);
@@ -310,21 +314,26 @@ void Exploration::lead(LiveLoop& live) {
     if (job_.size() == 1)
         keep(live);
     const auto header = header_of(*session_, config_, *file_, *options_.data);
+    const auto recording = std::make_shared<LiveRecording>();
     if (options_.record) {
-        live.record(index::end_of_links(*options_.record), header);
+        recording->begin(index::end_of_links(*options_.record), header);
         session_->set_recording(true);
     }
+    live.join(CompanionPlace::recording, recording);
     if (indexing_ && file_->arrays() > 1)
         session_->show_messages(
             {fmt::format("{} arrays: Ctrl + A shows the next one", file_->arrays())});
     if (job_.size() == 1)
-        live.offer_movies(movie_orders(options_, header));
+        live.join(CompanionPlace::movies,
+                  std::make_shared<PanelMovies>(movie_orders(options_, header), recording));
     if (indexing_)
         session_->panel().offer_arrays(listed(indexing_->state().others));
-    live.offer_surfaces(file_, options_.screenshots);
-    live.watch(*options_.data, file_);
+    live.join(CompanionPlace::surfaces,
+              std::make_shared<SurfaceExports>(file_, options_.screenshots));
+    live.join(CompanionPlace::watch,
+              std::make_shared<NewSteps>(*options_.data, file_, live.waker()));
     if (control_)
-        live.steer(*control_);
+        live.join(CompanionPlace::control, control_);
     const stereo::DisplayLoss loss([&] { save(live); });
     live.run(*session_);
 }
@@ -377,13 +386,13 @@ void Exploration::say(const std::string& message) {
 }
 
 void Exploration::finish(LiveLoop& live, UserMemory& memory) {
-    live.finish(*session_);
+    const std::vector<std::string> words = live.finish(*session_);
     session_->outputs().pictures().finish();
     if (job_.size() == 1 && may_keep_window_size(options_, config_))
         remember_window_size(session_->outputs().windows()[0].framebuffer_size());
     if (session_->panel().introduced())
         memory.set_introduced();
-    print_status(live);
+    print_status(live, words);
     if (options_.report)
         session_->log().finish_report(session_->drawing(), session_->reading());
     job_.finish();

@@ -70,7 +70,7 @@ class Exploration {
     std::unique_ptr<stereo::Headset> headset_;
     std::optional<stereo::Windows> windows_;
     std::optional<Session> session_;
-    std::unique_ptr<SessionControl> control_; ///< null: nobody steers from outside
+    std::shared_ptr<SessionControl> control_; ///< null: nobody steers from outside
     bool canceled_ = false;
     std::vector<interaction::WindowEvent> early_; ///< that came before the first frame
     std::optional<SavedSession> earlier_;         ///< which is resumed

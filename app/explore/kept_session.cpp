@@ -1,6 +1,7 @@
 // Saving and resuming of the session of `explore`.
 #include "app/explore/kept_session.h"
 
+#include "app/session/kept/session_keeper.h"
 #include "app/text.h"
 #include "app/version.h"
 #include "index/file/index_states.h"
@@ -136,11 +137,14 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
     if (earlier)
         live.stand(earlier->head);
     if (path)
-        live.keep_session(*path,
-                          {std::string(kProgram), std::filesystem::absolute(data).string(),
-                           data_hash_of(file), session.state().as_commands(), live.standing(),
-                           session.left_arrays(), !earlier || earlier->only_looked},
-                          resumed);
+        live.join(
+            CompanionPlace::keeper,
+            std::make_shared<SessionKeeper>(
+                *path,
+                SavedSession{std::string(kProgram), std::filesystem::absolute(data).string(),
+                             data_hash_of(file), session.state().as_commands(), live.standing(),
+                             session.left_arrays(), !earlier || earlier->only_looked},
+                resumed));
 }
 
 } // namespace isochron::app

@@ -43,9 +43,10 @@ LiveOptions live_options(const ExploreOptions& options) {
     return live;
 }
 
-void print_status(const LiveLoop& live) {
-    for (const std::string& line : live.status())
-        print_safely(fmt::format("{}\n", one_line(line)), stderr);
+void print_status(const LiveLoop& live, const std::vector<std::string>& words) {
+    for (const auto& lines : {live.status(), words})
+        for (const std::string& line : lines)
+            print_safely(fmt::format("{}\n", one_line(line)), stderr);
 }
 
 interaction::RecordingHeader header_of(const Session& session, const Config& config,

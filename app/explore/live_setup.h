@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -19,8 +20,8 @@ std::string why_not_open(const std::filesystem::path& data);
 /// The options of the live loop: when it ends, and whether it emulates an installation.
 LiveOptions live_options(const ExploreOptions& options);
 
-/// Tells on stderr what the loop has to say at its end.
-void print_status(const LiveLoop& live);
+/// Tells on stderr what the loop has to say at its end. @param words what `LiveLoop::finish` returned
+void print_status(const LiveLoop& live, const std::vector<std::string>& words = {});
 
 /// The header of a recording that begins now. @param path of the data
 interaction::RecordingHeader header_of(const Session& session, const Config& config,

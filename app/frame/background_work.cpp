@@ -21,6 +21,12 @@ void BackgroundWork::set_wake(std::function<void()> wake) {
     wake_ = std::move(wake);
 }
 
+void BackgroundWork::wake() {
+    const std::scoped_lock lock(mutex_);
+    if (wake_)
+        wake_();
+}
+
 void BackgroundWork::post(Task task) {
     const std::scoped_lock lock(mutex_);
     tasks_.push_back(std::move(task));

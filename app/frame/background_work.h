@@ -22,6 +22,9 @@ class BackgroundWork {
     /// Sets the function that is called, on the worker's thread, when there is a message.
     void set_wake(std::function<void()> wake);
 
+    /// Calls that function, for a task that has something to show before it ends.
+    void wake();
+
     /// Adds a task and returns at once. Tasks run one after another, in order.
     void post(Task task);
 

@@ -9,24 +9,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <stop_token>
 #include <system_error>
 #include <utility>
 
 namespace isochron::app {
-namespace {
-
-namespace fs = std::filesystem;
-using interaction::ExportWork;
 
 /// What an export does, and where.
 struct ExportTask {
     std::shared_ptr<const index::IndexFile> array; ///< of the surfaces
     index::ExportRequest request;
     const index::SurfaceFormat* format;
-    fs::path folder;
+    std::filesystem::path folder;
 };
+
+namespace {
+
+namespace fs = std::filesystem;
+using interaction::ExportWork;
 
 bool exists_any(const std::vector<fs::path>& files) {
     return std::ranges::any_of(files, [](const fs::path& file) {
@@ -48,12 +47,19 @@ std::vector<fs::path> free_names(const ExportTask& task, fs::path& name) {
 }
 
 /// @return what the user is told
-std::string write_surfaces(const ExportTask& task, const index::Progress& progress) {
+std::string write_surfaces(const ExportTask& task, const Asking& asking) {
     index::make_folder(task.folder);
     fs::path name;
     const std::vector<fs::path> files = free_names(task, name);
+    index::ExportRequest request = task.request;
+    request.stop = asking.stop;
+    const auto progress = [&](std::string_view, double fraction) {
+        if (asking.stop.stop_requested())
+            throw index::Error("the export was canceled");
+        asking.progress(static_cast<std::uint32_t>(100 * fraction));
+    };
     const index::ExportCount count =
-        index::export_surfaces(task.array, *task.format, name, task.request, progress);
+        index::export_surfaces(task.array, *task.format, name, request, progress);
     const std::string all =
         files.size() == 1 ? files.front().string()
                           : fmt::format("{} and {} more", files.front().string(), files.size() - 1);
@@ -64,82 +70,55 @@ std::string write_surfaces(const ExportTask& task, const index::Progress& progre
                        task.format->of_cells ? "cells" : "triangles");
 }
 
+std::string not_written(const ExportTask&, const std::string& why, bool canceled) {
+    return canceled ? "canceled: the export; steps that were written stay" : why;
+}
+
 } // namespace
 
-/// Shared with the thread that writes.
-struct SurfaceMaker::Export {
-    std::stop_source stop;
-    std::atomic<std::uint32_t> percent = 0;
-    std::atomic<bool> done = false;
-    std::uint32_t told = 0; ///< of the thread that asks
-};
-
-SurfaceMaker::SurfaceMaker(std::shared_ptr<const index::IndexFile> file, fs::path folder,
-                           std::function<void()> wake)
-    : file_(std::move(file)), folder_(std::move(folder)), wake_(std::move(wake)) {
-    work_.set_wake(wake_);
-}
-
-SurfaceMaker::~SurfaceMaker() {
-    if (now_)
-        now_->stop.request_stop();
-}
+SurfaceMaker::SurfaceMaker(std::shared_ptr<const index::IndexFile> file, fs::path folder)
+    : file_(std::move(file)), folder_(std::move(folder)), exports_(write_surfaces, not_written) {}
 
 std::vector<std::string> SurfaceMaker::finish() {
-    if (now_)
-        now_->stop.request_stop();
-    try {
-        work_.finish();
-    } catch (const index::Error&) { // it is among the messages
-    }
+    exports_.cancel();
+    exports_.finish();
+    take_ended();
     return messages();
 }
 
 void SurfaceMaker::begin(const ExplorerState& state, std::optional<ColorScale> scale) {
-    ExportTask task{.array = array_of(file_, file_->array_called(state.array).value_or(0)),
-                    .request = shown_request(state, file_, std::move(scale)),
-                    .format = index::surface_format(state.pictures.surfaces.format),
-                    .folder =
-                        state.pictures.folder.empty() ? folder_ : fs::path(state.pictures.folder)};
-    now_ = std::make_shared<Export>();
-    task.request.stop = now_->stop.get_token();
-    work_.post([task = std::move(task), now = now_, wake = wake_] {
-        const auto progress = [&](std::string_view, double fraction) {
-            if (now->stop.stop_requested())
-                throw index::Error("the export was canceled");
-            const auto percent = static_cast<std::uint32_t>(100 * fraction);
-            if (now->percent.exchange(percent) != percent && wake)
-                wake();
-        };
-        std::string said;
-        try {
-            said = write_surfaces(task, progress);
-        } catch (const std::exception& error) {
-            said = now->stop.stop_requested() ? "canceled: the export; steps that were written stay"
-                                              : error.what();
-        }
-        now->done = true;
-        return said;
-    });
+    goes_on_ = true;
+    told_ = 0;
+    const std::string& chosen = state.pictures.folder;
+    exports_.ask({.array = array_of(file_, file_->array_called(state.array).value_or(0)),
+                  .request = shown_request(state, file_, std::move(scale)),
+                  .format = index::surface_format(state.pictures.surfaces.format),
+                  .folder = chosen.empty() ? folder_ : fs::path(chosen)});
+}
+
+void SurfaceMaker::take_ended() {
+    for (std::string& said : exports_.take()) {
+        messages_.push_back(std::move(said));
+        goes_on_ = false;
+    }
 }
 
 std::optional<ExportWork>
 SurfaceMaker::update(const ExplorerState& state,
                      const std::function<std::optional<ColorScale>()>& scale) {
     const bool wanted = state.exporting.goes_on;
-    if (!now_) {
+    if (!goes_on_) {
         if (wanted)
             begin(state, scale ? scale() : std::nullopt);
         return std::nullopt;
     }
     if (!wanted)
-        now_->stop.request_stop();
-    if (now_->done) {
-        now_.reset();
+        exports_.cancel();
+    const std::uint32_t percent = exports_.percent();
+    take_ended();
+    if (!goes_on_)
         return wanted ? std::optional(ExportWork{}) : std::nullopt;
-    }
-    const std::uint32_t percent = now_->percent;
-    if (!wanted || std::exchange(now_->told, percent) == percent)
+    if (!wanted || std::exchange(told_, percent) == percent)
         return std::nullopt;
     return ExportWork{true, percent};
 }

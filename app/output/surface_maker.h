@@ -1,34 +1,35 @@
 // Surfaces that a session exports as files: in the background, so that no frame waits.
 #pragma once
 
-#include "app/frame/background_work.h"
+#include "app/frame/asker.h"
 #include "app/frame/explorer_state.h"
 #include "app/scene/color_scale.h"
 #include "index/file/index_file.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
 
+struct ExportTask;
+
 /// Makes one export at a time, under names that no file has: `isochron_surface_0001.ply`, and of
 /// several steps `isochron_surface_0001_0007.ply` and so on. An export that is canceled or fails
-/// leaves the whole files that it has written, and no part of one.
+/// leaves the whole files that it has written, and no part of one. The maker's end cancels an export.
 class SurfaceMaker {
   public:
     /// @param file all its arrays
     /// @param folder of the files, unless the user chooses another one
-    /// @param wake called on another thread when there is something new; may be null
-    SurfaceMaker(std::shared_ptr<const index::IndexFile> file, std::filesystem::path folder,
-                 std::function<void()> wake);
-    ~SurfaceMaker(); ///< cancels an unfinished export
-    SurfaceMaker(const SurfaceMaker&) = delete;
-    SurfaceMaker& operator=(const SurfaceMaker&) = delete;
+    SurfaceMaker(std::shared_ptr<const index::IndexFile> file, std::filesystem::path folder);
 
+    /// Sets the function that is called, on another thread, when there is something new.
+    void set_wake(std::function<void()> wake) { exports_.set_wake(std::move(wake)); }
     /// Continues with the same data that have more steps.
     void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
 
@@ -39,19 +40,20 @@ class SurfaceMaker {
     update(const ExplorerState& state,
            const std::function<std::optional<ColorScale>()>& scale = {});
     /// One line for each export that has ended since the last call: its files, or the error.
-    std::vector<std::string> messages() { return work_.messages(); }
+    std::vector<std::string> messages() { return std::exchange(messages_, {}); }
     /// Cancels an unfinished export, and waits for its end. @return as `messages`
     std::vector<std::string> finish();
 
   private:
-    struct Export;
     void begin(const ExplorerState& state, std::optional<ColorScale> scale);
+    void take_ended();
 
     std::shared_ptr<const index::IndexFile> file_;
     const std::filesystem::path folder_;
-    const std::function<void()> wake_;
-    std::shared_ptr<Export> now_; ///< null: none goes on
-    BackgroundWork work_;
+    bool goes_on_ = false;   ///< an export
+    std::uint32_t told_ = 0; ///< how far it is [%]
+    std::vector<std::string> messages_;
+    Asker<ExportTask, std::string> exports_;
 };
 
 } // namespace isochron::app

@@ -1,6 +1,7 @@
-// Finds out in the background whether data that the user has chosen can be opened.
+// Takes other data that the user has chosen, and finds out in the background whether they can be opened.
 #pragma once
 
+#include "app/session/session.h"
 #include "interaction/input/window_event.h"
 
 #include <filesystem>
@@ -13,6 +14,12 @@
 
 namespace isochron::app {
 
+/// What the user wants to see next.
+struct NextData {
+    std::filesystem::path data;
+    std::string array = {}; ///< of the same files, instead of `data`; empty: other data
+};
+
 class DataOpening {
   public:
     /// Returns in one line why data cannot be opened; empty: they can. Called on a thread of its own.
@@ -21,20 +28,18 @@ class DataOpening {
     /// @param why_not null: other data are not opened
     explicit DataOpening(WhyNot why_not) : why_not_(std::move(why_not)) {}
 
-    /// Begins with these data, or with them next: what was chosen last counts.
-    /// @return what the user is told; empty: nothing
-    std::string open(const std::filesystem::path& data);
-    /// Once a frame; never waits. @return what the user is told; empty: nothing
-    std::string update();
+    /// Takes other data that the user has chosen, or dropped onto a window: what was chosen last
+    /// counts. Once a frame; never waits.
+    /// @param why_stay why the data cannot give way to others now; empty: they can
+    void update(Session& session, const std::string& why_stay);
     /// Gives up what goes on if Escape is pressed, which does nothing else then.
-    /// @return what the user is told; empty: nothing
-    std::string cancel_on_escape(std::vector<interaction::WindowEvent>& events);
+    void cancel_on_escape(Session& session, std::vector<interaction::WindowEvent>& events);
 
     bool busy() const { return opening_.has_value(); }
     /// What goes on, for the user; empty: nothing.
     std::string note() const;
-    /// The data that can be opened; returned once.
-    std::optional<std::filesystem::path> take_ready() { return std::exchange(ready_, {}); }
+    /// Other data, which can be opened; empty: none.
+    const std::optional<NextData>& next_data() const { return next_data_; }
 
   private:
     struct Opening {
@@ -42,10 +47,13 @@ class DataOpening {
         std::future<std::string> why_not;
     };
 
+    std::string begin(const std::filesystem::path& data);
+    std::string look();
+
     const WhyNot why_not_;
     std::optional<Opening> opening_;
     std::optional<std::filesystem::path> next_; ///< chosen while others are being opened
-    std::optional<std::filesystem::path> ready_;
+    std::optional<NextData> next_data_;
     std::vector<std::future<std::string>> given_up_; ///< whose answer nobody wants any more
 };
 

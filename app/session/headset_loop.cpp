@@ -28,14 +28,13 @@ void HeadsetLoop::tell_changes() {
     told_ = std::move(now);
 }
 
-bool HeadsetLoop::begin_frame(interaction::Seconds now) {
+void HeadsetLoop::begin_frame(interaction::Seconds now) {
     if (!headset_)
-        return false;
+        return;
     state_ = headset_->update(now);
     tell_changes();
     const auto frame = headset_->begin_frame(now);
     period_ = frame ? std::optional(frame->period) : std::nullopt;
-    return frame.has_value();
 }
 
 interaction::InputState HeadsetLoop::with_devices(interaction::InputState others,

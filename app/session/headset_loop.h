@@ -18,8 +18,7 @@ class HeadsetLoop {
 
     /// Handles the runtime's events and begins a frame; this may block. Prints a line on stderr for
     /// each change of the headset's state.
-    /// @return whether the headset paces the program
-    bool begin_frame(interaction::Seconds now);
+    void begin_frame(interaction::Seconds now);
     /// Time between two pictures while the headset paces the program; else empty.
     std::optional<interaction::Seconds> period() const { return period_; }
     /// Puts the headset's devices before all others, and sends haptic pulses for them.

@@ -52,12 +52,10 @@ std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
 
 } // namespace
 
-Picker::Picker(std::shared_ptr<const index::IndexFile> file) : file_(std::move(file)) {}
-
-void Picker::set_wake(const std::function<void()>& wake) {
-    wake_ = wake;
-    reading_.set_wake(wake);
-}
+Picker::Picker(std::shared_ptr<const index::IndexFile> file)
+    : file_(std::move(file)), reading_(read, [](const Place&, const std::string& why, bool) {
+          return Read{std::nullopt, why};
+      }) {}
 
 std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& state,
                                       const index::ExtractionPtr& shown) const {
@@ -95,23 +93,11 @@ std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const E
     return wand ? std::optional(in_data(state, glm::dvec4(wand->position, 1.0))) : std::nullopt;
 }
 
-void Picker::read_at(const glm::dvec3& at, const ExplorerState& state) {
-    reading_.post([file = file_, slot = read_, wake = wake_, at, step = state.instant()] {
-        const auto value = index::value_in(*file, step, at);
-        {
-            const std::lock_guard lock(slot->mutex);
-            slot->mark = value ? Mark{MarkedPoint{at, step.step, *value, step.fraction}} : Mark{};
-        }
-        wake();
-        return std::string(value ? "" : "no data there");
-    });
-}
-
-std::vector<std::string> Picker::messages() {
-    std::vector<std::string> all = reading_.messages();
-    all.insert(all.end(), notes_.begin(), notes_.end());
-    notes_.clear();
-    return all;
+Picker::Read Picker::read(const Place& place, const Asking&) {
+    const auto value = index::value_in(*place.file, place.step, place.at);
+    if (!value)
+        return {Mark{}, "no data there"};
+    return {Mark{MarkedPoint{place.at, place.step.step, *value, place.step.fraction}}, ""};
 }
 
 void Picker::update(const InputState& input, const ExplorerState& state,
@@ -120,14 +106,16 @@ void Picker::update(const InputState& input, const ExplorerState& state,
     before_ = now.levels();
     if (now.pressed(Action::probe) || now.pressed(WandButton::probe)) {
         if (const auto place = place_to_read(input, state, shown))
-            read_at(*place, state);
+            reading_.ask({file_, *place, state.instant()});
         else
-            notes_.emplace_back("no data there");
+            messages_.emplace_back("no data there");
     }
     Commands read;
-    {
-        const std::lock_guard lock(read_->mutex); // the reader holds it only for one assignment
-        read.mark = std::exchange(read_->mark, std::nullopt);
+    for (Read& each : reading_.take()) {
+        if (each.mark)
+            read.mark = each.mark;
+        if (!each.message.empty())
+            messages_.push_back(std::move(each.message));
     }
     if (read.mark && read.mark->point)
         read.haptics.push_back(kFound);

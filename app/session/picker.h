@@ -1,7 +1,7 @@
 // Picking: the shown surface that a ray meets, and the data at a place.
 #pragma once
 
-#include "app/frame/background_work.h"
+#include "app/frame/asker.h"
 #include "app/frame/explorer_state.h"
 #include "index/extraction/extraction.h"
 #include "index/file/index_file.h"
@@ -11,9 +11,10 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace isochron::app {
 
@@ -26,7 +27,7 @@ class Picker {
     explicit Picker(std::shared_ptr<const index::IndexFile> file);
 
     /// Sets the function that is called, on the reading thread, when data have been read.
-    void set_wake(const std::function<void()>& wake);
+    void set_wake(std::function<void()> wake) { reading_.set_wake(std::move(wake)); }
 
     /// Continues with the same data that have more steps.
     void set_file(std::shared_ptr<const index::IndexFile> file) { file_ = std::move(file); }
@@ -51,27 +52,30 @@ class Picker {
                                                 const index::ExtractionPtr& shown) const;
 
     /// Messages since the last call: places without data, and errors of reading.
-    std::vector<std::string> messages();
+    std::vector<std::string> messages() { return std::exchange(messages_, {}); }
 
   private:
-    /// Passes results from the reading thread to the drawing thread.
-    struct Slot {
-        std::mutex mutex;
-        std::optional<interaction::Mark> mark;
+    /// A place whose data are read, and what was read.
+    struct Place {
+        std::shared_ptr<const index::IndexFile> file;
+        glm::dvec3 at;
+        index::Instant step;
     };
+    struct Read {
+        std::optional<interaction::Mark> mark; ///< empty: reading has failed
+        std::string message;                   ///< empty: none
+    };
+    static Read read(const Place& place, const Asking& asking);
 
     std::optional<glm::dvec3> place_to_read(const interaction::InputState& input,
                                             const ExplorerState& state,
                                             const index::ExtractionPtr& shown) const;
-    void read_at(const glm::dvec3& at, const ExplorerState& state);
 
     std::shared_ptr<const index::IndexFile> file_;
-    std::shared_ptr<Slot> read_ = std::make_shared<Slot>();
     interaction::ButtonLevels before_;
     interaction::Commands found_;
-    std::vector<std::string> notes_;
-    std::function<void()> wake_ = [] {};
-    BackgroundWork reading_;
+    std::vector<std::string> messages_;
+    Asker<Place, Read> reading_;
 };
 
 } // namespace isochron::app

@@ -71,6 +71,8 @@ class Session {
     void expect_array(const std::string& name) const { arrays_.expect(name); }
     const ExplorerState& home() const { return home_; }
     void set_home(const ExplorerState& home) { state_ = home_ = home; } ///< before the first frame
+    /// The data with all their arrays.
+    const std::shared_ptr<const index::IndexFile>& file() const { return arrays_.file(); }
     /// Continues with the same data that have more steps. The command `steps` makes them visible.
     void grow(std::shared_ptr<const index::IndexFile> file);
     const History& history() const { return history_; }

@@ -8,20 +8,14 @@ namespace isochron::app {
 using interaction::Commands;
 
 SessionControl::SessionControl(ControlAddress address, const Session& session,
-                               std::shared_ptr<const index::IndexFile> file,
                                ControlServerOptions options)
-    : file_(std::move(file)), state_(std::make_shared<const ExplorerState>(session.state())) {
-    desk_.set_file(file_);
+    : state_(std::make_shared<const ExplorerState>(session.state())) {
+    desk_.set_file(session.file());
     desk_.show({.number = 0, .obeyed = 0, .state = state_, .report = {}});
     server_.emplace(std::move(address), desk_, std::move(options));
 }
 
 SessionControl::~SessionControl() = default;
-
-void SessionControl::set_file(std::shared_ptr<const index::IndexFile> file) {
-    file_ = std::move(file);
-    desk_.set_file(file_);
-}
 
 Commands SessionControl::take(const Session& session) {
     const auto batch = desk_.take();
@@ -35,7 +29,7 @@ Commands SessionControl::take(const Session& session) {
         return way ? *way : Commands{};
     }
     if (commands.array) { // another array is shown as it was left, but for what is asked for
-        const auto number = file_->array_called(*commands.array);
+        const auto number = session.file()->array_called(*commands.array);
         Commands way = session.way_to_array(number.value_or(0));
         interaction::merge(way, commands);
         return way;
@@ -47,6 +41,7 @@ void SessionControl::tell(Session& session, const FrameReport& frame) {
     if (!(*state_ == session.state()))
         state_ = std::make_shared<const ExplorerState>(session.state());
     give_pictures(session, frame);
+    desk_.set_file(session.file()); // before clients are told of its new steps
     desk_.show({.number = ++frames_, .obeyed = obeyed_, .state = state_, .report = frame});
 }
 

@@ -4,7 +4,7 @@
 
 #include "app/control/control_server.h"
 #include "app/quality/capture_wait.h"
-#include "app/session/session.h"
+#include "app/session/companion.h"
 
 #include <functional>
 #include <memory>
@@ -13,37 +13,40 @@
 
 namespace isochron::app {
 
-class SessionControl {
+class SessionControl final : public Companion {
   public:
     static constexpr interaction::Seconds kBetweenPictures{0.1}; ///< at least
 
-    /// @param file of the session
     /// @throws interaction::Error when nothing can listen at the address
-    SessionControl(ControlAddress address, const Session& session,
-                   std::shared_ptr<const index::IndexFile> file, ControlServerOptions options);
-    ~SessionControl();
+    SessionControl(ControlAddress address, const Session& session, ControlServerOptions options);
+    ~SessionControl() override;
 
     /// Where it listens, for people.
     std::string where() const { return server_->where(); }
     const ControlServer& server() const { return *server_; }
-    /// Sets what is called, on any thread, when there is something for the next frame.
-    void set_wake(std::function<void()> wake) { desk_.set_loop_wake(std::move(wake)); }
-    /// The data have more steps now.
-    void set_file(std::shared_ptr<const index::IndexFile> file);
+    void set_wake(std::function<void()> wake) override { desk_.set_loop_wake(std::move(wake)); }
+    void before_frame(Session& session, const interaction::Commands&,
+                      interaction::Commands& asked) override {
+        interaction::merge(asked, take(session));
+    }
+    void after_frame(Session& session, const LiveFrame& frame) override {
+        tell(session, frame.drawn);
+    }
+    /// The next frame is due at once where a client waits for it.
+    FrameOutlook outlook(interaction::Seconds) const override {
+        return {.busy = waits_ || desk_.has_commands(), .final = true};
+    }
 
     /// The commands for the next frame, as a recording holds them. Call it once a frame.
     interaction::Commands take(const Session& session);
     /// Shows the clients a frame, and draws the picture that they wait for.
     void tell(Session& session, const FrameReport& frame);
-    /// Whether a client waits for frames.
-    bool is_waited_for() const { return waits_ || desk_.has_commands(); }
 
   private:
     void give_pictures(Session& session, const FrameReport& frame);
     void give_picture(Session& session);
 
     ControlDesk desk_;
-    std::shared_ptr<const index::IndexFile> file_;
     std::shared_ptr<const ExplorerState> state_; ///< as it was shown last
     std::uint64_t frames_ = 0, obeyed_ = 0;
     PictureWishes given_;

@@ -5,6 +5,7 @@
 #include "app/command_line/command_line.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/exploration.h"
+#include "app/frame/asker.h"
 #include "app/frame/history.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/movie_file.h"
@@ -14,6 +15,7 @@
 #include "app/quality/frame_quality.h"
 #include "app/quality/quality_controller.h"
 #include "app/scene/scene.h"
+#include "app/session/kept/live_recording.h"
 #include "app/session/kept/session_file.h"
 #include "app/session/live_loop.h"
 #include "app/session/session.h"
@@ -318,6 +320,12 @@ void history_example(History& history, const ExplorerState& before, const Explor
 #include "app/frame/history.example"
 }
 
+void asker_example(Asker<index::Instant, std::string>::Answering words_of,
+                   Asker<index::Instant, std::string>::Failing why_not,
+                   const std::function<void()>& wake, std::vector<std::string>& messages) {
+#include "app/frame/asker.example"
+}
+
 void movie_file_example(const render::Image& image) {
 #include "app/output/movie_file.example"
 }
@@ -329,7 +337,7 @@ void session_file_example(const std::filesystem::path& path, const std::string& 
 }
 
 void live_loop_example(const Config& config, interaction::CompositeInput trackers, Session& session,
-                       const interaction::RecordingHeader& header) {
+                       const std::shared_ptr<LiveRecording>& recording) {
 #include "app/session/live_loop.example"
 }
 

@@ -19,8 +19,13 @@ void LiveRecording::end() {
     recorder_.reset();
 }
 
-void LiveRecording::append(interaction::RecordedFrame frame) {
+void LiveRecording::after_frame(Session& session, const LiveFrame& made) {
+    session.set_recording(records());
+    if (!records())
+        return;
     rests_ = false;
+    interaction::RecordedFrame frame{made.input, made.commands, made.from_panel,
+                                     name_of(made.drawn.footprint), session.latched()};
     work_.post([recorder = recorder_, lost = lost_, frame = std::move(frame)] {
         try {
             recorder->append(frame);
@@ -50,10 +55,11 @@ LiveRecording::Copy LiveRecording::copy() const {
     return [recorder = recorder_](const std::filesystem::path& path) { recorder->copy_to(path); };
 }
 
-void LiveRecording::finish() {
+std::vector<std::string> LiveRecording::finish(const Session&) {
     work_.finish();
     if (recorder_)
         recorder_->finish();
+    return {};
 }
 
 } // namespace isochron::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/frame/background_work.h"
+#include "app/session/companion.h"
 #include "interaction/recording/recording.h"
 
 #include <atomic>
@@ -14,7 +15,7 @@
 namespace isochron::app {
 
 /// Writes frames in the background, so that a slow disk delays no picture.
-class LiveRecording {
+class LiveRecording final : public Companion {
   public:
     /// Records all further frames to a file. @throws interaction::Error when it cannot be created
     void begin(const std::filesystem::path& path, const interaction::RecordingHeader& header);
@@ -25,10 +26,11 @@ class LiveRecording {
     /// Whether frames are recorded: no longer once one could not be written.
     bool records() const { return recorder_ && !lost_->load(); }
 
-    void append(interaction::RecordedFrame frame);
-    /// Nothing more may come for a long time: the frames that were appended reach the operating
-    /// system now, so that a crash does not lose the last of them.
-    void rest();
+    /// Appends the frame to the file that is open.
+    void after_frame(Session& session, const LiveFrame& frame) override;
+    /// The frames that were appended reach the operating system now, so that a crash does not lose
+    /// the last of them.
+    void rest() override;
 
     /// Writes all of it so far to a file, as a complete recording. For movies, which call it on the
     /// thread of `work`. @throws interaction::Error when that cannot be written
@@ -36,13 +38,10 @@ class LiveRecording {
     Copy copy() const;
     BackgroundWork& work() { return work_; }
 
-    /// Sets the function that is called, on another thread, when there is a message.
-    void set_wake(std::function<void()> wake) { work_.set_wake(std::move(wake)); }
-    /// What became of the recording since the last call, for the user.
-    std::vector<std::string> messages() { return work_.messages(); }
-    /// Completes the file, if one is open. @throws interaction::Error, index::Error when it cannot
-    /// be written
-    void finish();
+    void set_wake(std::function<void()> wake) override { work_.set_wake(std::move(wake)); }
+    std::vector<std::string> messages() override { return work_.messages(); }
+    /// Completes the file, if one is open.
+    std::vector<std::string> finish(const Session& session) override;
 
   private:
     BackgroundWork work_;

@@ -35,7 +35,20 @@ void save(const fs::path& path, const SavedSession& session, bool& moves_earlier
 
 SessionKeeper::SessionKeeper(fs::path path, SavedSession kept, bool resumed)
     : path_(std::move(path)), start_(std::move(kept)), kept_(start_),
-      moves_earlier_(std::make_shared<bool>(!resumed)) {}
+      moves_earlier_(std::make_shared<bool>(!resumed)), head_(start_.head) {}
+
+void SessionKeeper::after_frame(Session& session, const LiveFrame& frame) {
+    head_ = frame.head;
+    if (frame.commands.save)
+        save_now(session.state(), head_, session.left_arrays());
+    else if (is_due(frame.input.time))
+        update(session.state(), head_, frame.input.time, session.left_arrays());
+}
+
+std::vector<std::string> SessionKeeper::finish(const Session& session) {
+    finish(session.state(), head_, session.left_arrays());
+    return {};
+}
 
 bool SessionKeeper::keep(const ExplorerState& state, const interaction::StandingPlace& head,
                          const Arrays& arrays) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/frame/background_work.h"
+#include "app/session/companion.h"
 #include "app/session/kept/session_file.h"
 #include "interaction/pose.h"
 
@@ -16,7 +17,7 @@ namespace isochron::app {
 
 /// Writes in the background every 30 s, and at the end, if something has changed. An earlier
 /// session under the same name that was not resumed gets a name with its date first.
-class SessionKeeper {
+class SessionKeeper final : public Companion {
   public:
     static constexpr interaction::Seconds kInterval{30.0};
 
@@ -29,10 +30,15 @@ class SessionKeeper {
 
     /// Whether `update` would look at the session now.
     bool is_due(interaction::Seconds now) const { return now >= next_; }
-    interaction::Seconds due() const { return next_; } ///< when it will be
-    /// Sets the function that is called, on another thread, when there is a message.
-    void set_wake(std::function<void()> wake) { writing_.set_wake(std::move(wake)); }
-    /// Saves the session if a save is due and it has changed. Called once a frame.
+    void set_wake(std::function<void()> wake) override { writing_.set_wake(std::move(wake)); }
+    /// Saves the session if the user asks for that, or if a save is due and it has changed.
+    void after_frame(Session& session, const LiveFrame& frame) override;
+    FrameOutlook outlook(interaction::Seconds) const override {
+        return {.final = true, .until = next_};
+    }
+    std::vector<std::string> finish(const Session& session) override;
+
+    /// Saves the session if a save is due and it has changed.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
                 interaction::Seconds now, const Arrays& arrays = {});
     /// Saves the session now, and says where.
@@ -43,8 +49,7 @@ class SessionKeeper {
                 const Arrays& arrays = {});
 
     const std::filesystem::path& path() const { return path_; }
-    /// Errors of saving since the last call, for the user.
-    std::vector<std::string> messages() { return writing_.messages(); }
+    std::vector<std::string> messages() override { return writing_.messages(); }
 
   private:
     /// @return whether it differs from what was kept last
@@ -57,6 +62,7 @@ class SessionKeeper {
     /// An earlier session is to be renamed before the first save. Used where sessions are written.
     std::shared_ptr<bool> moves_earlier_;
     interaction::Seconds next_ = kInterval;
+    interaction::StandingPlace head_; ///< in the last frame
     BackgroundWork writing_;
 };
 

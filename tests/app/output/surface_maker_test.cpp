@@ -51,6 +51,8 @@ class SurfaceMakerTest : public testing::Test {
     }
     std::vector<std::string> files() const {
         std::vector<std::string> names;
+        if (!fs::exists(folder_.path() / "out"))
+            return names;
         for (const auto& entry : fs::directory_iterator(folder_.path() / "out"))
             names.push_back(entry.path().filename().string());
         std::ranges::sort(names);
@@ -59,7 +61,7 @@ class SurfaceMakerTest : public testing::Test {
 
     TestFolder folder_;
     std::shared_ptr<const index::IndexFile> file_ = build_sphere(folder_.path());
-    SurfaceMaker maker_{file_, folder_.path() / "out", {}};
+    SurfaceMaker maker_{file_, folder_.path() / "out"};
     ExplorerState state_;
     std::vector<ExportWork> told_;
 };

@@ -5,7 +5,11 @@
 
 #include "app/command_line/cancel.h"
 #include "app/control/control_client.h"
+#include "app/session/kept/live_recording.h"
+#include "app/session/kept/session_keeper.h"
 #include "app/session/live_loop.h"
+#include "app/session/new_steps.h"
+#include "app/session/session_control.h"
 #include "index/indexing/appended_series.h"
 #include "index/system/growing_file.h"
 #include "index/system/team.h"
@@ -111,6 +115,10 @@ class IdleLoop : public testing::Test {
         live.run(*session_);
         live.finish(*session_);
     }
+    void record(LiveLoop& live, const std::shared_ptr<LiveRecording>& recording) {
+        recording->begin(folder_.path() / "walk.jsonl", {});
+        live.join(CompanionPlace::recording, recording);
+    }
     void press(Key key) {
         window_.events.push_back(KeyEvent{key, true});
         window_.events.push_back(KeyEvent{key, false});
@@ -146,16 +154,15 @@ TEST_F(IdleLoop, WaitsForGoodOnceThePictureIsFinalAndPresentsNothingUntilSomethi
 }
 
 TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
-    const LiveLoop* loop = nullptr;
+    const auto recording = std::make_shared<LiveRecording>();
     prepare_ = [&](LiveLoop& live) {
-        loop = &live;
-        live.record(folder_.path() / "walk.jsonl", {});
-        EXPECT_TRUE(live.records());
+        record(live, recording);
+        EXPECT_TRUE(recording->records());
         // As if the disk were full from here on.
-        const int recording = open_as(folder_.path() / "walk.jsonl.part");
+        const int written = open_as(folder_.path() / "walk.jsonl.part");
         const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
-        ASSERT_TRUE(recording >= 0 && full >= 0);
-        EXPECT_EQ(::dup3(full, recording, O_CLOEXEC), recording);
+        ASSERT_TRUE(written >= 0 && full >= 0);
+        EXPECT_EQ(::dup3(full, written, O_CLOEXEC), written);
         ::close(full);
     };
     start_ = [](ExplorerState state) {
@@ -165,7 +172,7 @@ TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
     constexpr int kMany = 100'000;
     bool stopped = false;
     each_frame_ = [&] {
-        stopped = !loop->records();
+        stopped = !recording->records();
         return stopped || frames_ > kMany;
     };
     EXPECT_ANY_THROW(run({})) << "the end says it, too";
@@ -173,7 +180,7 @@ TEST_F(IdleLoop, RecordsNoMoreOnceAFrameCouldNotBeWritten) {
 }
 
 TEST_F(IdleLoop, AStillWindowHasGivenAllOfItsRecordingToTheSystem) {
-    prepare_ = [&](LiveLoop& live) { live.record(folder_.path() / "walk.jsonl", {}); };
+    prepare_ = [&](LiveLoop& live) { record(live, std::make_shared<LiveRecording>()); };
     const auto lines = [&] {
         const std::string text = folder_.read("walk.jsonl.part");
         return std::ranges::count(text, '\n') - 1; // of the header
@@ -219,7 +226,9 @@ TEST_F(IdleLoop, CellsThatAreAskedForAreShownBeforeItWaitsAgain) {
 }
 
 TEST_F(IdleLoop, ACursorThatMovesIsFollowed) {
-    run({[&](auto&, Seconds) { window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480}); },
+    run({[&](auto&, Seconds) {
+             window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480});
+         },
          [&](auto&, Seconds) {
              EXPECT_GE(since_wait_.frames, 2 + IdleWait::kFramesAfter);
              EXPECT_LE(since_wait_.presents, since_wait_.frames);
@@ -314,7 +323,10 @@ TEST_F(IdleLoop, TimePlaysOnFromWhenItWasAskedForAndNotFromWhenTheWaitBegan) {
 }
 
 TEST_F(IdleLoop, WakesToSaveTheSession) {
-    prepare_ = [&](LiveLoop& live) { live.keep_session(folder_.path() / "kept.json", {}, false); };
+    prepare_ = [&](LiveLoop& live) {
+        live.join(CompanionPlace::keeper, std::make_shared<SessionKeeper>(
+                                              folder_.path() / "kept.json", SavedSession{}, false));
+    };
     run({[&](auto&, Seconds longest) {
              EXPECT_LE(longest, SessionKeeper::kInterval);
              now_ += longest;
@@ -324,12 +336,13 @@ TEST_F(IdleLoop, WakesToSaveTheSession) {
 }
 
 TEST_F(IdleLoop, APictureForAClientShowsWhatTheClientToldBeforeHoweverLongTheLoopHasWaited) {
-    std::optional<SessionControl> control;
+    std::shared_ptr<SessionControl> control;
     std::shared_ptr<const stereo::Wake> wake;
     prepare_ = [&](LiveLoop& live) {
-        control.emplace(control_address((folder_.path() / "control.sock").string()), *session_,
-                        file_, ControlServerOptions{});
-        live.steer(*control);
+        control = std::make_shared<SessionControl>(
+            control_address((folder_.path() / "control.sock").string()), *session_,
+            ControlServerOptions{});
+        live.join(CompanionPlace::control, control);
         wake = live.wake();
     };
     std::future<std::string> answer;
@@ -382,7 +395,9 @@ TEST_F(IdleLoop, NewStepsWakeIt) {
     index::MemorySeries begun(first_steps(field, 6));
     build_index(begun, path, {});
     file_ = index::IndexFile::open(path);
-    prepare_ = [&](LiveLoop& live) { live.watch(path, file_); };
+    prepare_ = [&](LiveLoop& live) {
+        live.join(CompanionPlace::watch, std::make_shared<NewSteps>(path, file_, live.waker()));
+    };
     start_ = [](ExplorerState state) {
         state.follow = true;
         return state;

@@ -31,7 +31,7 @@ class SteeredSession : public SessionQuality {
         session_.emplace(config_in_parts(), file_, *context_, std::move(extract));
         session_->outputs().set_screenshots(folder_.path());
         control_.emplace(control_address((folder_.path() / "control.sock").string()), *session_,
-                         file_, ControlServerOptions{});
+                         ControlServerOptions{});
         client_.emplace(control_->server().address());
         EXPECT_EQ(picture(*client_).at("footprint"), "surface");
     }

@@ -183,8 +183,8 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     QualityController& controller = pauses ? still_ : steady_;
     QualityInput with_mesh = input;
     with_mesh.available = possible;
-    const QualityChoice with_all = QualityController(controller).choose(with_mesh);
-    const QualityChoice choice = controller.choose(input);
+    const QualityChoice with_all = controller.choose(with_mesh);
+    const QualityChoice choice = controller.advance(input);
     FramePlan plan{
         .footprint = choice.footprint, .reason = choice.reason, .measure = choice.measure};
     // A trial of the exact surface comes first where both are next.

@@ -30,10 +30,9 @@ double CellResolution::learn(std::size_t step, double share) {
 std::size_t CellResolution::choose(const std::optional<Milliseconds>& expected, Milliseconds budget,
                                    interaction::Seconds now) {
     constexpr double kFits = 0.9, kFitsFiner = 0.75; ///< shares of the budget
-    constexpr interaction::Seconds kBetweenChanges{0.5};
     const auto fits = [&](std::size_t step) {
         return !expected ||
-               shares_[step] * *expected <= (step < step_ ? kFitsFiner : kFits) * budget;
+               shares_[step] * *expected <= (step < step_.value() ? kFitsFiner : kFits) * budget;
     };
     std::size_t wanted = 0;
     while (wanted + 1 < count_ && !fits(wanted))
@@ -43,10 +42,7 @@ std::size_t CellResolution::choose(const std::optional<Milliseconds>& expected, 
     for (std::size_t step = wanted; step-- > 0;)
         if (shares_[wanted] > kSaves * shares_[step])
             wanted = step;
-    if (wanted == step_ || (changed_ && now - *changed_ < kBetweenChanges))
-        return step_;
-    changed_ = now;
-    return step_ = wanted;
+    return step_.turn(wanted, now);
 }
 
 } // namespace isochron::app

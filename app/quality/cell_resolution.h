@@ -3,6 +3,7 @@
 
 #include "app/frame/cell_resolutions.h"
 #include "app/frame/milliseconds.h"
+#include "app/quality/dwell.h"
 #include "interaction/input/tracked_input.h"
 
 #include <array>
@@ -12,7 +13,6 @@
 namespace isochron::app {
 
 /// Chooses by the cost of drawing in all pixels, and by the share of it that fewer pixels took.
-/// Changes at most twice a second.
 class CellResolution {
   public:
     /// Number of the resolution down to which pixels are given up before cells are.
@@ -36,8 +36,7 @@ class CellResolution {
     std::array<double, kCellResolutions.size()> shares_{1.0, 0.8, 0.65, 0.55}; ///< until measured
     std::size_t count_ = 1; ///< of the resolutions that may be taken
     std::array<bool, kCellResolutions.size()> measured_{};
-    std::size_t step_ = 0;
-    std::optional<interaction::Seconds> changed_;
+    Dwell<std::size_t> step_;
 };
 
 } // namespace isochron::app

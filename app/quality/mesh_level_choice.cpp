@@ -12,6 +12,7 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
     /// By level: the share of the cells as quads that is as much like the surface.
     constexpr std::array<double, index::kMeshLevels> kLikeQuads{2, 2, 0.5, 1.0 / 6};
     const bool scraps = meshes.translucent;
+    const std::optional<std::size_t>& before = level_.value();
     const Milliseconds longest =
         scraps ? meshes.longest : std::min(kForLikeness * meshes.budget, meshes.longest);
     const Milliseconds instead =
@@ -23,7 +24,7 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
         if (meshes.triangles[level] == 0)
             continue;
         const auto time = meshes.expected(meshes.triangles[level]);
-        const bool finer = !level_ || level < *level_;
+        const bool finer = !before || level < *before;
         if (time && (*time <= (finer ? kFinerFits : kSameFits) * meshes.budget || *time <= instead))
             return level;
         if (time && *time <= longest && (scraps || meshes.quads <= kLikeQuads.back()))
@@ -33,13 +34,9 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
 }
 
 std::optional<std::size_t> MeshLevelChoice::choose(const MeshesAtHand& meshes) {
-    constexpr interaction::Seconds kBetweenChanges{0.5};
-    const std::optional<std::size_t> level = wanted(meshes);
-    const bool gone = level_ && meshes.triangles[*level_] == 0;
-    if (level == level_ || (!gone && changed_ && meshes.now - *changed_ < kBetweenChanges))
-        return level_;
-    changed_ = meshes.now;
-    return level_ = level;
+    const std::optional<std::size_t>& before = level_.value();
+    const bool gone = before && meshes.triangles[*before] == 0;
+    return level_.turn(wanted(meshes), meshes.now, gone);
 }
 
 } // namespace isochron::app

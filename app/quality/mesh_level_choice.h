@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/frame/milliseconds.h"
+#include "app/quality/dwell.h"
 #include "index/extraction/simplified_meshes.h"
 #include "interaction/input/tracked_input.h"
 
@@ -33,19 +34,17 @@ struct MeshesAtHand {
 /// than they do. A finer one than before has to fit with room to spare. The coarsest may take half as
 /// long again as the budget where quads are of so few cells that they are less like the surface. Of
 /// translucent surfaces it is taken before quads, as long as it takes no longer than any picture may.
-/// Half a second passes between two changes, so that the choice does not go to and fro.
 class MeshLevelChoice {
   public:
     /// @return its level; empty: none fits, there is none, or quads of all cells are more like the
     /// surface
     std::optional<std::size_t> choose(const MeshesAtHand& meshes);
-    const std::optional<std::size_t>& level() const { return level_; }
+    const std::optional<std::size_t>& level() const { return level_.value(); }
 
   private:
     std::optional<std::size_t> wanted(const MeshesAtHand& meshes) const;
 
-    std::optional<std::size_t> level_;
-    std::optional<interaction::Seconds> changed_;
+    Dwell<std::optional<std::size_t>> level_;
 };
 
 } // namespace isochron::app

@@ -31,12 +31,8 @@ void MotionPromise::update(const std::optional<MotionCosts>& costs,
             within(spare * needed(*costs, kLeastShare * all, costs->few_pixels), limits_.least));
     };
     const Milliseconds least = wish(1);
-    if (time_ >= least && time_ <= std::max(wanted_, kStays * least))
-        return;
-    if (changed_ && now - *changed_ < kBetween)
-        return;
-    time_ = wish(kSpare);
-    changed_ = now;
+    if (time() < least || time() > std::max(wanted_, kStays * least))
+        time_.turn(wish(kSpare), now);
 }
 
 std::uint64_t least_recognized(std::optional<std::uint64_t> cells) {

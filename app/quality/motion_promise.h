@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/frame/milliseconds.h"
+#include "app/quality/dwell.h"
 #include "interaction/input/tracked_input.h"
 
 #include <cstdint>
@@ -22,14 +23,12 @@ struct MotionCosts {
 /// hold these, a longer time is promised. Where a screen's period is wanted, and nobody asked for a
 /// shorter time, the promise is also as long as all cells need, within limits: an eye sees thin
 /// parts that are missing sooner than it sees 30 pictures a second.
-/// The promise changes at most twice a second, so that nothing flaps.
 class MotionPromise {
   public:
-    static constexpr double kLeastShare = 1.0 / 8;       ///< of the cells: recognized
-    static constexpr double kRoom = 0.85;                ///< share of the promise that is planned
-    static constexpr interaction::Seconds kBetween{0.5}; ///< two changes
-    static constexpr Milliseconds kAtEase{1000.0 / 30};  ///< for all cells
-    static constexpr Milliseconds kLongest{100};         ///< for an eighth of them
+    static constexpr double kLeastShare = 1.0 / 8;      ///< of the cells: recognized
+    static constexpr double kRoom = 0.85;               ///< share of the promise that is planned
+    static constexpr Milliseconds kAtEase{1000.0 / 30}; ///< for all cells
+    static constexpr Milliseconds kLongest{100};        ///< for an eighth of them
 
     /// Times beyond the wanted one that may be promised; 0: none.
     struct Limits {
@@ -45,7 +44,7 @@ class MotionPromise {
     /// @param now session time
     void update(const std::optional<MotionCosts>& costs, std::optional<std::uint64_t> cells,
                 interaction::Seconds now);
-    Milliseconds time() const { return time_; }
+    Milliseconds time() const { return time_.value(); }
     Milliseconds wanted() const { return wanted_; }
 
   private:
@@ -53,8 +52,7 @@ class MotionPromise {
 
     Milliseconds wanted_;
     Limits limits_;
-    Milliseconds time_;
-    std::optional<interaction::Seconds> changed_; ///< when `time_` changed last
+    Dwell<Milliseconds> time_;
 };
 
 /// The number of cells below which no moving picture goes: an eighth of level 0.

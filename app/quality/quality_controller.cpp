@@ -46,9 +46,57 @@ constexpr Footprint next_coarser(Footprint footprint, const render::FootprintSet
 
 } // namespace
 
+/// Chooses by what was measured, and changes a copy of what was tried.
+class QualityController::Rule {
+  public:
+    Rule(const QualityController& controller, const QualityInput& input)
+        : trials(controller.trials_), controller_(controller), budget_(controller.budget_),
+          input_(input) {}
+
+    QualityChoice choose();
+    bool surface_is_guessed() const;
+
+    Trials trials;
+
+  private:
+    Candidate& of(Footprint footprint) {
+        return trials.candidates[static_cast<std::size_t>(footprint)];
+    }
+    const Candidate& of(Footprint footprint) const {
+        return trials.candidates[static_cast<std::size_t>(footprint)];
+    }
+    /// Expected.
+    std::optional<Milliseconds> time_of(Footprint footprint, const DrawLoad& load) const {
+        return controller_.expected(footprint, load);
+    }
+    std::optional<Milliseconds> time_of(Footprint footprint) const {
+        return time_of(footprint, input_.load);
+    }
+    bool moves() const { return input_.pace == Pace::moving; }
+
+    QualityChoice choice();
+    QualityChoice regardless(Footprint footprint, QualityReason reason);
+    QualityChoice within_budget();
+    QualityChoice describe() const;
+    void turn_to(Footprint footprint);
+    void step_down();
+    void step_up();
+    std::optional<Milliseconds> before(Footprint footprint) const;
+    bool has_room() const;
+    bool bearable(Footprint footprint) const;
+    bool outgrown(Footprint footprint) const;
+    bool returns(Footprint footprint);
+    bool decided(Footprint footprint) const;
+    void fail(Footprint footprint, const DrawLoad& load, Milliseconds cost);
+
+    const QualityController& controller_;
+    const Milliseconds budget_;
+    const QualityInput& input_;
+};
+
 void QualityController::measured(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
     if (load.cells <= 0) // tells what any picture costs
-        return of(Footprint::quad).cost.add(load, cost);
+        return costs(Footprint::quad).cost.add(load, cost);
     Candidate& candidate = of(footprint);
     const bool first = !candidate.known && !candidate.failed;
     if (std::exchange(sampled_, footprint) != footprint && !candidate.outdated &&
@@ -56,16 +104,16 @@ void QualityController::measured(Footprint footprint, const DrawLoad& load, Mill
         candidate.sampled.reset(); // to be measured again
         return;
     }
-    learn(candidate, load, cost);
-    if (footprint != current_)
+    learn(footprint, load, cost);
+    if (footprint != trials_.current)
         return; // a late result of a footprint that was left since: only noted
     candidate.fits = cost <= budget_;
     if (candidate.fits)
         candidate.failed = false;
-    over_ = (budgeted_ && over_) || !candidate.fits;
+    trials_.over = (trials_.budgeted && trials_.over) || !candidate.fits;
     if (!candidate.fits) {
-        over_load_ = load;
-        over_cost_ = cost;
+        trials_.over_load = load;
+        trials_.over_cost = cost;
     }
 }
 
@@ -75,45 +123,61 @@ void QualityController::measured_in_parts(Footprint footprint, const DrawLoad& l
         return;
     Candidate& candidate = of(footprint);
     candidate.outdated |= candidate.age >= kLongestWait;
-    learn(candidate, load, cost);
+    learn(footprint, load, cost);
 }
 
-bool QualityController::surface_is_guessed(const QualityInput& input) const {
-    const Candidate& candidate = of(Footprint::surface);
-    const bool guessed = (!candidate.known && !candidate.failed) || candidate.age >= kLongestWait;
-    return input.mode == QualityMode::automatic && !input.by_pace && input.load.cells > 0 &&
-           input.available.has(Footprint::surface) && current_ < Footprint::surface && guessed &&
-           of(Footprint::quad).cost.predict(input.load) && !bearable(Footprint::surface, input);
-}
-
-void QualityController::learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+void QualityController::learn(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
+    Candidate& candidate = of(footprint);
+    Costs& known = costs(footprint);
     // Drivers compile for the first pictures, not for the first one alone.
-    if (candidate.sampled == load && 2 * cost < *candidate.cost.predict(load))
+    if (candidate.sampled == load && 2 * cost < *known.cost.predict(load))
         candidate.outdated = true;
     if (std::exchange(candidate.outdated, false)) {
-        candidate.cost.forget();
-        candidate.beside.forget();
-        candidate.measurements = 0;
+        known.cost.forget();
+        known.beside.forget();
+        known.measurements = 0;
     }
-    ++candidate.measurements;
-    candidate.cost.add(load, cost);
-    if (const auto quads = of(Footprint::quad).cost.predict(load))
-        candidate.beside.add(load, *quads);
+    ++known.measurements;
+    known.cost.add(load, cost);
+    if (const auto quads = expected(Footprint::quad, load))
+        known.beside.add(load, *quads);
     candidate.sampled = load;
     candidate.known = true;
     candidate.age = 0;
 }
 
+bool QualityController::surface_is_guessed(const QualityInput& input) const {
+    return Rule(*this, input).surface_is_guessed();
+}
+
+QualityChoice QualityController::choose(const QualityInput& input) const {
+    return Rule(*this, input).choose();
+}
+
+QualityChoice QualityController::advance(const QualityInput& input) {
+    Rule rule(*this, input);
+    const QualityChoice choice = rule.choose();
+    trials_ = rule.trials;
+    return choice;
+}
+
+bool QualityController::Rule::surface_is_guessed() const {
+    const Candidate& candidate = of(Footprint::surface);
+    const bool guessed = (!candidate.known && !candidate.failed) || candidate.age >= kLongestWait;
+    return input_.mode == QualityMode::automatic && !input_.by_pace && input_.load.cells > 0 &&
+           input_.available.has(Footprint::surface) && trials.current < Footprint::surface &&
+           guessed && time_of(Footprint::quad) && !bearable(Footprint::surface);
+}
+
 /// The expected cost of a footprint that is not drawn now, from its earlier times.
-std::optional<Milliseconds> QualityController::before(Footprint footprint,
-                                                      const DrawLoad& load) const {
+std::optional<Milliseconds> QualityController::Rule::before(Footprint footprint) const {
     const Candidate& candidate = of(footprint);
-    std::optional<Milliseconds> cost = candidate.cost.predict(load);
+    std::optional<Milliseconds> cost = time_of(footprint);
     if (!cost)
         return cost;
     const bool bounded = candidate.failed && *cost <= kBounded * budget_;
-    const auto quads = of(Footprint::quad).cost.predict(load);
-    const auto then = candidate.beside.predict(load);
+    const auto quads = time_of(Footprint::quad);
+    const auto then = controller_.costs(footprint).beside.predict(input_.load);
     if (quads && then && *quads < *then)
         *cost *= *quads / *then;
     if (bounded)
@@ -121,154 +185,151 @@ std::optional<Milliseconds> QualityController::before(Footprint footprint,
     return cost;
 }
 
-QualityChoice QualityController::choose(const QualityInput& input) {
-    since_down_ = std::min(since_down_ + 1, kShortestWait);
-    const QualityChoice choice = choice_for(input);
-    was_moving_ = input.pace == Pace::moving;
-    return choice;
+QualityChoice QualityController::Rule::choose() {
+    trials.since_down = std::min(trials.since_down + 1, kShortestWait);
+    const QualityChoice chosen = choice();
+    trials.was_moving = moves();
+    return chosen;
 }
 
-QualityChoice QualityController::choice_for(const QualityInput& input) {
-    if (input.mode == QualityMode::fast)
-        return regardless(Footprint::quad, QualityReason::fast_mode, input.load);
-    const bool paper = input.mode == QualityMode::paper;
-    if (input.pace == Pace::moving && (input.by_pace || paper || input.load.cells <= 0))
-        return regardless(Footprint::quad, QualityReason::moving, input.load);
+QualityChoice QualityController::Rule::choice() {
+    if (input_.mode == QualityMode::fast)
+        return regardless(Footprint::quad, QualityReason::fast_mode);
+    const bool paper = input_.mode == QualityMode::paper;
+    if (moves() && (input_.by_pace || paper || input_.load.cells <= 0))
+        return regardless(Footprint::quad, QualityReason::moving);
     if (paper)
-        return regardless(input.available.best(Footprint::gaussian), QualityReason::paper_mode,
-                          input.load);
-    if (input.settled && input.pace != Pace::moving)
-        return regardless(input.available.best(*input.settled), QualityReason::configured,
-                          input.load);
-    if (input.load.cells <= 0) // all footprints look the same; start anew with the next set
-        return regardless(Footprint::quad, QualityReason::fits, input.load);
-    if (input.mode == QualityMode::quality)
-        return regardless(input.available.best(), QualityReason::quality_mode, input.load);
-    return within_budget(input);
+        return regardless(input_.available.best(Footprint::gaussian), QualityReason::paper_mode);
+    if (input_.settled && !moves())
+        return regardless(input_.available.best(*input_.settled), QualityReason::configured);
+    if (input_.load.cells <= 0) // all footprints look the same; start anew with the next set
+        return regardless(Footprint::quad, QualityReason::fits);
+    if (input_.mode == QualityMode::quality)
+        return regardless(input_.available.best(), QualityReason::quality_mode);
+    return within_budget();
 }
 
-QualityChoice QualityController::regardless(Footprint footprint, QualityReason reason,
-                                            const DrawLoad& load) {
+QualityChoice QualityController::Rule::regardless(Footprint footprint, QualityReason reason) {
     turn_to(footprint);
-    budgeted_ = false;
+    trials.budgeted = false;
     return {.footprint = footprint,
             .reason = reason,
             .final = reason != QualityReason::moving,
             .measure = false,
-            .cost = of(footprint).cost.predict(load),
+            .cost = time_of(footprint),
             .better_cost = {}};
 }
 
-QualityChoice QualityController::within_budget(const QualityInput& input) {
-    turn_to(input.available.best(current_));
-    budgeted_ = true;
-    for (Candidate& candidate : candidates_)
-        if (&candidate != &of(current_))
+QualityChoice QualityController::Rule::within_budget() {
+    turn_to(input_.available.best(trials.current));
+    trials.budgeted = true;
+    for (Candidate& candidate : trials.candidates)
+        if (&candidate != &of(trials.current))
             ++candidate.age;
-    if (Candidate& now = of(current_); current_ == Footprint::quad) {
-        step_up(input);
-    } else if ((!now.known && !bearable(current_, input)) ||
-               (!over_ && input.pace == Pace::moving && !has_room(input))) {
+    if (Candidate& now = of(trials.current); trials.current == Footprint::quad) {
+        step_up();
+    } else if ((!now.known && !bearable(trials.current)) ||
+               (!trials.over && moves() && !has_room())) {
         // Not a failure: it was a trial of fewer cells, or a picture at rest may use it again.
-        step_down(input);
-    } else if (over_ || outgrown(now, input.load)) {
-        if (over_)
-            fail(now, over_load_, over_cost_);
+        step_down();
+    } else if (trials.over || outgrown(trials.current)) {
+        if (trials.over)
+            fail(trials.current, trials.over_load, trials.over_cost);
         else
-            fail(now, input.load, *now.cost.predict(input.load));
-        step_down(input);
+            fail(trials.current, input_.load, *time_of(trials.current));
+        step_down();
     } else {
         if (++now.lasted == kProven)
             now.wait = kShortestWait / 2;
-        step_up(input);
+        step_up();
     }
-    return describe(input);
+    return describe();
 }
 
-void QualityController::turn_to(Footprint footprint) {
-    if (footprint == current_)
+void QualityController::Rule::turn_to(Footprint footprint) {
+    if (footprint == trials.current)
         return;
-    current_ = footprint;
-    over_ = false;
+    trials.current = footprint;
+    trials.over = false;
     of(footprint).lasted = 0;
 }
 
 /// Turns to the best coarser footprint that is expected to fit or, at rest, was never tried.
-void QualityController::step_down(const QualityInput& input) {
-    since_down_ = 0;
-    Footprint to = next_coarser(current_, input.available);
-    for (; to != Footprint::quad; to = next_coarser(to, input.available)) {
+void QualityController::Rule::step_down() {
+    trials.since_down = 0;
+    Footprint to = next_coarser(trials.current, input_.available);
+    for (; to != Footprint::quad; to = next_coarser(to, input_.available)) {
         const Candidate& candidate = of(to);
-        const auto expected = candidate.cost.predict(input.load);
-        const double share = input.pace == Pace::moving ? kRoom : 1.0;
-        const bool unknown = !expected && input.pace != Pace::moving;
+        const auto expected = time_of(to);
+        const double share = moves() ? kRoom : 1.0;
+        const bool unknown = !expected && !moves();
         if (!candidate.failed && (unknown || (expected && *expected <= share * budget_)))
             break;
     }
     turn_to(to);
 }
 
-void QualityController::step_up(const QualityInput& input) {
-    if (since_down_ < kShortestWait)
+void QualityController::Rule::step_up() {
+    if (trials.since_down < kShortestWait)
         return;
-    for (Footprint to = input.available.best(); to != current_;
-         to = next_coarser(to, input.available))
-        if (returns(to, input))
+    for (Footprint to = input_.available.best(); to != trials.current;
+         to = next_coarser(to, input_.available))
+        if (returns(to))
             return turn_to(to);
 }
 
 /// Whether the current footprint leaves enough of the budget for a moving picture.
-bool QualityController::has_room(const QualityInput& input) const {
-    const Candidate& now = of(current_);
-    const double share = was_moving_ ? kLeast : kRoom;
-    return now.known ? *now.cost.predict(input.load) <= share * budget_ : bearable(current_, input);
+bool QualityController::Rule::has_room() const {
+    const Candidate& now = of(trials.current);
+    const double share = trials.was_moving ? kLeast : kRoom;
+    return now.known ? *time_of(trials.current) <= share * budget_ : bearable(trials.current);
 }
 
 /// Whether a frame with this footprint may be drawn to measure it.
-bool QualityController::bearable(Footprint footprint, const QualityInput& input) const {
-    const auto quads = of(Footprint::quad).cost.predict(input.load);
+bool QualityController::Rule::bearable(Footprint footprint) const {
+    const auto quads = time_of(Footprint::quad);
     if (!quads)
         return false; // quads are measured first
     Milliseconds most = kAtMost[static_cast<std::size_t>(footprint)] * *quads;
-    if (const auto earlier = before(footprint, input.load))
+    if (const auto earlier = before(footprint))
         most = std::min(most, *earlier);
-    if (input.pace == Pace::moving)
+    if (moves())
         return most <= kRoom * budget_;
     // Where the exact picture comes in parts, no frame need be long.
-    return most <= (input.in_parts ? budget_ : std::max(budget_, kDearestTrial));
+    return most <= (input_.in_parts ? budget_ : std::max(budget_, kDearestTrial));
 }
 
 /// Whether the load has grown so much that the next frame is expected over the budget.
-bool QualityController::outgrown(const Candidate& candidate, const DrawLoad& load) const {
-    if (!candidate.known || !candidate.sampled || load == candidate.sampled)
+bool QualityController::Rule::outgrown(Footprint footprint) const {
+    const Candidate& candidate = of(footprint);
+    if (!candidate.known || !candidate.sampled || input_.load == candidate.sampled)
         return false;
-    const Milliseconds expected = *candidate.cost.predict(load);
-    return expected > budget_ && expected > kGrown * *candidate.cost.predict(*candidate.sampled);
+    const Milliseconds expected = *time_of(footprint);
+    return expected > budget_ && expected > kGrown * *time_of(footprint, *candidate.sampled);
 }
 
 /// Whether a better footprint than the current one may be drawn now.
-bool QualityController::returns(Footprint footprint, const QualityInput& input) {
-    const DrawLoad& load = input.load;
+bool QualityController::Rule::returns(Footprint footprint) {
     Candidate& candidate = of(footprint);
     if (!candidate.known && !candidate.failed) {
         // Try them from coarse to fine, so that the first frame over the budget is not one with the
         // slowest footprint.
-        const Footprint below = next_coarser(footprint, input.available);
-        return bearable(footprint, input) &&
-               (below == Footprint::quad || decided(below, input) || !bearable(below, input));
+        const Footprint below = next_coarser(footprint, input_.available);
+        return bearable(footprint) &&
+               (below == Footprint::quad || decided(below) || !bearable(below));
     }
-    const auto expected = candidate.cost.predict(load);
+    const auto expected = time_of(footprint);
     // It failed at a larger load: it may return soon.
     const bool fallen = candidate.failed && expected &&
-                        *expected <= kFallen * *candidate.cost.predict(candidate.failed_at);
+                        *expected <= kFallen * *time_of(footprint, candidate.failed_at);
     if (fallen) {
-        candidate.failed_at = load;
+        candidate.failed_at = input_.load;
         candidate.wait = kShortestWait / 2;
     }
-    const double share = input.pace == Pace::moving ? kRoom : candidate.fits ? 1.0 : kMargin;
+    const double share = moves() ? kRoom : candidate.fits ? 1.0 : kMargin;
     if ((fallen || !candidate.failed) && expected && *expected <= share * budget_)
         return true;
-    if (candidate.age < std::max(candidate.wait, kShortestWait) || !bearable(footprint, input))
+    if (candidate.age < std::max(candidate.wait, kShortestWait) || !bearable(footprint))
         return false;
     candidate.sampled.reset();
     candidate.outdated = true;
@@ -278,19 +339,19 @@ bool QualityController::returns(Footprint footprint, const QualityInput& input) 
 }
 
 /// Whether it is known if the footprint fits.
-bool QualityController::decided(Footprint footprint, const QualityInput& input) const {
+bool QualityController::Rule::decided(Footprint footprint) const {
     const Candidate& candidate = of(footprint);
     // The current footprint counts as decided, too, if another picture has told its cost: it may
     // not be drawn again.
     return candidate.fits || candidate.failed ||
            (candidate.known &&
-            (footprint == current_ || *candidate.cost.predict(input.load) > kMargin * budget_));
+            (footprint == trials.current || *time_of(footprint) > kMargin * budget_));
 }
 
-void QualityController::fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const {
+void QualityController::Rule::fail(Footprint footprint, const DrawLoad& load, Milliseconds cost) {
+    Candidate& candidate = of(footprint);
     // Keep the least failed load, so that a varying number of cells is no reason to try again.
-    if (!candidate.failed ||
-        *candidate.cost.predict(load) < *candidate.cost.predict(candidate.failed_at))
+    if (!candidate.failed || *time_of(footprint, load) < *time_of(footprint, candidate.failed_at))
         candidate.failed_at = load;
     candidate.failed = true;
     candidate.fits = false;
@@ -304,39 +365,38 @@ void QualityController::fail(Candidate& candidate, const DrawLoad& load, Millise
         std::min(2.0 * dear * candidate.wait, static_cast<double>(kLongestWait)));
 }
 
-QualityChoice QualityController::describe(const QualityInput& input) const {
-    const Candidate& now = of(current_);
+QualityChoice QualityController::Rule::describe() const {
+    const Candidate& now = of(trials.current);
     // Nothing is coarser than quads, so it is enough to know the time of quads at any load.
-    const bool measured_here = current_ == Footprint::quad
-                                   ? now.cost.predict(input.load).has_value()
-                                   : now.sampled == input.load;
+    const bool measured_here = trials.current == Footprint::quad
+                                   ? time_of(trials.current).has_value()
+                                   : now.sampled == input_.load;
     QualityChoice choice;
-    choice.footprint = current_;
-    choice.reason =
-        current_ == input.available.best() ? QualityReason::fits : QualityReason::over_budget;
-    choice.final = measured_here || (input.playing && now.fits);
+    choice.footprint = trials.current;
+    choice.reason = trials.current == input_.available.best() ? QualityReason::fits
+                                                              : QualityReason::over_budget;
+    choice.final = measured_here || (input_.playing && now.fits);
     choice.measure = !measured_here;
-    choice.cost = now.cost.predict(input.load);
-    for (Footprint better = current_; better != input.available.best();) {
-        better = next_better(better, input.available);
-        if (!decided(better, input) &&
-            (bearable(better, input) || !of(Footprint::quad).cost.predict(input.load)))
+    choice.cost = time_of(trials.current);
+    for (Footprint better = trials.current; better != input_.available.best();) {
+        better = next_better(better, input_.available);
+        if (!decided(better) && (bearable(better) || !time_of(Footprint::quad)))
             choice.final = false;
         const Candidate& candidate = of(better);
-        if (current_ == Footprint::quad && now.measurements < kSure &&
-            !candidate.cost.predict(input.load) && !bearable(better, input)) {
+        if (trials.current == Footprint::quad &&
+            controller_.costs(Footprint::quad).measurements < kSure && !time_of(better) &&
+            !bearable(better)) {
             choice.final = false;
             choice.measure = true;
         }
-        choice.retries |= candidate.failed && bearable(better, input) &&
+        choice.retries |= candidate.failed && bearable(better) &&
                           std::max(candidate.wait, kShortestWait) <= candidate.age + kSoon;
         if (!choice.better_cost)
-            choice.better_cost =
-                of(better).failed ? of(better).failed_cost : of(better).cost.predict(input.load);
+            choice.better_cost = candidate.failed ? candidate.failed_cost : time_of(better);
     }
     if (!choice.final)
         choice.reason = QualityReason::trial;
-    if (input.pace == Pace::moving) {
+    if (moves()) {
         choice.reason = QualityReason::moving;
         choice.final = choice.measure = choice.retries = false;
     }

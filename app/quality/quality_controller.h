@@ -3,7 +3,7 @@
 //     QualityController controller(Milliseconds(11.1));
 //     for (const DrawSample& sample : meter.finished())
 //         controller.measured(sample.footprint, sample.load, sample.cost());
-//     const QualityChoice choice = controller.choose({.pace = gate.pace()});   // every frame
+//     const QualityChoice choice = controller.advance({.pace = gate.pace()});   // every frame
 #pragma once
 
 #include "app/frame/quality_reason.h"
@@ -90,22 +90,28 @@ class QualityController {
     /// Adds the cost of a picture that was made in parts, which tells about whole frames, too.
     void measured_in_parts(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
-    /// Advances by one frame.
-    QualityChoice choose(const QualityInput& input);
+    /// The choice for a frame like this, if it came next.
+    QualityChoice choose(const QualityInput& input) const;
+    /// The same choice, for the frame that does come next: goes on by one frame.
+    QualityChoice advance(const QualityInput& input);
 
     Milliseconds budget() const { return budget_; }
     /// What was measured stays; whether it fits is asked of the new budget.
     void set_budget(Milliseconds budget) { budget_ = budget; }
     /// Expected cost of a footprint; empty before it has been measured.
     std::optional<Milliseconds> expected(render::Footprint footprint, const DrawLoad& load) const {
-        return of(footprint).cost.predict(load);
+        return costs(footprint).cost.predict(load);
     }
 
   private:
-    struct Candidate {
+    /// What is known of a footprint's times.
+    struct Costs {
         DrawCost cost;
         DrawCost beside;           ///< what quads were expected to cost when this one was measured
         unsigned measurements = 0; ///< that `cost` is of
+    };
+    /// How a footprint has stood the test so far.
+    struct Candidate {
         std::optional<DrawLoad> sampled; ///< load of the newest measurement that counts
         DrawLoad failed_at;              ///< least load of the failures
         Milliseconds failed_cost{0};
@@ -117,39 +123,35 @@ class QualityController {
         unsigned wait = kShortestWait / 2;
         unsigned lasted = 0; ///< frames since it became the current one
     };
-    Candidate& of(render::Footprint footprint) {
-        return candidates_[static_cast<std::size_t>(footprint)];
-    }
-    const Candidate& of(render::Footprint footprint) const {
-        return candidates_[static_cast<std::size_t>(footprint)];
-    }
+    template <class T>
+    using ByFootprint = std::array<T, render::kFootprints>;
+    /// All that a choice changes.
+    struct Trials {
+        ByFootprint<Candidate> candidates;
+        render::Footprint current = render::Footprint::quad;
+        bool was_moving = true; ///< in the previous frame
+        bool budgeted = false;  ///< `current` was chosen by the budget
+        bool over = false;      ///< `current` was measured over the budget
+        DrawLoad over_load;
+        Milliseconds over_cost{0};           ///< that was measured over the budget
+        unsigned since_down = kShortestWait; ///< frames since the last step down, at most this
+    };
+    class Rule;
 
-    QualityChoice choice_for(const QualityInput& input);
-    QualityChoice regardless(render::Footprint footprint, QualityReason reason,
-                             const DrawLoad& load);
-    QualityChoice within_budget(const QualityInput& input);
-    QualityChoice describe(const QualityInput& input) const;
-    void turn_to(render::Footprint footprint);
-    void step_down(const QualityInput& input);
-    void step_up(const QualityInput& input);
-    void learn(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
-    std::optional<Milliseconds> before(render::Footprint footprint, const DrawLoad& load) const;
-    bool has_room(const QualityInput& input) const;
-    bool bearable(render::Footprint footprint, const QualityInput& input) const;
-    bool outgrown(const Candidate& candidate, const DrawLoad& load) const;
-    bool returns(render::Footprint footprint, const QualityInput& input);
-    bool decided(render::Footprint footprint, const QualityInput& input) const;
-    void fail(Candidate& candidate, const DrawLoad& load, Milliseconds cost) const;
+    Candidate& of(render::Footprint footprint) {
+        return trials_.candidates[static_cast<std::size_t>(footprint)];
+    }
+    Costs& costs(render::Footprint footprint) {
+        return costs_[static_cast<std::size_t>(footprint)];
+    }
+    const Costs& costs(render::Footprint footprint) const {
+        return costs_[static_cast<std::size_t>(footprint)];
+    }
+    void learn(render::Footprint footprint, const DrawLoad& load, Milliseconds cost);
 
     Milliseconds budget_;
-    std::array<Candidate, render::kFootprints> candidates_;
-    render::Footprint current_ = render::Footprint::quad;
-    bool was_moving_ = true; ///< in the previous frame
-    bool budgeted_ = false;  ///< current_ was chosen by the budget
-    bool over_ = false;      ///< current_ was measured over the budget
-    DrawLoad over_load_;
-    Milliseconds over_cost_{0};                ///< that was measured over the budget
-    unsigned since_down_ = kShortestWait;      ///< frames since the last step down, at most this
+    ByFootprint<Costs> costs_;
+    Trials trials_;
     std::optional<render::Footprint> sampled_; ///< footprint of the newest measurement
 };
 

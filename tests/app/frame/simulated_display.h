@@ -54,7 +54,7 @@ class SimulatedDisplay {
             under_way_.pop_front();
         }
         Frame now;
-        now.choice = controller.choose(input);
+        now.choice = controller.advance(input);
         const bool moving = input.pace == interaction::Pace::moving || input.playing || !still;
         const Picture picture{now.choice.footprint, input.load};
         if (moving || now.choice.measure || picture != shown_) {

@@ -7,8 +7,6 @@
 
 namespace isochron::interaction {
 
-inline constexpr int kRecordingVersion = 1;
-
 nlohmann::json to_json(const RecordingHeader& header);
 /// @param before the frame that was written before this one, or null
 nlohmann::json to_json(const RecordedFrame& frame, const RecordedFrame* before);

@@ -104,7 +104,7 @@ void remove_made_by_tool(const Press& p) {
     tool_row(p.context.settings.tools.mouse).remove(p.commands);
 }
 
-/// Keys choose the tool of mouse and wand; picking brings back the first tools of all hands.
+/// A key chooses the tool of mouse and wand; picking brings back the first tools of all hands.
 void choose_tool(ToolKind kind, const Press& p) {
     Tools tools = p.commands.tools.value_or(p.context.settings.tools);
     if (kind == ToolKind::pick)

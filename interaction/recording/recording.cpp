@@ -1,10 +1,8 @@
 // Writing and reading recordings, and playing them.
 #include "interaction/recording/recording.h"
 
-#include "interaction/controls/action_table.h"
 #include "interaction/recording/recording_json.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -103,33 +101,6 @@ class Budget {
   private:
     std::size_t frames_ = 0, states_ = 0, valuators_ = 0;
 };
-
-/// Turns the bits of version 1 into actions: of the device `keys`, from the 65th on of `more_keys`.
-void take_old_bits(InputState& input) {
-    ActionSet actions;
-    int first = 0;
-    for (const char* name : {"keys", "more_keys"}) {
-        const DeviceState* device = input.find(name);
-        for (int i = 0; device && i < 64; ++i)
-            if (device->buttons >> i & 1)
-                if (const auto action = action_of_old_bit(first + i))
-                    actions |= bit(*action);
-        first += 64;
-    }
-    const auto named = [&](const char* name) {
-        return std::ranges::find(input.devices, name, &DeviceState::name);
-    };
-    const auto more = named("more_keys");
-    if (named("keys") != input.devices.end() && more != input.devices.end())
-        input.devices.erase(more);
-    else if (more != input.devices.end())
-        more->name = "keys";
-    const auto keys = named("keys");
-    if (keys == input.devices.end())
-        return;
-    keys->buttons = 0;
-    keys->actions |= actions;
-}
 
 } // namespace
 

@@ -250,6 +250,32 @@ RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
     return frame;
 }
 
+void take_old_bits(InputState& input) {
+    ActionSet actions;
+    int first = 0;
+    for (const char* name : {"keys", "more_keys"}) {
+        const DeviceState* device = input.find(name);
+        for (int i = 0; device && i < 64; ++i)
+            if (device->buttons >> i & 1)
+                if (const auto action = action_of_old_bit(first + i))
+                    actions |= bit(*action);
+        first += 64;
+    }
+    const auto named = [&](const char* name) {
+        return std::ranges::find(input.devices, name, &DeviceState::name);
+    };
+    const auto more = named("more_keys");
+    if (named("keys") != input.devices.end() && more != input.devices.end())
+        input.devices.erase(more);
+    else if (more != input.devices.end())
+        more->name = "keys";
+    const auto keys = named("keys");
+    if (keys == input.devices.end())
+        return;
+    keys->buttons = 0;
+    keys->actions |= actions;
+}
+
 void require_finite(const RecordedFrame& frame) {
     const auto require = [](bool finite, std::string_view what) {
         if (!finite)

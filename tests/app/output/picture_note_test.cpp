@@ -46,6 +46,7 @@ TEST(PictureNote, ComesBackAsItWas) {
 
 TEST(PictureNote, ActionsOfOlderPicturesAreReadFromTheirBits) {
     PictureNote note = some_note();
+    note.data = "heart.isochron";
     note.input.devices.push_back({.name = "keys", .pose = {}, .valuators = {}});
     PictureNote old = note;
     note.input.devices.back().actions = bit(interaction::Action::teleport);

@@ -7,9 +7,9 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
+#include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::app {
@@ -45,18 +46,10 @@ class MarkRows {
             fraction_ = 0;
         }
         fraction_ = commands.fraction.value_or(fraction_);
-        if (commands.mark && commands.mark->point) {
-            const interaction::MarkedPoint& point = *commands.mark->point;
-            Json& row = push("mark", point.step, point.fraction, "");
-            place(row, point.position);
-            row["value"] = point.value;
-        }
-        if (commands.ruler && commands.ruler->places.size() == interaction::kMostRulerPlaces) {
-            const auto& places = commands.ruler->places;
-            for (const glm::dvec3& each : places)
-                place(push("ruler", step_, fraction_, ""), each);
-            rows_.back()["value"] = glm::distance(places[0], places[1]);
-        }
+        for (const interaction::ToolRow& tool : interaction::tool_table())
+            for (const interaction::MarkedRow& row :
+                 tool.rows ? tool.rows(commands) : std::vector<interaction::MarkedRow>())
+                push(tool.makes, row);
         if (commands.bookmarks)
             add(*commands.bookmarks);
         for (const std::string& stamp : commands.stamps)
@@ -74,7 +67,7 @@ class MarkRows {
                 push("bookmark", each.step, each.fraction, each.name);
         known_ = all;
     }
-    Json& push(const char* what, std::uint32_t step, std::uint32_t fraction,
+    Json& push(std::string_view what, std::uint32_t step, std::uint32_t fraction,
                const std::string& name) {
         Json row{{"what", what},         {"seconds", nullptr}, {"step", step},
                  {"fraction", fraction}, {"name", name},       {"x", nullptr},
@@ -84,10 +77,14 @@ class MarkRows {
         rows_.push_back(std::move(row));
         return rows_.back();
     }
-    static void place(Json& row, const glm::dvec3& at) {
-        row["x"] = at.x;
-        row["y"] = at.y;
-        row["z"] = at.z;
+    void push(std::string_view what, const interaction::MarkedRow& made) {
+        const interaction::Moment at = made.at.value_or(interaction::Moment(step_, fraction_));
+        Json& row = push(what, at.step, at.fraction, "");
+        row["x"] = made.position.x;
+        row["y"] = made.position.y;
+        row["z"] = made.position.z;
+        if (made.value)
+            row["value"] = *made.value;
     }
 
     std::optional<double> seconds_;
@@ -214,10 +211,14 @@ void add_table(Command& program) {
     command.option("-o,--out", arguments->out, "Output file (default: the terminal)");
     command.flag("--force", arguments->force, "Replace a file that exists");
     command.flag("--json", arguments->json, "A list of JSON objects instead of CSV");
+    std::string made;
+    for (const interaction::ToolRow& tool : interaction::tool_table())
+        if (tool.rows)
+            made += fmt::format("{}, ", tool.makes);
     command.footer(
-        "Columns of marks: what (mark, ruler, bookmark, stamp), seconds since the session began, "
-        "step "
-        "and\nfraction (65536ths of the way to the next step), name, x y z (in the data's unit), "
+        "Columns of marks: what (" + made +
+        "bookmark, stamp), seconds since the session began, step and\nfraction (65536ths of the "
+        "way to the next step), name, x y z (in the data's unit), "
         "value (at a mark;\nat a ruler's second place its length). Columns of frames: those of the "
         "report, `asked.step` and so on.");
     command.on_run([arguments] { run_table(*arguments); });

@@ -38,9 +38,13 @@ bool holds(const Field& field, const T& value) {
         return true;
     }
 }
+bool holds(const Field&, const glm::dvec3& place) {
+    return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
+}
 template <class T>
 bool holds(const Field& field, const std::vector<T>& list) {
-    return list.size() >= field.least && list.size() <= field.most;
+    return list.size() >= field.least && list.size() <= field.most &&
+           std::ranges::all_of(list, [&](const T& one) { return holds(field, one); });
 }
 bool holds(const Field& field, const std::vector<interaction::Isosurface>& surfaces) {
     return surfaces.size() >= field.least && surfaces.size() <= field.most &&
@@ -89,20 +93,27 @@ bool holds(const Field&, const interaction::Similarity& similarity) {
 bool holds(const Field&, const interaction::RoomPanel& panel) {
     return is_finite(panel.pose);
 }
-bool is_place(const glm::dvec3& place) {
-    return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
-}
-bool holds(const Field&, const interaction::ClipPlane& clip) {
+bool holds(const Field& field, const interaction::ClipPlane& clip) {
     constexpr double kOff = 1e-6; ///< tolerance of a unit vector's length
-    return is_place(clip.point) && std::abs(glm::length(clip.normal) - 1) < kOff;
-}
-bool holds(const Field&, const interaction::Ruler& ruler) {
-    return ruler.places.size() <= interaction::kMostRulerPlaces &&
-           std::ranges::all_of(ruler.places, is_place);
+    return holds(field, clip.point) && std::abs(glm::length(clip.normal) - 1) < kOff;
 }
 bool holds(const Field& field, const interaction::Mark& mark) {
     return !mark.point || (holds(field, mark.point->step) &&
                            holds(Field{"", 0, interaction::kFractions - 1}, mark.point->fraction));
+}
+
+/// A record that no rule above is for: each of its fields holds.
+template <class T>
+requires requires(const T& record) {
+    interaction::each_field([](const Field&, const auto&) {}, record);
+}
+bool holds(const Field&, const T& record) {
+    bool all = true;
+    const auto check = [&](const Field& field, const auto& member) {
+        all = all && holds(field, member);
+    };
+    interaction::each_field(check, record);
+    return all;
 }
 
 // @return false when the value is refused and `kept` unchanged

@@ -47,8 +47,9 @@ Changed changed(const ExplorerState& a, const ExplorerState& b) {
 }
 
 bool holds_something(const interaction::InputState& input) {
-    return std::ranges::any_of(
-        input.devices, [](const interaction::DeviceState& device) { return device.buttons != 0; });
+    return std::ranges::any_of(input.devices, [](const interaction::DeviceState& device) {
+        return device.buttons != 0 || device.actions.any();
+    });
 }
 
 interaction::Commands way_to(const ExplorerState& target, const ExplorerState& from) {
@@ -91,7 +92,7 @@ ExplorerState History::as_seen(ExplorerState before, const interaction::InputSta
     const interaction::DeviceState* keys = input.find("keys");
     const bool emulated = input.find("pointer") != nullptr;
     if (emulated && head_ && head && head->pose && keys &&
-        (keys->buttons & bit(interaction::Action::reset)))
+        holds(keys->actions, interaction::Action::reset))
         before.room_from_physical =
             interaction::carried(before.room_from_physical, *head_, *head->pose);
     return before;

@@ -21,12 +21,12 @@ const interaction::HapticPulse kTick{"wand", 0.01, 0.25f}, kClick{"wand", 0.02, 
 
 /// As if the action's key were down in this frame.
 void press(interaction::Action action, interaction::InputState& input) {
-    const char* const device = interaction::is_of_more_keys(action) ? "more_keys" : "keys";
-    const auto keys = std::ranges::find(input.devices, device, &interaction::DeviceState::name);
+    const auto keys = std::ranges::find(input.devices, "keys", &interaction::DeviceState::name);
     if (keys != input.devices.end())
-        keys->buttons |= interaction::bit(action);
+        keys->actions |= interaction::bit(action);
     else
-        input.devices.push_back({device, std::nullopt, true, interaction::bit(action), {}});
+        input.devices.push_back(
+            {.name = "keys", .pose = {}, .valuators = {}, .actions = bit(action)});
 }
 
 } // namespace

@@ -60,6 +60,7 @@ interaction::InputState at_rest(interaction::InputState input) {
                   [](const interaction::DeviceState& each) { return each.name == "pointer"; });
     for (interaction::DeviceState& device : input.devices) {
         device.buttons = 0;
+        device.actions.reset();
         std::ranges::fill(device.valuators, 0.0f);
     }
     return input;

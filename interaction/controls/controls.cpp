@@ -1,13 +1,13 @@
 // Turns device states into commands.
 #include "interaction/controls/controls.h"
 
+#include "interaction/controls/action_table.h"
 #include "interaction/controls/key_repeat.h"
 #include "interaction/controls/room_panel.h"
 #include "interaction/controls/time_controls.h"
 #include "interaction/input/actions.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
-#include "interaction/tools/clip_tool.h"
 #include "interaction/tools/tool_box.h"
 
 #include <algorithm>
@@ -27,32 +27,6 @@ constexpr double kFine = 0.001;          ///< the same with Shift, or per notch 
 constexpr float kEyeStep = 0.001f;       ///< [m]
 
 } // namespace
-
-bool has_colors(const ControlContext& context) {
-    return context.color_arrays.names && !context.color_arrays.names->empty();
-}
-
-/// Colors by an array: at first by the one that was chosen before, then by the one after it.
-Coloring by_next_array(const ControlContext& context) {
-    const std::vector<std::string>& names = *context.color_arrays.names;
-    const bool goes_on = context.settings.coloring.by == ColorBy::value;
-    Coloring changed = context.settings.coloring;
-    changed.by = ColorBy::value;
-    changed.array = names[(context.color_arrays.chosen + (goes_on ? 1 : 0)) % names.size()];
-    changed.range.reset();
-    return changed;
-}
-
-/// The next quantity to color by. The range belonged to the previous one, so it is dropped.
-Coloring after(const Coloring& coloring, bool has_second_array) {
-    const auto next =
-        static_cast<ColorBy>((static_cast<std::size_t>(coloring.by) + 1) % kNames<ColorBy>.size());
-    const bool skipped = next == ColorBy::value && !has_second_array;
-    Coloring changed = coloring;
-    changed.by = skipped ? ColorBy::first_crossing : next;
-    changed.range.reset();
-    return changed;
-}
 
 struct Controls::State {
     ButtonLevels before;
@@ -92,59 +66,12 @@ struct Controls::State {
         return std::clamp(from + change * range, context.series.low, context.series.high);
     }
 
-    /// Saves the volume's place in this frame under the next free name; drops the oldest view if
-    /// there are `kMostViews`.
-    void save_view(const ControlContext& context, Commands& commands) {
-        commands.views =
-            with_view(context.settings.views,
-                      commands.room_from_physical.value_or(context.settings.room_from_physical));
-        notes.push_back(
-            fmt::format("viewpoint {} saved: N goes there", commands.views->back().name));
-    }
-
-    void switches(const Reading& now, const ControlContext& context, Seconds time,
-                  Commands& commands) {
-        const auto choose = [&](Action action, QualityMode mode) {
-            if (now.pressed(action) && context.settings.quality != mode)
-                commands.quality = mode;
-        };
-        choose(Action::quality_auto, QualityMode::automatic);
-        choose(Action::quality_fast, QualityMode::fast);
-        choose(Action::quality_best, QualityMode::quality);
-        choose(Action::quality_paper, QualityMode::paper);
-
-        const int eyes = eyes_apart.presses(now.key(Action::eyes_apart), time) -
-                         eyes_together.presses(now.key(Action::eyes_together), time);
-        const float separation =
-            std::clamp(context.settings.eye_separation + static_cast<float>(eyes) * kEyeStep, 0.0f,
-                       kWidestEyes);
-        if (eyes != 0 && separation != context.settings.eye_separation)
-            commands.eye_separation = separation;
-
-        if (now.pressed(Action::next_stereo) && context.stereo_modes &&
-            !context.stereo_modes->empty()) {
-            const std::vector<std::string>& modes = *context.stereo_modes;
-            const auto mode = std::ranges::find(modes, context.settings.stereo);
-            const bool wraps = mode == modes.end() || mode + 1 == modes.end();
-            commands.stereo = wraps ? modes.front() : *(mode + 1);
-        }
-        if (now.pressed(Action::orthographic))
-            commands.orthographic = !context.settings.orthographic;
-        if (now.pressed(Action::bounding_box))
-            commands.bounding_box = !context.settings.bounding_box;
-        if (now.pressed(Action::next_surface) && context.settings.isosurfaces.size() > 1)
-            commands.picked = (context.settings.picked + 1) %
-                              static_cast<std::uint32_t>(context.settings.isosurfaces.size());
-        if (now.pressed(Action::next_coloring))
-            commands.coloring = after(context.settings.coloring, has_colors(context));
-        if (now.pressed(Action::next_color_array) && has_colors(context))
-            commands.coloring = by_next_array(context);
-        if (now.pressed(Action::next_array) && context.ways.next_array) {
-            commands.isovalue.reset(); // it was of the array before
-            merge(commands, *context.ways.next_array);
-        }
-        if (now.pressed(Action::panel))
-            commands.panel = !context.settings.panel;
+    /// What a press of a key does by its row, and what else does the same.
+    void press(const Reading& now, const ControlContext& context, Commands& commands) {
+        for (const KeyLine& line : key_lines())
+            for (const ActionRow& row : line.actions)
+                if (row.effect && now.pressed(row.action))
+                    row.effect({context, commands, notes});
         if (now.pressed(Action::room_panel) || now.pressed(WandButton::room_panel) ||
             now.pressed(GamepadButton::back))
             commands.room_panel = called(context.settings.room_panel, now.viewer(),
@@ -152,17 +79,25 @@ struct Controls::State {
         // The panel at arm's length can only be read in perspective projection.
         if (commands.room_panel && commands.room_panel->shown && context.settings.orthographic)
             commands.orthographic = false;
-        if (now.pressed(Action::grid))
-            commands.grid = !context.settings.grid;
-        if (now.pressed(Action::save_view))
-            save_view(context, commands);
         if (now.pressed(Action::stamp))
             commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
-        commands.screenshot = now.pressed(Action::screenshot);
-        commands.copy = now.pressed(Action::copy);
-        commands.save = now.pressed(Action::save_session);
-        if (now.pressed(Action::export_surfaces))
-            commands.exporting = ExportWork{.goes_on = !context.settings.exporting.goes_on};
+        if (now.pressed(WandButton::next_tool)) {
+            Tools held = commands.tools.value_or(context.settings.tools);
+            held.wand = static_cast<ToolKind>((static_cast<std::size_t>(held.wand) + 1) %
+                                              kNames<ToolKind>.size());
+            commands.tools = held;
+        }
+    }
+
+    void move_eyes(const Reading& now, const ControlContext& context, Seconds time,
+                   Commands& commands) {
+        const int eyes = eyes_apart.presses(now.key(Action::eyes_apart), time) -
+                         eyes_together.presses(now.key(Action::eyes_together), time);
+        const float separation =
+            std::clamp(context.settings.eye_separation + static_cast<float>(eyes) * kEyeStep, 0.0f,
+                       kWidestEyes);
+        if (eyes != 0 && separation != context.settings.eye_separation)
+            commands.eye_separation = separation;
     }
 
     /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
@@ -179,37 +114,6 @@ struct Controls::State {
             commands.leaving = !context.settings.leaving;
         else
             commands.tools = Tools{};
-    }
-
-    /// Keys choose the tool of mouse and wand; the wand's button chooses for the wand alone.
-    static void choose_tools(const Reading& now, const ControlContext& context,
-                             Commands& commands) {
-        Tools tools = context.settings.tools;
-        if (now.pressed(Action::first_tools))
-            tools = {};
-        for (const auto& [action, kind] : {std::pair(Action::clip_tool, ToolKind::clip),
-                                           std::pair(Action::ruler_tool, ToolKind::ruler)})
-            if (now.pressed(action))
-                tools.mouse = tools.wand = kind;
-        if (now.pressed(WandButton::next_tool))
-            tools.wand = static_cast<ToolKind>((static_cast<std::size_t>(tools.wand) + 1) %
-                                               kNames<ToolKind>.size());
-        if (tools != context.settings.tools)
-            commands.tools = tools;
-        if (now.pressed(Action::snap_clip))
-            commands.clip = snapped_next(context.settings.clip, context.data);
-        if (now.pressed(Action::flip_clip) && context.settings.clip.shown)
-            commands.clip = flipped(context.settings.clip);
-        if (now.pressed(Action::remove_made))
-            remove_made(context, commands);
-    }
-
-    static void remove_made(const ControlContext& context, Commands& commands) {
-        switch (context.settings.tools.mouse) {
-        case ToolKind::clip: commands.clip = ClipPlane{}; break;
-        case ToolKind::ruler: commands.ruler = Ruler{}; break;
-        default: commands.mark = Mark{};
-        }
     }
 
     /// Undo and redo override all other commands of the frame.
@@ -281,9 +185,9 @@ Commands Controls::update(const InputState& input, const ControlContext& context
         commands.isovalue = isovalue;
     s.time_controls.update(now, context, input.time, Seconds(std::min(elapsed, kLongestPlayback)),
                            commands, s.notes);
-    s.switches(now, context, input.time, commands);
+    s.move_eyes(now, context, input.time, commands);
     s.leave(now, context, commands);
-    s.choose_tools(now, context, commands);
+    s.press(now, context, commands);
     const ToolBox::Outcome made = s.with_tools(now, context, volume);
     merge(commands, made.commands);
     merge(s.found, made.found);

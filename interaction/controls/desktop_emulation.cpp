@@ -1,6 +1,7 @@
 // Mouse and keyboard play a tracked head and a wand.
 #include "interaction/controls/desktop_emulation.h"
 
+#include "interaction/controls/action_table.h"
 #include "interaction/input/actions.h"
 #include "interaction/input/dead_zone.h"
 
@@ -58,9 +59,10 @@ bool is_modifier(Action action) {
 std::vector<Action> actions_of(Key key, std::optional<Chord> chord) {
     std::vector<Action> actions;
     for (const KeyLine& line : key_lines())
-        for (const KeyBinding& binding : line.bindings)
-            if (binding.key == key && (binding.chord == chord || is_modifier(binding.action)))
-                actions.push_back(binding.action);
+        for (const ActionRow& row : line.actions)
+            for (const KeyStroke& stroke : row.keys)
+                if (stroke.key == key && (stroke.chord == chord || is_modifier(row.action)))
+                    actions.push_back(row.action);
     return actions;
 }
 
@@ -90,7 +92,7 @@ struct DesktopEmulation::State {
 
     std::set<Key> down;
     std::map<Key, std::vector<Action>> held_as; ///< what a key meant when it went down
-    std::array<KeySwitch, static_cast<std::size_t>(Action::count)> switches;
+    std::array<KeySwitch, kActions> switches;
     std::optional<MouseMoveEvent> cursor;
     std::uint64_t mouse_down = 0, mouse_tapped = 0;
     std::array<float, kMouseValuators> mouse{};
@@ -292,12 +294,10 @@ InputState DesktopEmulation::poll(Seconds now) {
     const double elapsed = s.last_poll ? (now - *s.last_poll).count() : 0.0;
     s.last_poll = now;
     const bool was_reset = s.shown(reset);
-    std::uint64_t keys = 0, more_keys = 0;
+    ActionSet keys;
     for (std::size_t i = 0; i < s.switches.size(); ++i) {
-        const auto action = static_cast<Action>(i);
         s.switches[i].poll();
-        if (s.switches[i].shown)
-            (is_of_more_keys(action) ? more_keys : keys) |= bit(action);
+        keys[i] = s.switches[i].shown;
     }
     s.look();
     s.walk(static_cast<float>(std::clamp(elapsed, 0.0, kLongestStep)));
@@ -317,8 +317,7 @@ InputState DesktopEmulation::poll(Seconds now) {
                              true,
                              s.mouse_down | s.mouse_tapped,
                              {s.mouse.begin(), s.mouse.end()}});
-    input.devices.push_back({"keys", std::nullopt, true, keys, {}});
-    input.devices.push_back({"more_keys", std::nullopt, true, more_keys, {}});
+    input.devices.push_back({.name = "keys", .pose = {}, .valuators = {}, .actions = keys});
     if (const auto ray = s.pointer())
         input.devices.push_back({"pointer", ray, true, 0, {}});
     if (s.gamepad.present)

@@ -34,7 +34,7 @@ struct StandingPlace {
 /// Nothing if the picture under the cursor is not of that head.
 using EyeRay = std::function<std::optional<Pose>(const Pose& head, const MouseMoveEvent& cursor)>;
 
-/// Every poll states `head`, `wand`, `mouse`, `keys` and `more_keys`, `gamepad` while there is one, and
+/// Every poll states `head`, `wand`, `mouse` and `keys`, `gamepad` while there is one, and
 /// `pointer` (the eye's ray through the cursor) while that is known. Buttons and valuators are as
 /// in actions.h. A key that is tapped between two polls is down in the next poll; several taps are
 /// shown in several polls, so that slow frames lose none. Without focus, no key or mouse button is

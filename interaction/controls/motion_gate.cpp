@@ -1,7 +1,7 @@
 // Decides when the picture may be slow and exact.
 #include "interaction/controls/motion_gate.h"
 
-#include "interaction/input/actions.h"
+#include "interaction/controls/action_table.h"
 #include "interaction/pose_history.h"
 
 #include <algorithm>
@@ -19,10 +19,7 @@ bool below(const Velocity& speeds, const StillnessLimits& limits, double factor)
 }
 
 bool is_pending(const DeviceState& device) {
-    const std::uint64_t quiet = device.name == "keys"        ? quiet_actions()
-                                : device.name == "more_keys" ? quiet_among_more_keys()
-                                                             : 0;
-    return (device.buttons & ~quiet) != 0 ||
+    return device.buttons != 0 || (device.actions & ~quiet_actions()).any() ||
            std::ranges::any_of(device.valuators, [](float value) { return value != 0.0f; });
 }
 

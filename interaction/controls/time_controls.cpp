@@ -163,14 +163,6 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
         if (settings.blends())
             commands.fraction = reached.fraction;
     }
-    if (now.pressed(Action::between_steps))
-        commands.between =
-            settings.between == BetweenSteps::blend ? BetweenSteps::hold : BetweenSteps::blend;
-    if (now.pressed(Action::follow)) {
-        commands.follow = !settings.follow;
-        if (*commands.follow && steps > 0)
-            commands.step = steps - 1;
-    }
     if (state != settings.playback)
         commands.playback = state;
     if (range != settings.play_range)

@@ -1,8 +1,11 @@
-// What keys, mouse, wand and gamepad do: the meaning of each button bit and valuator.
+// What keys, mouse, wand and gamepad do: the actions, and the meaning of each button and valuator.
 #pragma once
 
 #include "interaction/input/window_event.h"
+#include "interaction/setting_values.h"
 
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -11,8 +14,8 @@
 
 namespace isochron::interaction {
 
-/// Bits of the devices `keys` and, from `kFirstOfMoreKeys` on, `more_keys`: the action, whichever key
-/// is bound to it.
+/// What a key does, whichever key it is. Each action has a row in
+/// interaction/controls/action_table.cpp, which tells its name, keys, words and effect.
 enum class Action : std::uint8_t {
     walk_forward,
     walk_back,
@@ -48,7 +51,6 @@ enum class Action : std::uint8_t {
     stamp,
     panel,
     quit,
-    // Add new ones at the end: recordings store the bits.
     turn_left,
     turn_right,
     teleport,
@@ -64,9 +66,6 @@ enum class Action : std::uint8_t {
     probe,
     undo,
     redo,
-    first_tools,
-    clip_tool,
-    ruler_tool,
     snap_clip,
     remove_made,
     follow,
@@ -98,12 +97,23 @@ enum class Action : std::uint8_t {
     export_surfaces,
     count
 };
-/// Recordings keep 64 bits of a device. Those of older versions have no `more_keys`.
-inline constexpr int kFirstOfMoreKeys = 64;
-static_assert(static_cast<int>(Action::count) <= 2 * kFirstOfMoreKeys);
+/// Each tool can be chosen, too: those actions follow the others.
+constexpr Action choice_of(ToolKind tool) {
+    return static_cast<Action>(static_cast<std::size_t>(Action::count) +
+                               static_cast<std::size_t>(tool));
+}
+inline constexpr std::size_t kActions =
+    static_cast<std::size_t>(Action::count) + kNames<ToolKind>.size();
 
-constexpr bool is_of_more_keys(Action action) {
-    return static_cast<int>(action) >= kFirstOfMoreKeys;
+inline constexpr int kNoOldBit = -1; ///< of an action that recordings of version 1 do not know
+
+/// The actions of the keys that are down.
+using ActionSet = std::bitset<kActions>;
+inline ActionSet bit(Action action) {
+    return ActionSet().set(static_cast<std::size_t>(action));
+}
+inline bool holds(const ActionSet& set, Action action) {
+    return set[static_cast<std::size_t>(action)];
 }
 
 inline constexpr float kHurry = 3.0f; ///< times as fast while Shift is held
@@ -172,38 +182,30 @@ template <typename Button>
 constexpr std::uint64_t bit(Button button) {
     return std::uint64_t{1} << static_cast<unsigned>(button);
 }
-/// In the buttons of `keys`, or of `more_keys` if the action is one of those.
-template <>
-constexpr std::uint64_t bit(Action action) {
-    return std::uint64_t{1} << static_cast<unsigned>(action) % kFirstOfMoreKeys;
-}
 
 /// The modifiers with which a key is bound: none (Shift may be held all the same), Ctrl, or Ctrl
 /// and Shift. A key with Alt, Super, or a Ctrl that it is not bound with, does nothing.
 enum class Chord : std::uint8_t { none, control, control_shift };
 
-struct KeyBinding {
+struct KeyStroke {
     Key key;
-    Action action;
     Chord chord = Chord::none;
+    constexpr KeyStroke(Key pressed, Chord with = Chord::none) : key(pressed), chord(with) {}
+    /// @param upper_case a letter, a digit, or what else is printed on the key
+    constexpr KeyStroke(char upper_case, Chord with = Chord::none)
+        : key(static_cast<Key>(upper_case)), chord(with) {}
+    bool operator==(const KeyStroke&) const = default;
 };
-
-/// One line of documentation together with the bindings that it documents.
-struct KeyLine {
-    std::string_view keys;   ///< as printed on the keyboard
-    std::string_view effect; ///< what they do
-    std::vector<KeyBinding> bindings;
-};
-/// All keys with actions; `control_lines` has the keys that the window itself handles. The line
-/// for Shift and Ctrl themselves comes last, since other lines say what they do with other keys.
-std::span<const KeyLine> key_lines();
+/// For people: `Space`, `Ctrl + Shift + Z`.
+std::string name_of(const KeyStroke& stroke);
 
 /// The devices that controls are grouped by in the help.
 enum class DeviceKind : std::uint8_t { mouse, keyboard, hands, gamepad };
 /// For people: `Keyboard`, `Tracked hands (wands) and a headset's controllers`, ...
 std::string_view words_of(DeviceKind device);
 
-/// A control of mouse, wand or gamepad, or a key that the window itself handles.
+/// A control of mouse, wand or gamepad, or a key that the window itself handles; the other keys are
+/// in interaction/controls/action_table.h.
 struct ControlLine {
     DeviceKind device;
     std::string_view control, effect;
@@ -215,22 +217,5 @@ struct ControlGroup {
     DeviceKind device;
     std::vector<std::string> lines;
 };
-
-/// Actions that do not change the picture of the data: the motion gate ignores them.
-constexpr std::uint64_t quiet_actions() {
-    return bit(Action::shift) | bit(Action::control) | bit(Action::quality_auto) |
-           bit(Action::quality_fast) | bit(Action::quality_best) | bit(Action::quality_paper) |
-           bit(Action::screenshot) | bit(Action::stamp) | bit(Action::panel) | bit(Action::quit) |
-           bit(Action::save_view) | bit(Action::bounding_box) | bit(Action::next_surface) |
-           bit(Action::room_panel) | bit(Action::pick) | bit(Action::probe) | bit(Action::undo) |
-           bit(Action::redo) | bit(Action::first_tools) | bit(Action::clip_tool) |
-           bit(Action::ruler_tool) | bit(Action::snap_clip) | bit(Action::remove_made) |
-           bit(Action::ping_pong);
-}
-/// The same among `more_keys`: all but those that show another step.
-constexpr std::uint64_t quiet_among_more_keys() {
-    return ~(bit(Action::first_step) | bit(Action::last_step) | bit(Action::next_time) |
-             bit(Action::previous_time));
-}
 
 } // namespace isochron::interaction

@@ -19,6 +19,7 @@ DeviceState merged(const DeviceState& first, const DeviceState& second) {
         }
     }
     result.buttons |= second.buttons;
+    result.actions |= second.actions;
     result.valuators.resize(std::max(first.valuators.size(), second.valuators.size()), 0.0f);
     for (std::size_t i = 0; i < second.valuators.size(); ++i)
         if (result.valuators[i] == 0.0f)

@@ -9,9 +9,10 @@
 
 namespace isochron::interaction {
 
-/// The buttons that were down in a frame; the next frame compares with them to find presses.
+/// The keys and buttons that were down in a frame; the next frame finds presses by comparison.
 struct ButtonLevels {
-    std::uint64_t keys = 0, gamepad = 0, wand = 0, other = 0, mouse = 0, more_keys = 0;
+    ActionSet keys;
+    std::uint64_t gamepad = 0, wand = 0, other = 0, mouse = 0;
 };
 
 /// Points into the state that it reads, which must outlive it.
@@ -21,7 +22,6 @@ struct Reading {
     const DeviceState* other; ///< `wand2`, of the other hand
     const DeviceState* mouse;
     const DeviceState* keys;
-    const DeviceState* more_keys; ///< the actions that `keys` has no bits for
     const DeviceState* gamepad;
     const DeviceState* pointer; ///< the eye's ray through the cursor
     ButtonLevels before;        ///< of the frame before
@@ -29,12 +29,12 @@ struct Reading {
     /// @param levels of the frame before; needed by `pressed`
     explicit Reading(const InputState& input, const ButtonLevels& levels = {})
         : head(input.find("head")), wand(input.find("wand")), other(input.find("wand2")),
-          mouse(input.find("mouse")), keys(input.find("keys")), more_keys(input.find("more_keys")),
-          gamepad(input.find("gamepad")), pointer(input.find("pointer")), before(levels) {}
+          mouse(input.find("mouse")), keys(input.find("keys")), gamepad(input.find("gamepad")),
+          pointer(input.find("pointer")), before(levels) {}
 
     ButtonLevels levels() const {
-        return {buttons(keys),  buttons(gamepad), buttons(wand),
-                buttons(other), buttons(mouse),   buttons(more_keys)};
+        return {keys ? keys->actions : ActionSet(), buttons(gamepad), buttons(wand), buttons(other),
+                buttons(mouse)};
     }
 
     static std::uint64_t buttons(const DeviceState* device) { return device ? device->buttons : 0; }
@@ -53,16 +53,11 @@ struct Reading {
     double drag(MouseBit which, int direction) const {
         return valuator(mouse, 2 * static_cast<std::size_t>(which) + direction);
     }
-    bool key(Action action) const {
-        return (buttons(is_of_more_keys(action) ? more_keys : keys) & bit(action)) != 0;
-    }
+    bool key(Action action) const { return keys && holds(keys->actions, action); }
     bool pad(GamepadButton which) const { return (buttons(gamepad) & bit(which)) != 0; }
     bool wand_button(WandButton which) const { return (buttons(wand) & bit(which)) != 0; }
     // A button is pressed in the frame in which it goes down.
-    bool pressed(Action action) const {
-        return key(action) &&
-               !((is_of_more_keys(action) ? before.more_keys : before.keys) & bit(action));
-    }
+    bool pressed(Action action) const { return key(action) && !holds(before.keys, action); }
     bool pressed(GamepadButton which) const { return pad(which) && !(before.gamepad & bit(which)); }
     bool pressed(WandButton which) const {
         return wand_button(which) && !(before.wand & bit(which));

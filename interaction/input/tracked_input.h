@@ -1,6 +1,7 @@
 // The one interface behind which all input lives: emulation, replay, trackers.
 #pragma once
 
+#include "interaction/input/actions.h"
 #include "interaction/pose.h"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ struct DeviceState {
     std::optional<Velocity> velocity = std::nullopt;   ///< of the pose, if it is known
     std::optional<Seconds> measured = std::nullopt;    ///< session time when the pose was measured
     std::optional<Seconds> device_time = std::nullopt; ///< the same moment by the device's clock
+    ActionSet actions = {};                            ///< of `keys`: those whose keys are down
     Tracking tracking() const;
     bool operator==(const DeviceState&) const = default;
 };
@@ -43,10 +45,10 @@ struct InputState {
     bool operator==(const InputState&) const = default;
 };
 
-/// Whether a button is down or a valuator is not at rest.
+/// Whether a key or button is down or a valuator is not at rest.
 inline bool is_held(const InputState& input) {
     return std::ranges::any_of(input.devices, [](const DeviceState& device) {
-        return device.buttons != 0 ||
+        return device.buttons != 0 || device.actions.any() ||
                std::ranges::any_of(device.valuators, [](float value) { return value != 0.0f; });
     });
 }

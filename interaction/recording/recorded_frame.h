@@ -9,15 +9,17 @@
 
 namespace isochron::interaction {
 
+inline constexpr int kRecordingVersion = 2; ///< that is written
+
 struct RecordingHeader {
-    int version = 1;
-    std::string program;         ///< `isochron 0.1.0`
-    std::string configuration;   ///< the whole text of the configuration file
-    std::string data;            ///< path of the index as given
-    std::string data_hash;       ///< hexadecimal content hash
-    std::array<int, 2> window{}; ///< [pixels] at the start; 0: as the configuration says
-    double text = 0;             ///< height of words, as a share of the window's; 0: as usual
-    Commands start;              ///< the state at the start: every setting
+    int version = kRecordingVersion; ///< of the file that it was read from
+    std::string program;             ///< `isochron 0.1.0`
+    std::string configuration;       ///< the whole text of the configuration file
+    std::string data;                ///< path of the index as given
+    std::string data_hash;           ///< hexadecimal content hash
+    std::array<int, 2> window{};     ///< [pixels] at the start; 0: as the configuration says
+    double text = 0;                 ///< height of words, as a share of the window's; 0: as usual
+    Commands start;                  ///< the state at the start: every setting
     bool operator==(const RecordingHeader&) const = default;
 };
 

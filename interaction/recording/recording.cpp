@@ -225,6 +225,9 @@ Recording read_recording(std::istream& file, const std::string& name) {
             throw Error(reader.message(error.what()));
         }
     }
+    if (recording.header.version == 1)
+        for (RecordedFrame& frame : recording.frames)
+            take_old_bits(frame.input);
     return recording;
 }
 

@@ -15,17 +15,20 @@ namespace isochron::interaction {
 
 /// The file, line by line:
 ///
-///     {"format":"isochron recording","version":1,"program":..,"configuration":..,"data":..,
+///     {"format":"isochron recording","version":2,"program":..,"configuration":..,"data":..,
 ///      "data_hash":..,"start":{commands}}
 ///     {"t":0.0,"devices":[{"name":"head","pose":[x,y,z,qx,qy,qz,qw]},..]}
-///     {"t":0.016,"changed":[{"name":"keys","buttons":4096}],"commands":{"isovalue":112.5}}
+///     {"t":0.016,"changed":[{"name":"keys","actions":["play"]}],"commands":{"isovalue":112.5}}
 ///
 /// `devices` lists all devices, `changed` only those that differ from the frame before; a frame
 /// with neither has the devices of the frame before. Left out are: a device's `valid` if true,
-/// `buttons` if 0, `valuators` if empty, `lost` if false, and `velocity` ([v, w]), `measured` and
-/// `device_time` if the tracker does not give them; a frame's `commands` and `panel` if empty,
-/// `footprint` if it is the same as in the frame before, and `latched` ({"t":..,"devices":[..]}) if
-/// the views were made from `devices`. Numbers round-trip.
+/// `buttons` if 0, `actions` and `valuators` if empty, `lost` if false, and `velocity` ([v, w]),
+/// `measured` and `device_time` if the tracker does not give them; a frame's `commands` and `panel`
+/// if empty, `footprint` if it is the same as in the frame before, and `latched` ({"t":..,"devices":[..]}) if
+/// the views were made from `devices`. Numbers round-trip. `actions` are those whose keys are down,
+/// by their names in the table of actions (interaction/controls/action_table.h).
+///
+/// Version 1, which is read, too, kept actions as `buttons` of the devices `keys` and `more_keys`.
 struct Recording {
     RecordingHeader header;
     std::vector<RecordedFrame> frames;

@@ -1,6 +1,7 @@
 // Recorded frames and headers to JSON and back.
 #include "interaction/recording/recording_json.h"
 
+#include "interaction/controls/action_table.h"
 #include "interaction/error.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/recording/commands_json.h"
@@ -40,6 +41,25 @@ Velocity velocity_from(const json& value) {
     return velocity;
 }
 
+json actions_json(const ActionSet& actions) {
+    json names = json::array();
+    for (std::size_t i = 0; i < actions.size(); ++i)
+        if (actions[i])
+            names.push_back(name_of(static_cast<Action>(i)));
+    return names;
+}
+
+ActionSet actions_from(const json& value) {
+    ActionSet actions;
+    for (const json& name : list(value, "actions", 0, kActions)) {
+        const auto action = action_named(text(name, "actions", kLongestName));
+        if (!action)
+            fail("actions", "names of actions that this program has", name);
+        actions |= bit(*action);
+    }
+    return actions;
+}
+
 json device_json(const DeviceState& device) {
     json result{{"name", device.name}};
     if (device.pose)
@@ -48,6 +68,8 @@ json device_json(const DeviceState& device) {
         result["valid"] = false;
     if (device.buttons != 0)
         result["buttons"] = device.buttons;
+    if (device.actions.any())
+        result["actions"] = actions_json(device.actions);
     if (!device.valuators.empty())
         result["valuators"] = device.valuators;
     if (device.pose_lost)
@@ -71,6 +93,8 @@ DeviceState device_from(const json& value) {
         device.pose_valid = boolean(*found, "valid");
     if (const json* found = members.find("buttons"))
         device.buttons = natural(*found, "buttons", std::numeric_limits<std::uint64_t>::max());
+    if (const json* found = members.find("actions"))
+        device.actions = actions_from(*found);
     if (const json* found = members.find("valuators"))
         for (const json& valuator : list(*found, "valuators", 0, kMostValuatorsOfOne))
             device.valuators.push_back(small_number(valuator, "valuators"));
@@ -84,8 +108,8 @@ DeviceState device_from(const json& value) {
         device.measured = Seconds(number(*found, "measured"));
     if (const json* found = members.find("device_time"))
         device.device_time = Seconds(number(*found, "device_time"));
-    members.done({"name", "pose", "valid", "buttons", "valuators", "lost", "velocity", "measured",
-                  "device_time"});
+    members.done({"name", "pose", "valid", "buttons", "actions", "valuators", "lost", "velocity",
+                  "measured", "device_time"});
     return device;
 }
 
@@ -137,7 +161,7 @@ void add_commands(json& to, const char* key, const Commands& commands) {
 } // namespace
 
 json to_json(const RecordingHeader& header) {
-    json value{{"format", kFormat},         {"version", header.version},
+    json value{{"format", kFormat},         {"version", kRecordingVersion},
                {"program", header.program}, {"configuration", header.configuration},
                {"data", header.data},       {"data_hash", header.data_hash},
                {"window", header.window},   {"start", commands_json(header.start)}};
@@ -154,8 +178,8 @@ RecordingHeader header_from_json(const json& value) {
     members.at("format");
     RecordingHeader header;
     header.version = static_cast<int>(natural(members.at("version"), "version", 1'000'000));
-    if (header.version != kRecordingVersion)
-        throw Error(fmt::format("version: this program reads {}, the recording has {}",
+    if (header.version < 1 || header.version > kRecordingVersion)
+        throw Error(fmt::format("version: this program reads 1 to {}, the recording has {}",
                                 kRecordingVersion, header.version));
     header.program = text(members.at("program"), "program");
     header.configuration = text(members.at("configuration"), "configuration");
@@ -224,6 +248,32 @@ RecordedFrame frame_from_json(const json& value, const RecordedFrame* before) {
         frame.latched = latched_from(*found, frame.input.time);
     members.done({"t", "devices", "changed", "commands", "panel", "footprint", "latched"});
     return frame;
+}
+
+void take_old_bits(InputState& input) {
+    ActionSet actions;
+    int first = 0;
+    for (const char* name : {"keys", "more_keys"}) {
+        const DeviceState* device = input.find(name);
+        for (int i = 0; device && i < 64; ++i)
+            if (device->buttons >> i & 1)
+                if (const auto action = action_of_old_bit(first + i))
+                    actions |= bit(*action);
+        first += 64;
+    }
+    const auto named = [&](const char* name) {
+        return std::ranges::find(input.devices, name, &DeviceState::name);
+    };
+    const auto more = named("more_keys");
+    if (named("keys") != input.devices.end() && more != input.devices.end())
+        input.devices.erase(more);
+    else if (more != input.devices.end())
+        more->name = "keys";
+    const auto keys = named("keys");
+    if (keys == input.devices.end())
+        return;
+    keys->buttons = 0;
+    keys->actions |= actions;
 }
 
 void require_finite(const RecordedFrame& frame) {

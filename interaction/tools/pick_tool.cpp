@@ -25,4 +25,11 @@ ToolOutcome PickTool::update(std::span<const ToolHand> hands, const ToolContext&
     return outcome;
 }
 
+std::vector<MarkedRow> mark_rows(const Commands& commands) {
+    if (!commands.mark || !commands.mark->point)
+        return {};
+    const MarkedPoint& point = *commands.mark->point;
+    return {{point.position, point.value, Moment(point.step, point.fraction)}};
+}
+
 } // namespace isochron::interaction

@@ -10,4 +10,7 @@ class PickTool final : public Tool {
     ToolOutcome update(std::span<const ToolHand> hands, const ToolContext& now) override;
 };
 
+/// The place that these commands have marked.
+std::vector<MarkedRow> mark_rows(const Commands& commands);
+
 } // namespace isochron::interaction

@@ -41,6 +41,18 @@ ToolOutcome RulerTool::update(std::span<const ToolHand> hands, const ToolContext
     return outcome;
 }
 
+std::string ruler_line(const Settings& settings) {
+    return settings.ruler.places.size() < kMostRulerPlaces ? "click two places on surfaces"
+                                                           : "ruler";
+}
+
+std::vector<MarkedRow> ruler_rows(const Commands& commands) {
+    if (!commands.ruler || commands.ruler->places.size() != kMostRulerPlaces)
+        return {};
+    const auto& places = commands.ruler->places;
+    return {{places[0]}, {places[1], glm::distance(places[0], places[1])}};
+}
+
 ToolDrawing draw_ruler(const Settings& settings, const DataFrame& data) {
     ToolDrawing drawing;
     const auto& places = settings.ruler.places;

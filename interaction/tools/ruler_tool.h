@@ -14,4 +14,10 @@ class RulerTool final : public Tool {
 /// A line between the two places and its length in the data's unit, with a cross at each place.
 ToolDrawing draw_ruler(const Settings& settings, const DataFrame& data);
 
+/// What the panel says of it.
+std::string ruler_line(const Settings& settings);
+
+/// Its two places once both are there, the second one with the distance from the first.
+std::vector<MarkedRow> ruler_rows(const Commands& commands);
+
 } // namespace isochron::interaction

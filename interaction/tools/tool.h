@@ -57,6 +57,13 @@ struct ToolDrawing {
     bool operator==(const ToolDrawing&) const = default;
 };
 
+/// A place that a tool has marked, as a row of `isochron table`.
+struct MarkedRow {
+    glm::dvec3 position; ///< physical space
+    std::optional<double> value = {};
+    std::optional<Moment> at = {}; ///< nothing: the moment that was shown
+};
+
 /// Turns the readings of the hands that hold it into commands. It depends only on the frames that
 /// it is given. Its results are kept in the session's state, so they are recorded, replayed, saved
 /// and undone like everything else.

@@ -55,7 +55,7 @@ std::vector<ToolHand> ToolBox::hands_with(ToolKind kind, const Reading& now,
     if (kind == ToolKind::pick)
         hands.push_back(hand_of(now.picking_ray(),
                                 now.key(Action::pick) || now.wand_button(WandButton::pick),
-                                (now.before.keys & bit(Action::pick)) != 0 ||
+                                holds(now.before.keys, Action::pick) ||
                                     (now.before.wand & bit(WandButton::pick)) != 0));
     return hands;
 }

@@ -18,15 +18,66 @@ std::unique_ptr<Tool> made() {
 
 const std::array<ToolRow, kNames<ToolKind>.size()>& tool_table() {
     static const std::array<ToolRow, kNames<ToolKind>.size()> rows{{
-        {ToolKind::grab, "grab", "a hand holds the volume; the mouse turns it", false,
-         made<GrabTool>, nullptr},
-        {ToolKind::pick, "pick", "marks the place on a surface", true, made<PickTool>, nullptr},
-        {ToolKind::clip, "clip plane", "cuts the surfaces; hold the plane to move and turn it",
-         true, made<ClipTool>, draw_clip},
-        {ToolKind::ruler, "ruler", "measures between two places on surfaces", true, made<RulerTool>,
-         draw_ruler},
+        {.kind = ToolKind::grab,
+         .words = "grab",
+         .effect = "a hand holds the volume; the mouse turns it",
+         .icon = "M 12 3 L 12 21 M 3 12 L 21 12 M 9 6 L 12 3 L 15 6 M 9 18 L 12 21 L 15 18 "
+                 "M 6 9 L 3 12 L 6 15 M 18 9 L 21 12 L 18 15",
+         .found_as = "grab",
+         .key = {},
+         .make = made<GrabTool>,
+         .remove = [](Commands& commands) { commands.mark = Mark{}; }},
+        {.kind = ToolKind::pick,
+         .words = "pick",
+         .effect = "marks the place on a surface",
+         .icon = "M 12 21 L 7 13 L 6 9 L 8 5 L 12 3 L 16 5 L 18 9 L 17 13 Z D 12 9 2.2",
+         .found_as = "pick and grab",
+         .key = '4',
+         .looks_at_surfaces = true,
+         .make = made<PickTool>,
+         .makes = "mark",
+         .made = [](const Settings& settings) { return settings.mark.point.has_value(); },
+         .remove = [](Commands& commands) { commands.mark = Mark{}; },
+         .rows = mark_rows,
+         .old_bit = 49},
+        {.kind = ToolKind::clip,
+         .words = "clip plane",
+         .effect = "cuts the surfaces; hold the plane to move and turn it",
+         .icon = "M 4 8 L 13 4 L 20 8 L 20 16 L 11 20 L 4 16 Z M 8 22 L 8 11 L 16 2 L 16 13 Z",
+         .found_as = "clip plane",
+         .key = '5',
+         .looks_at_surfaces = true,
+         .make = made<ClipTool>,
+         .makes = "clip plane",
+         .made = [](const Settings& settings) { return settings.clip.shown; },
+         .remove = [](Commands& commands) { commands.clip = ClipPlane{}; },
+         .draw = draw_clip,
+         .old_bit = 50},
+        {.kind = ToolKind::ruler,
+         .words = "ruler",
+         .effect = "measures between two places on surfaces",
+         .icon = "M 2 16 L 16 2 L 22 8 L 8 22 Z M 6 12 L 9 15 M 9 9 L 11 11 M 12 6 L 15 9",
+         .found_as = "ruler (measures a length)",
+         .key = '6',
+         .looks_at_surfaces = true,
+         .make = made<RulerTool>,
+         .makes = "ruler",
+         .made = [](const Settings& settings) { return !settings.ruler.places.empty(); },
+         .remove = [](Commands& commands) { commands.ruler = Ruler{}; },
+         .line = ruler_line,
+         .draw = draw_ruler,
+         .rows = ruler_rows,
+         .old_bit = 51},
     }};
     return rows;
+}
+
+std::string tool_keys() {
+    std::string keys;
+    for (const ToolRow& row : tool_table())
+        if (row.key)
+            keys += (keys.empty() ? "" : " ") + name_of(*row.key);
+    return keys;
 }
 
 ToolDrawing drawing_of(const Settings& settings, const DataFrame& data) {

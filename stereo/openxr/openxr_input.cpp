@@ -119,7 +119,9 @@ void OpenXrInput::poll_hand(Seconds now, const OpenXrSession& session, const Ope
 }
 
 void OpenXrInput::poll_keys(const OpenXrSession& session, const OpenXrActions& actions) {
-    const auto add = [&](bool down, Action action) { keys_ |= down ? bit(action) : 0; };
+    const auto add = [&](bool down, Action action) {
+        keys_ |= down ? bit(action) : interaction::ActionSet();
+    };
     const auto pressed = [&](HandAction action) { // by either hand
         return std::ranges::any_of(
             kHands, [&](Hand hand) { return actions.pressed(session.handle(), action, hand); });
@@ -138,7 +140,7 @@ void OpenXrInput::poll_keys(const OpenXrSession& session, const OpenXrActions& a
 
 interaction::InputState OpenXrInput::poll(Seconds now, const OpenXrSession* session,
                                           const OpenXrActions* actions) {
-    keys_ = 0;
+    keys_.reset();
     for (interaction::TrackedDevice& hand : hands_) {
         hand.set_buttons(0);
         for (std::size_t i = 0; i < static_cast<std::size_t>(WandValuator::count); ++i)
@@ -158,8 +160,8 @@ interaction::InputState OpenXrInput::poll(Seconds now, const OpenXrSession* sess
     for (const Hand hand : kHands)
         if (seen_[static_cast<std::size_t>(hand)])
             input.devices.push_back(hands_[static_cast<std::size_t>(hand)].poll(now));
-    if (keys_)
-        input.devices.push_back({.name = "keys", .buttons = keys_, .valuators = {}});
+    if (keys_.any())
+        input.devices.push_back({.name = "keys", .pose = {}, .valuators = {}, .actions = keys_});
     return input;
 }
 

@@ -39,7 +39,7 @@ class OpenXrInput {
     interaction::TrackedDevice head_;
     std::array<interaction::TrackedDevice, kHands.size()> hands_;
     std::array<bool, kHands.size()> seen_{};
-    std::uint64_t keys_ = 0;
+    interaction::ActionSet keys_;
     std::optional<XrTime> recentered_at_;
 };
 

@@ -1,11 +1,13 @@
 // Short functions for window events, device states and seeds in tests.
 #pragma once
 
+#include "interaction/controls/action_table.h"
 #include "interaction/input/actions.h"
 #include "interaction/input/tracked_input.h"
 #include "interaction/input/window_event.h"
 
 #include <random>
+#include <vector>
 
 namespace isochron::interaction {
 
@@ -27,8 +29,8 @@ inline const Pose kStanding{{0.0f, 1.6f, 0.0f}, {1.0f, 0.0f, 0.0f, 0.0f}};
 inline DeviceState head_at(const Pose& pose) {
     return {"head", pose, true, 0, {}};
 }
-inline DeviceState keys_down(std::uint64_t actions) {
-    return {"keys", std::nullopt, true, actions, {}};
+inline DeviceState keys_down(const ActionSet& actions) {
+    return {.name = "keys", .pose = {}, .valuators = {}, .actions = actions};
 }
 inline DeviceState wand_at(const Pose& pose, std::uint64_t buttons = 0, float isovalue = 0,
                            float scale = 0) {
@@ -36,6 +38,21 @@ inline DeviceState wand_at(const Pose& pose, std::uint64_t buttons = 0, float is
 }
 inline DeviceState mouse_dragged(std::vector<float> valuators) {
     return {"mouse", std::nullopt, true, 0, std::move(valuators)};
+}
+
+/// A key with what it does.
+struct KeyBinding {
+    Key key;
+    Chord chord;
+    Action action;
+};
+inline std::vector<KeyBinding> key_bindings() {
+    std::vector<KeyBinding> all;
+    for (const KeyLine& line : key_lines())
+        for (const ActionRow& row : line.actions)
+            for (const KeyStroke& press : row.keys)
+                all.push_back({press.key, press.chord, row.action});
+    return all;
 }
 
 /// std::mt19937 with numbers that are 32 bits wide to the compiler too.

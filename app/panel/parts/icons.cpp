@@ -13,21 +13,13 @@
 namespace isochron::app {
 namespace {
 
-/// What to draw on a square of 24 units, y down. A letter, then numbers: `M` begins a line at a
-/// point and `L` goes on to the next one; `Z` closes the line and `F` fills it; `O` is a circle
-/// and `D` a disc, each with its middle and its radius.
 constexpr std::array<const char*, static_cast<std::size_t>(Icon::count)> kPaths{
     "M 3 19 L 3 5 L 9 5 L 11 8 L 19 8 L 19 11 M 3 19 L 7 11 L 22 11 L 18 19 Z",   // open
     "M 9 5 L 4 10 L 9 15 M 4 10 L 15 10 L 19 12 L 20 15 L 19 18 L 15 20 L 10 20", // undo
     "M 15 5 L 20 10 L 15 15 M 20 10 L 9 10 L 5 12 L 4 15 L 5 18 L 9 20 L 14 20",  // redo
-    "M 12 3 L 12 21 M 3 12 L 21 12 M 9 6 L 12 3 L 15 6 M 9 18 L 12 21 L 15 18 "   // hand
-    "M 6 9 L 3 12 L 6 15 M 18 9 L 21 12 L 18 15",
-    "M 12 21 L 7 13 L 6 9 L 8 5 L 12 3 L 16 5 L 18 9 L 17 13 Z D 12 9 2.2",        // pick
-    "M 4 8 L 13 4 L 20 8 L 20 16 L 11 20 L 4 16 Z M 8 22 L 8 11 L 16 2 L 16 13 Z", // clip
-    "M 2 16 L 16 2 L 22 8 L 8 22 Z M 6 12 L 9 15 M 9 9 L 11 11 M 12 6 L 15 9",     // ruler
-    "O 12 12 9 D 12 12 5",                                                         // record
-    "M 3 7 L 8 7 L 10 4 L 14 4 L 16 7 L 21 7 L 21 19 L 3 19 Z O 12 13 3.6",        // picture
-    "M 3 5 L 21 5 L 21 19 L 3 19 Z M 7 5 L 7 19 M 17 5 L 17 19 M 3 12 L 7 12 "     // movie
+    "O 12 12 9 D 12 12 5",                                                        // record
+    "M 3 7 L 8 7 L 10 4 L 14 4 L 16 7 L 21 7 L 21 19 L 3 19 Z O 12 13 3.6",       // picture
+    "M 3 5 L 21 5 L 21 19 L 3 19 Z M 7 5 L 7 19 M 17 5 L 17 19 M 3 12 L 7 12 "    // movie
     "M 17 12 L 21 12",
     "O 10.5 10.5 6.5 M 15.5 15.5 L 21 21",                                               // search
     "O 12 12 9.5 M 9 9.5 L 10 7.6 L 12 7 L 14 7.6 L 15 9.5 L 14 11.2 L 12 12.5 L 12 14 " // help
@@ -84,9 +76,11 @@ struct Pen {
 
 } // namespace
 
-void draw_icon(ImDrawList& list, Icon icon, const ImVec2& middle, float size, ImU32 color) {
+IconPath::IconPath(Icon icon) : steps(kPaths[static_cast<std::size_t>(icon)]) {}
+
+void draw_icon(ImDrawList& list, IconPath icon, const ImVec2& middle, float size, ImU32 color) {
     Pen pen{list, {middle.x - size / 2, middle.y - size / 2}, size / 24.0f, color};
-    std::istringstream path(kPaths[static_cast<std::size_t>(icon)]);
+    std::istringstream path{std::string(icon.steps)};
     char step = 0;
     float x = 0, y = 0, radius = 0;
     while (path >> step) {
@@ -110,7 +104,7 @@ void draw_icon(ImDrawList& list, Icon icon, const ImVec2& middle, float size, Im
     pen.finish('M');
 }
 
-bool icon_button(const char* id, Icon icon, const char* tip_words, bool on, float side) {
+bool icon_button(const char* id, IconPath icon, const char* tip_words, bool on, float side) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool pressed = ImGui::InvisibleButton(id, {side, side});
     ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <cstdint>
+#include <string_view>
 
 namespace isochron::app {
 
@@ -11,10 +12,6 @@ enum class Icon : std::uint8_t {
     open,
     undo,
     redo,
-    hand,
-    pick,
-    clip,
-    ruler,
     record,
     picture,
     movie,
@@ -48,14 +45,23 @@ enum class Icon : std::uint8_t {
     count
 };
 
+/// What to draw on a square of 24 units, y down. A letter, then numbers: `M` begins a line at a
+/// point and `L` goes on to the next one; `Z` closes the line and `F` fills it; `O` is a circle
+/// and `D` a disc, each with its middle and its radius.
+struct IconPath {
+    std::string_view steps;
+    constexpr explicit IconPath(std::string_view path) : steps(path) {}
+    IconPath(Icon icon);
+};
+
 /// @param size of its square, panel pixels
-void draw_icon(ImDrawList& list, Icon icon, const ImVec2& middle, float size, ImU32 color);
+void draw_icon(ImDrawList& list, IconPath icon, const ImVec2& middle, float size, ImU32 color);
 
 inline constexpr float kIconButton = 28.0f; ///< side of a button with an icon, panel pixels
 
 /// A button with an icon and a tip. @param tip_words empty: none @param on drawn as switched on
 /// @return whether it was pressed
-bool icon_button(const char* id, Icon icon, const char* tip_words, bool on = false,
+bool icon_button(const char* id, IconPath icon, const char* tip_words, bool on = false,
                  float side = kIconButton);
 
 } // namespace isochron::app

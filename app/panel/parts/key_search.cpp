@@ -5,6 +5,7 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
+#include "interaction/controls/action_table.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -17,94 +18,12 @@
 namespace isochron::app {
 namespace {
 
-using interaction::Action;
 using interaction::Chord;
 using interaction::Key;
 using interaction::KeyEvent;
 using interaction::Modifier;
 
 constexpr const char* kNothing = "no command has these words";
-
-/// What these actions do while their keys are held, or with the mouse; a press alone does nothing.
-constexpr std::array kHeld{Action::walk_forward, Action::walk_back,     Action::walk_left,
-                           Action::walk_right,   Action::walk_up,       Action::walk_down,
-                           Action::shift,        Action::control,       Action::grab,
-                           Action::fly,          Action::grow,          Action::shrink,
-                           Action::teleport,     Action::isovalue_rise, Action::isovalue_fall,
-                           Action::pick,         Action::probe};
-
-/// Words for actions that share a line of the table of keys with others.
-constexpr std::pair<Action, const char*> kWords[]{
-    {Action::isovalue_up, "raise the isovalue"},
-    {Action::isovalue_down, "lower the isovalue"},
-    {Action::step_forward, "one step forward"},
-    {Action::step_back, "one step back"},
-    {Action::faster, "play twice as fast"},
-    {Action::slower, "play half as fast"},
-    {Action::axis_view, "look along the next axis"},
-    {Action::isometric_view, "isometric view: look from a corner"},
-    {Action::exaggerate, "exaggerate heights (z) more"},
-    {Action::flatten, "exaggerate heights (z) less"},
-    {Action::turn_left, "turn to the left by 30 degrees"},
-    {Action::turn_right, "turn to the right by 30 degrees"},
-    {Action::save_view, "save this viewpoint"},
-    {Action::next_view, "go to the next saved viewpoint"},
-    {Action::quality_auto, "quality: automatic"},
-    {Action::quality_fast, "quality: fast"},
-    {Action::quality_best, "quality: best"},
-    {Action::quality_paper, "quality: as in the paper"},
-    {Action::eyes_apart, "eyes 1 mm further apart"},
-    {Action::eyes_together, "eyes 1 mm closer together"},
-    {Action::next_array, "next array of the surfaces"},
-    {Action::next_color_array, "next array to color by"},
-    {Action::undo, "undo"},
-    {Action::redo, "redo"},
-    {Action::first_tools, "tool: pick and grab"},
-    {Action::clip_tool, "tool: clip plane"},
-    {Action::ruler_tool, "tool: ruler (measures a length)"},
-    {Action::loop, "loop: start again after the last step"},
-    {Action::ping_pong, "play back and forth: on, off"},
-    {Action::between_steps, "between steps: blend them, or hold the step before"},
-    {Action::range_first, "begin playing at this step"},
-    {Action::range_last, "end playing at this step"},
-    {Action::range_all, "play all steps"},
-    {Action::first_step, "go to the first step"},
-    {Action::last_step, "go to the last step"},
-    {Action::skip_more, "skip more steps while time plays"},
-    {Action::skip_fewer, "skip fewer steps while time plays"},
-    {Action::save_time, "bookmark this step, or remove its bookmark"},
-    {Action::next_time, "go to the next bookmark"},
-    {Action::previous_time, "go to the previous bookmark"},
-    {Action::save_session, "save the session now"},
-    {Action::export_surfaces, "export the surfaces as files, or cancel the export"},
-    {Action::flip_clip, "clip plane: cut away the other side"},
-};
-
-std::string name_of_key(Key key) {
-    constexpr std::pair<Key, const char*> kNames[]{
-        {Key::space, "Space"}, {Key::escape, "Escape"},   {Key::enter, "Enter"},
-        {Key::tab, "Tab"},     {Key::insert, "Insert"},   {Key::del, "Delete"},
-        {Key::right, "Right"}, {Key::left, "Left"},       {Key::down, "Down"},
-        {Key::up, "Up"},       {Key::page_up, "Page Up"}, {Key::page_down, "Page Down"},
-        {Key::home, "Home"},   {Key::end, "End"},         {Key::equal, "+"}};
-    for (const auto& [each, name] : kNames)
-        if (each == key)
-            return name;
-    const auto code = static_cast<int>(key);
-    if (key >= Key::f1 && key <= Key::f12)
-        return fmt::format("F{}", code - static_cast<int>(Key::f1) + 1);
-    return std::string(1, static_cast<char>(code));
-}
-
-KeyCommand command_of(const interaction::KeyLine& line, const interaction::KeyBinding& binding) {
-    const auto* words =
-        std::ranges::find(kWords, binding.action, &std::pair<Action, const char*>::first);
-    const char* with = binding.chord == Chord::control_shift ? "Ctrl + Shift + "
-                       : binding.chord == Chord::control     ? "Ctrl + "
-                                                             : "";
-    return {words == std::end(kWords) ? std::string(line.effect) : words->second,
-            with + name_of_key(binding.key), binding.key, binding.chord, binding.action};
-}
 
 std::vector<KeyCommand> all_key_commands() {
     std::vector<KeyCommand> all{
@@ -113,14 +32,11 @@ std::vector<KeyCommand> all_key_commands() {
          Chord::control_shift},
         {"help: keys, mouse and devices", "F1", Key::f1, Chord::none, {}, false},
         {"full screen on, off", "F11", Key::f11, Chord::none, {}, false}};
-    std::vector<Action> listed(kHeld.begin(), kHeld.end());
     for (const interaction::KeyLine& line : interaction::key_lines())
-        for (const interaction::KeyBinding& binding : line.bindings) {
-            if (std::ranges::find(listed, binding.action) != listed.end())
-                continue;
-            listed.push_back(binding.action);
-            all.push_back(command_of(line, binding));
-        }
+        for (const interaction::ActionRow& row : line.actions)
+            if (!row.keys.empty() && !(row.traits & interaction::kHeld))
+                all.push_back({row.words.empty() ? line.effect : row.words, name_of(row.keys[0]),
+                               row.keys[0].key, row.keys[0].chord, row.action});
     return all;
 }
 

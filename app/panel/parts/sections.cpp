@@ -197,11 +197,13 @@ void hand_rows(const PanelModel& model, Commands& commands) {
     std::vector<std::string> words;
     for (const interaction::ToolRow& each : interaction::tool_table())
         words.emplace_back(each.words);
+    const std::string keys =
+        fmt::format("what the hand's first button does ({})", interaction::tool_keys());
     interaction::Tools tools = model.asked.tools;
     const auto tool_row = [&](const char* label, const char* id, interaction::ToolKind& tool) {
         row(label);
-        if (const auto chosen = choice_field(id, words[static_cast<std::size_t>(tool)], words,
-                                             "what the hand's first button does (4, 5, 6)"))
+        if (const auto chosen =
+                choice_field(id, words[static_cast<std::size_t>(tool)], words, keys.c_str()))
             tool = interaction::tool_table()[*chosen].kind;
     };
     tool_row("right hand", "##right", tools.wand);

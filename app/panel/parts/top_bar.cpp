@@ -42,20 +42,6 @@ void way_button(const char* id, Icon icon, const char* effect, const Commands* c
     ImGui::EndDisabled();
 }
 
-struct ToolFace {
-    Icon icon;
-    const char* key;
-};
-ToolFace face_of(ToolKind tool) {
-    switch (tool) {
-    case ToolKind::pick: return {Icon::pick, " (4)"};
-    case ToolKind::clip: return {Icon::clip, " (5)"};
-    case ToolKind::ruler: return {Icon::ruler, " (6)"};
-    case ToolKind::grab: break;
-    }
-    return {Icon::hand, ""};
-}
-
 /// The tool of the mouse, or of the wand that points at the panel in the room.
 void tool_buttons(const PanelModel& model, Commands& commands) {
     const bool in_room = model.place == PanelPlace::in_room;
@@ -63,10 +49,10 @@ void tool_buttons(const PanelModel& model, Commands& commands) {
     ToolKind& held = in_room ? tools.wand : tools.mouse;
     const ToolKind usual = in_room ? ToolKind::grab : ToolKind::pick;
     for (const interaction::ToolRow& each : interaction::tool_table()) {
-        const ToolFace face = face_of(each.kind);
+        const std::string key = each.key ? fmt::format(" ({})", name_of(*each.key)) : "";
         const bool on = held == each.kind;
-        if (icon_button(std::string(each.words).c_str(), face.icon,
-                        fmt::format("{}: {}{}", each.words, each.effect, face.key).c_str(), on))
+        if (icon_button(std::string(each.words).c_str(), IconPath(each.icon),
+                        fmt::format("{}: {}{}", each.words, each.effect, key).c_str(), on))
             held = on ? usual : each.kind;
         if (&each != &interaction::tool_table().back())
             ImGui::SameLine(0.0f, 2.0f);
@@ -167,18 +153,17 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
 
 namespace {
 
-void ruler_line(const PanelModel& model, Commands& commands) {
+/// What the panel says of what a tool has made, and its removal.
+void made_line(const interaction::ToolRow& tool, const PanelModel& model, Commands& commands) {
     ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(color_of(Ink::dim), "%s",
-                       model.asked.ruler.places.size() < interaction::kMostRulerPlaces
-                           ? "click two places on surfaces"
-                           : "ruler");
-    if (model.asked.ruler.places.empty())
+    ImGui::TextColored(color_of(Ink::dim), "%s", tool.line(model.asked).c_str());
+    if (!tool.made(model.asked))
         return;
     ImGui::SameLine();
-    if (icon_button("no ruler", Icon::remove, "remove the ruler (Delete)", false,
+    if (icon_button(fmt::format("no {}", tool.makes).c_str(), Icon::remove,
+                    fmt::format("remove the {} (Delete)", tool.makes).c_str(), false,
                     ImGui::GetFrameHeight()))
-        commands.ruler = interaction::Ruler{};
+        tool.remove(commands);
 }
 
 /// The place that the user picked.
@@ -197,22 +182,31 @@ void mark_line(const PanelModel& model, Commands& commands) {
         commands.mark = interaction::Mark{};
 }
 
+/// Whether the strip shows a tool: what it has made is there, or a tool with a line is held.
+bool has_line(const interaction::ToolRow& tool, const PanelModel& model) {
+    const interaction::Tools& tools = model.asked.tools;
+    const ToolKind held = model.place == PanelPlace::in_room ? tools.wand : tools.mouse;
+    return tool.made &&
+           (tool.made(model.asked) || (held == tool.kind && tool.kind != ToolKind::pick));
+}
+
 } // namespace
 
 bool has_tool_strip(const PanelModel& model) {
-    const ToolKind tool =
-        model.place == PanelPlace::in_room ? model.asked.tools.wand : model.asked.tools.mouse;
-    return tool == ToolKind::clip || tool == ToolKind::ruler || model.asked.clip.shown ||
-           !model.asked.ruler.places.empty() || model.asked.mark.point;
+    return std::ranges::any_of(interaction::tool_table(), [&](const interaction::ToolRow& tool) {
+        return has_line(tool, model);
+    });
 }
 
 void tool_strip(const PanelModel& model, Commands& commands) {
-    const ToolKind tool =
-        model.place == PanelPlace::in_room ? model.asked.tools.wand : model.asked.tools.mouse;
-    if (tool == ToolKind::clip || model.asked.clip.shown)
-        clip_lines(model, commands);
-    if (tool == ToolKind::ruler || !model.asked.ruler.places.empty())
-        ruler_line(model, commands);
+    for (const interaction::ToolRow& tool : interaction::tool_table()) {
+        if (!has_line(tool, model))
+            continue;
+        if (tool.kind == ToolKind::clip)
+            clip_lines(model, commands);
+        else if (tool.line)
+            made_line(tool, model, commands);
+    }
     if (model.asked.mark.point)
         mark_line(model, commands);
 }

@@ -53,7 +53,7 @@ _STAMP = "picture"
 def _recording(index: str, state: Mapping[str, Any], size: tuple[int, int]) -> str:
     header = {
         "format": "isochron recording",
-        "version": 1,
+        "version": 2,
         "program": f"isochron {_native.__version__}",
         "configuration": _CONFIGURATION.format(width=size[0], height=size[1]),
         "data": index,

@@ -179,10 +179,11 @@ TEST(History, UndoAfterHomeShowsWhatWasSeen) {
     ExplorerState away, home;
     away.room_from_physical = {{0.4, 1.2, -2.0}, glm::dquat(glm::vec3(0.2f, 0.5f, 0.1f)), 0.3};
     home.room_from_physical = {{0.1, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.2};
-    const auto frame = [](double time, const interaction::Pose& head, std::uint64_t keys) {
+    const auto frame = [](double time, const interaction::Pose& head,
+                          const interaction::ActionSet& keys) {
         interaction::InputState input{interaction::Seconds(time), {}};
         input.devices.push_back({.name = "head", .pose = head, .valuators = {}});
-        input.devices.push_back({.name = "keys", .pose = {}, .buttons = keys, .valuators = {}});
+        input.devices.push_back({.name = "keys", .pose = {}, .valuators = {}, .actions = keys});
         input.devices.push_back({.name = "pointer", .pose = head, .valuators = {}});
         return input;
     };

@@ -44,6 +44,17 @@ TEST(PictureNote, ComesBackAsItWas) {
         EXPECT_TRUE(c >= ' ' && c <= '~') << "ASCII, one line";
 }
 
+TEST(PictureNote, ActionsOfOlderPicturesAreReadFromTheirBits) {
+    PictureNote note = some_note();
+    note.data = "heart.isochron";
+    note.input.devices.push_back({.name = "keys", .pose = {}, .valuators = {}});
+    PictureNote old = note;
+    note.input.devices.back().actions = bit(interaction::Action::teleport);
+    old.input.devices.back().buttons = std::uint64_t{1} << 36;
+    old.input.devices.push_back({.name = "more_keys", .pose = {}, .valuators = {}});
+    EXPECT_EQ(note_from(text_of(old)), note);
+}
+
 TEST(PictureNote, WhateverIsCutOffOrChangedIsRefusedInOneLine) {
     const std::string text = text_of(some_note());
     std::mt19937 random(test_seed());

@@ -36,9 +36,9 @@ class DeskPanelTest : public SessionTest {
     static interaction::DeviceState head() {
         return {.name = "head", .pose = Pose{{0, 1.6f, 0}, {1, 0, 0, 0}}, .valuators = {}};
     }
-    static InputState with_keys(double time, std::uint64_t keys) {
+    static InputState with_keys(double time, const interaction::ActionSet& keys) {
         InputState input{interaction::Seconds(time), {head()}};
-        input.devices.push_back({.name = "keys", .pose = {}, .buttons = keys, .valuators = {}});
+        input.devices.push_back({.name = "keys", .pose = {}, .valuators = {}, .actions = keys});
         return input;
     }
 };

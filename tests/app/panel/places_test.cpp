@@ -49,13 +49,9 @@ std::set<Action> actions_of(const KeyCommand& command) {
     emulation.feed(events);
     std::set<Action> actions;
     const interaction::InputState state = emulation.poll(interaction::Seconds(0.1));
-    for (int number = 0; number < static_cast<int>(Action::count); ++number) {
-        const auto action = static_cast<Action>(number);
-        const interaction::DeviceState* keys =
-            state.find(interaction::is_of_more_keys(action) ? "more_keys" : "keys");
-        if (keys && (keys->buttons & interaction::bit(action)) != 0)
-            actions.insert(action);
-    }
+    for (std::size_t number = 0; number < interaction::kActions; ++number)
+        if (state.find("keys")->actions[number])
+            actions.insert(static_cast<Action>(number));
     actions.erase(Action::shift);
     actions.erase(Action::control);
     return actions;

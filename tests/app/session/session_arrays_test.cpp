@@ -44,11 +44,11 @@ class SessionArrays : public SessionTest {
     static bool same(const render::Image& a, const render::Image& b) { return a.rgba == b.rgba; }
 
     /// The frame in which keys are pressed for these actions.
-    static interaction::InputState pressing(double time, std::uint64_t actions) {
+    static interaction::InputState pressing(double time, const interaction::ActionSet& actions) {
         interaction::InputState input = head_at_rest(time);
         interaction::DeviceState keys;
         keys.name = "keys";
-        keys.buttons = actions;
+        keys.actions = actions;
         input.devices.push_back(keys);
         return input;
     }

@@ -38,18 +38,12 @@ class Desk {
         return commands;
     }
     /// Presses keys for one frame and lets go for another.
-    Commands tap(std::uint64_t actions) {
+    Commands tap(const ActionSet& actions) {
         Commands commands = frame({head_at(kStanding), keys_down(actions)});
         merge(commands, frame({head_at(kStanding), keys_down(0)}));
         return commands;
     }
-    Commands tap(Action action) {
-        const char* device = is_of_more_keys(action) ? "more_keys" : "keys";
-        Commands commands =
-            frame({head_at(kStanding), {device, std::nullopt, true, bit(action), {}}});
-        merge(commands, frame({head_at(kStanding)}));
-        return commands;
-    }
+    Commands tap(Action action) { return tap(bit(action)); }
     std::vector<std::string> notes() { return controls_.take_notes(); }
     /// The wheel, with the eye's ray through the cursor.
     Commands wheel(float notches, const std::optional<Pose>& ray = {}) {

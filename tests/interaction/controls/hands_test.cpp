@@ -208,7 +208,7 @@ TEST(Navigator, RecenterPutsTheVolumeAheadOfTheViewer) {
 
 TEST(Navigator, ViewpointsAreSavedUnderNewNamesAndComeBackInTurn) {
     Desk desk;
-    const std::uint64_t save = bit(Action::save_view), next = bit(Action::next_view);
+    const ActionSet save = bit(Action::save_view), next = bit(Action::next_view);
     EXPECT_TRUE(desk.tap(next).empty()) << "there are none yet";
     const Similarity first = desk.volume();
     ASSERT_EQ(desk.tap(save).views->size(), 1u);

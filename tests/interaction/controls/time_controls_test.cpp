@@ -10,15 +10,6 @@ DeviceState pad_down(GamepadButton button) {
     return {"gamepad", std::nullopt, true, bit(button), {}};
 }
 
-TEST(TimeControls, ActionsBeyondThoseOfOldRecordingsHaveADeviceOfTheirOwn) {
-    Desk desk;
-    desk.settings.step = 2;
-    desk.frame({keys_down(bit(Action::range_first))}); // the same bit of the device of others
-    EXPECT_EQ(desk.settings.play_range, StepRange{});
-    desk.tap(Action::range_first);
-    EXPECT_EQ(desk.settings.play_range, (StepRange{2, {}}));
-}
-
 TEST(TimeControls, KeysSetTheRangeAndGoToItsEnds) {
     Desk desk;
     desk.settings.step = 1;

@@ -7,6 +7,7 @@
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/obeyed.h"
 #include "tests/interaction/recording/recording_in.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_seed.h"
 
@@ -47,10 +48,8 @@ std::vector<WindowEvent> random_events(Random& random) {
         case 0:
         case 1:
         case 2: {
-            const auto lines = key_lines();
-            const KeyLine& line = lines[random() % lines.size()];
-            events.push_back(
-                KeyEvent{line.bindings[random() % line.bindings.size()].key, random() % 2 == 0});
+            const auto keys = key_bindings();
+            events.push_back(KeyEvent{keys[random() % keys.size()].key, random() % 2 == 0});
             break;
         }
         case 3:
@@ -128,6 +127,43 @@ TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
         }
         EXPECT_TRUE(replay.finished());
     }
+}
+
+/// Every key was pressed for it, by a program that wrote version 1; its footprints are the paces.
+TEST(Recompute, ARecordingOfVersion1LeadsToTheCommandsThatItHolds) {
+    const Recording recording = recording_in(test_support::test_data() + "/old/version1.jsonl");
+    const std::vector<double> times{0, 0.1, 0.5, 0.6, 2, 2.5, 2.6, 7};
+    const std::vector<std::string> modes{"mono", "left", "side_by_side"}, arrays{"u", "w"};
+    Settings settings;
+    Commands start, undo, redo, next;
+    start.isovalue = 3;
+    undo.undo = true;
+    redo.redo = true;
+    next.array = "u";
+    const ControlContext context{
+        .settings = settings,
+        .series = {.low = -1e-3,
+                   .high = 17.3,
+                   .times = &times,
+                   .home = {{0, 1.3, -1.5}, glm::dquat(1, 0, 0, 0), 0.03}},
+        .color_arrays = {.names = &arrays},
+        .ways = {.next_array = &next, .start = &start, .undo = &undo, .redo = &redo},
+        .stereo_modes = &modes,
+        .data = {glm::dmat4(60, 0, 0, 0, 0, 50, 0, 0, 0, 0, 60, 0, 0, 0, 0, 1), "mm"}};
+    obey(recording.header.start, settings);
+    Controls controls;
+    MotionGate gate{StillnessLimits{}};
+    ActionSet seen;
+    for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+        const RecordedFrame& frame = recording.frames[i];
+        const Commands commands = controls.update(frame.input, context);
+        ASSERT_EQ(commands, frame.commands) << "frame " << i;
+        obey(commands, settings);
+        EXPECT_EQ(name_of(gate.update(frame.input, commands, settings.quality)), frame.footprint)
+            << "frame " << i;
+        seen |= frame.input.find("keys")->actions;
+    }
+    EXPECT_EQ(seen.count(), 81u) << "all that version 1 had";
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "tests/interaction/input_builders.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/interaction/recording/recording_in.h"
+#include "tests/support/paths.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/test_seed.h"
 
@@ -48,7 +49,7 @@ class RecordingFile : public testing::Test {
         return "no complaint";
     }
     static std::string header_line() {
-        return R"({"format":"isochron recording","version":1,"program":"isochron 0.1.0",)"
+        return R"({"format":"isochron recording","version":2,"program":"isochron 0.1.0",)"
                R"("configuration":"","data":"a.isochron","data_hash":"00ff","start":{}})"
                "\n";
     }
@@ -61,7 +62,9 @@ DeviceState random_device(Random& random, std::string name) {
     DeviceState device{std::move(name), std::nullopt, random() % 4 != 0, 0, {}};
     if (random() % 2)
         device.pose = Pose{{float(uniform(random, -3, 3)), 1e-30f, -0.0f}, random_rotation(random)};
-    if (random() % 2)
+    if (device.name == "keys")
+        device.actions = std::uint64_t{random()} << 32 | random();
+    else if (random() % 2)
         device.buttons = std::uint64_t{random()} << 32 | random();
     for (unsigned i = random() % 4; i > 0; --i)
         device.valuators.push_back(static_cast<float>(uniform(random, -1, 1)));
@@ -80,7 +83,7 @@ Recording random_recording(unsigned seed, int frames) {
     Random random(seed);
     Recording recording;
     recording.header = {
-        1,     "isochron 0.1.0",       "[a]\nb = \"c\"\n", "data/ä b.isochron", "00ff", {640, 480},
+        2,     "isochron 0.1.0",       "[a]\nb = \"c\"\n", "data/ä b.isochron", "00ff", {640, 480},
         0.025, random_commands(random)};
     RecordedFrame frame;
     for (int i = 0; i < frames; ++i) {
@@ -231,10 +234,42 @@ TEST_F(RecordingFile, ValuesOutsideTheirRangeAreRefused) {
     EXPECT_THAT(device(R"("name":"head","pose":[0,0,0,0,0,0,0])"), HasSubstr("unit quaternion"));
     EXPECT_THAT(device(R"("name":"head","pose":[0,0,0])"), HasSubstr("a list of 7"));
     EXPECT_THAT(device(R"("name":"head","buttons":-1)"), HasSubstr("buttons"));
+    EXPECT_EQ(device(R"("name":"keys","actions":["play","fly_away"])"),
+              "walk.jsonl:2: actions: expected names of actions that this program has, got "
+              "\"fly_away\"");
+    EXPECT_THAT(device(R"("name":"keys","actions":4096)"), HasSubstr("actions: expected a list"));
     EXPECT_THAT(device(R"("name":"head","valuators":[1e39])"), HasSubstr("valuators"));
     EXPECT_THAT(device(R"("name":"head"},{"name":"head")"), HasSubstr("every name once"));
     EXPECT_THAT(complaint("{\"t\":0,\"changed\":[{\"name\":\"head\"}]}\n"),
                 HasSubstr("there was no device \"head\" before"));
+}
+
+TEST_F(RecordingFile, BitsOfVersion1BecomeActions) {
+    std::string old = header_line();
+    old.replace(old.find("\"version\":2"), 11, "\"version\":1");
+    write(old +
+          R"({"t":0,"devices":[{"name":"keys","buttons":262145},{"name":"more_keys"}]})"
+          "\n"
+          R"({"t":1,"changed":[{"name":"more_keys","buttons":4294967298}]})"
+          "\n"
+          R"({"t":2,"devices":[{"name":"more_keys","buttons":1},{"name":"wand","buttons":1}]})"
+          "\n");
+    const Recording recording = recording_in(path_);
+    const ActionSet first = bit(Action::walk_forward) | bit(Action::play);
+    EXPECT_THAT(recording.frames[0].input.devices, testing::ElementsAre(keys_down(first)));
+    EXPECT_THAT(recording.frames[1].input.devices,
+                testing::ElementsAre(keys_down(first | bit(Action::range_last))));
+    EXPECT_THAT(recording.frames[2].input.devices,
+                testing::ElementsAre(keys_down(bit(Action::range_first)),
+                                     DeviceState{"wand", std::nullopt, true, 1, {}}));
+    write_recording(folder_ / "copy.jsonl", recording);
+    EXPECT_EQ(recording_in(folder_ / "copy.jsonl").header.version, 2);
+    EXPECT_EQ(recording_in(folder_ / "copy.jsonl").frames, recording.frames);
+}
+
+TEST_F(RecordingFile, TheNamesOfVersion2StayForEver) {
+    const Recording recording = recording_in(test_support::test_data() + "/old/version2.jsonl");
+    EXPECT_EQ(recording.frames.at(0).input.find("keys")->actions.count(), 82u);
 }
 
 TEST_F(RecordingFile, OtherFilesAndNewerVersionsAreRefused) {
@@ -245,9 +280,9 @@ TEST_F(RecordingFile, OtherFilesAndNewerVersionsAreRefused) {
     write("PNG\x89");
     EXPECT_THAT(complaint(), HasSubstr("walk.jsonl:1: not JSON"));
     std::string newer = header_line();
-    newer.replace(newer.find("\"version\":1"), 11, "\"version\":2");
+    newer.replace(newer.find("\"version\":2"), 11, "\"version\":3");
     write(newer);
-    EXPECT_EQ(complaint(), "walk.jsonl:1: version: this program reads 1, the recording has 2");
+    EXPECT_EQ(complaint(), "walk.jsonl:1: version: this program reads 1 to 2, the recording has 3");
 }
 
 TEST_F(RecordingFile, AbsurdSizesAreRefused) {

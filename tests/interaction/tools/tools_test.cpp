@@ -54,7 +54,7 @@ TEST(Tools, TheTableHoldsEachKindOnceInItsOrder) {
 
 TEST(Tools, KeysChooseThemAndEscapeLeavesThemFirst) {
     ToolDesk desk;
-    desk.tap(bit(Action::clip_tool));
+    desk.tap(choice_of(ToolKind::clip));
     EXPECT_EQ(desk.settings.tools.mouse, ToolKind::clip);
     EXPECT_EQ(desk.settings.tools.wand, ToolKind::clip);
     EXPECT_EQ(desk.settings.tools.other, ToolKind::grab);
@@ -114,7 +114,7 @@ TEST(Tools, ADoubleClickBringsThePlaceToTheMiddleOfTheView) {
 
 TEST(Tools, TheRulerMeasuresInTheDataUnitsAndBeginsAnew) {
     ToolDesk desk;
-    desk.tap(bit(Action::ruler_tool));
+    desk.tap(choice_of(ToolKind::ruler));
     const glm::dvec3 a(10, 10, 30), b(40, 50, 30);
     desk.click(desk.in_room(a));
     EXPECT_EQ(desk.settings.ruler.places.size(), 1u);

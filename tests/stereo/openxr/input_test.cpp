@@ -157,7 +157,8 @@ struct Control {
     const char* profile;
     bool left;
     const char* input;
-    std::uint64_t wand = 0, wand2 = 0, keys = 0;
+    std::uint64_t wand = 0, wand2 = 0;
+    interaction::ActionSet keys = {};
     std::optional<WandValuator> valuator = std::nullopt;
 };
 constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
@@ -213,7 +214,7 @@ TEST_F(HandsTest, EveryControlDoesWhatItIsFor) {
         EXPECT_EQ(device("wand").buttons, control.wand);
         EXPECT_EQ(device("wand2").buttons, control.wand2);
         const auto* keys = input_.find("keys");
-        EXPECT_EQ(keys ? keys->buttons : 0, control.keys);
+        EXPECT_EQ(keys ? keys->actions : interaction::ActionSet(), control.keys);
         for (const auto which : {WandValuator::isovalue, WandValuator::fly, WandValuator::turn,
                                  WandValuator::time, WandValuator::step})
             EXPECT_EQ(valuator(which), which == control.valuator ? 1.0f : 0.0f);

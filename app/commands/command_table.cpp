@@ -40,27 +40,24 @@ class MarkRows {
   public:
     void at(std::optional<double> seconds) { seconds_ = seconds; }
     void add(const interaction::Commands& commands) {
-        if (commands.step) {
-            step_ = *commands.step;
-            fraction_ = 0;
-        }
-        fraction_ = commands.fraction.value_or(fraction_);
+        instant_ = commands.instant.value_or(instant_);
+        instant_.fraction = commands.fraction.value_or(instant_.fraction);
         if (commands.mark && commands.mark->point) {
             const interaction::MarkedPoint& point = *commands.mark->point;
-            Json& row = push("mark", point.step, point.fraction, "");
+            Json& row = push("mark", point.instant, "");
             place(row, point.position);
             row["value"] = point.value;
         }
         if (commands.ruler && commands.ruler->places.size() == interaction::kMostRulerPlaces) {
             const auto& places = commands.ruler->places;
             for (const glm::dvec3& each : places)
-                place(push("ruler", step_, fraction_, ""), each);
+                place(push("ruler", instant_, ""), each);
             rows_.back()["value"] = glm::distance(places[0], places[1]);
         }
         if (commands.bookmarks)
             add(*commands.bookmarks);
         for (const std::string& stamp : commands.stamps)
-            push("stamp", step_, fraction_, stamp);
+            push("stamp", instant_, stamp);
     }
     Table table() && {
         return {{"what", "seconds", "step", "fraction", "name", "x", "y", "z", "value"},
@@ -71,14 +68,14 @@ class MarkRows {
     void add(const std::vector<interaction::Bookmark>& all) {
         for (const interaction::Bookmark& each : all)
             if (std::ranges::find(known_, each) == known_.end())
-                push("bookmark", each.step, each.fraction, each.name);
+                push("bookmark", each.instant, each.name);
         known_ = all;
     }
-    Json& push(const char* what, std::uint32_t step, std::uint32_t fraction,
-               const std::string& name) {
-        Json row{{"what", what},         {"seconds", nullptr}, {"step", step},
-                 {"fraction", fraction}, {"name", name},       {"x", nullptr},
-                 {"y", nullptr},         {"z", nullptr},       {"value", nullptr}};
+    Json& push(const char* what, index::Instant at, const std::string& name) {
+        Json row{
+            {"what", what},    {"seconds", nullptr}, {"step", at.step}, {"fraction", at.fraction},
+            {"name", name},    {"x", nullptr},       {"y", nullptr},    {"z", nullptr},
+            {"value", nullptr}};
         if (seconds_)
             row["seconds"] = *seconds_;
         rows_.push_back(std::move(row));
@@ -91,7 +88,7 @@ class MarkRows {
     }
 
     std::optional<double> seconds_;
-    std::uint32_t step_ = 0, fraction_ = 0;
+    index::Instant instant_;
     std::vector<interaction::Bookmark> known_;
     Json rows_ = Json::array();
 };

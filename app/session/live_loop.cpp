@@ -66,7 +66,7 @@ void LiveLoop::take_new_steps(Session& session, Commands& asked) {
     session.show_messages({fmt::format("{} steps now", steps)});
     asked.steps = steps;
     if (session.state().follow)
-        asked.step = steps - 1;
+        asked.instant.emplace(steps - 1);
 }
 
 /// The panel's button: a recording from now on, in the folder of the movies; or the end of the one

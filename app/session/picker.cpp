@@ -69,8 +69,7 @@ std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& sta
     const auto hit = index::first_hit(*shown, file_->info().grid, *seen, visible(state));
     if (!hit || (state.clip.shown && beyond(state.clip, hit->at) > kOnPlane * glm::length(hit->at)))
         return std::nullopt;
-    const index::Instant at = shown->query.step;
-    return Pointed{{hit->at, at.step, shown->query.isovalues[hit->surface], at.fraction},
+    return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
                    hit->surface};
 }
 
@@ -96,11 +95,11 @@ std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const E
 }
 
 void Picker::read_at(const glm::dvec3& at, const ExplorerState& state) {
-    reading_.post([file = file_, slot = read_, wake = wake_, at, step = state.instant()] {
-        const auto value = index::value_in(*file, step, at);
+    reading_.post([file = file_, slot = read_, wake = wake_, at, instant = state.shown_instant()] {
+        const auto value = index::value_in(*file, instant, at);
         {
             const std::lock_guard lock(slot->mutex);
-            slot->mark = value ? Mark{MarkedPoint{at, step.step, *value, step.fraction}} : Mark{};
+            slot->mark = value ? Mark{MarkedPoint{at, instant, *value}} : Mark{};
         }
         wake();
         return std::string(value ? "" : "no data there");

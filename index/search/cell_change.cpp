@@ -101,8 +101,8 @@ CellChange ChangeSearch::searched(const Query& to) {
 
 /// Without cells, bricks can tell only whether two isovalues lie between the same values of a step.
 CellChange ChangeSearch::without_cells(const Query& from, const Query& to) {
-    if (from.step == to.step && can_search(*file_, SearchMethod::bricks)) {
-        const LevelMapPtr levels = file_->chunks().levels(to.step);
+    if (from.instant == to.instant && can_search(*file_, SearchMethod::bricks)) {
+        const LevelMapPtr levels = file_->chunks().levels(to.instant.step);
         const auto from_cut = levels->cut(work_->scaling, from.isovalue);
         const auto to_cut = levels->cut(work_->scaling, to.isovalue);
         if (!to_cut)
@@ -110,7 +110,7 @@ CellChange ChangeSearch::without_cells(const Query& from, const Query& to) {
         if (from_cut == to_cut && to_cut->exact)
             return {};
     }
-    if (from.step != to.step && from.isovalue == to.isovalue && file_->has_since() &&
+    if (from.instant != to.instant && from.isovalue == to.isovalue && file_->has_since() &&
         can_search(*file_, SearchMethod::bricks))
         if (const auto change = where_chunks_change(from, to))
             return *change;
@@ -119,10 +119,11 @@ CellChange ChangeSearch::without_cells(const Query& from, const Query& to) {
 
 /// Searches both steps where chunks differ. @return nothing if most of them do
 std::optional<CellChange> ChangeSearch::where_chunks_change(const Query& from, const Query& to) {
-    const StepView before = part_of_step(*file_, from.step), after = part_of_step(*file_, to.step);
-    if (staying_share(after, from.step, std::array{to.isovalue}) < kLeastStaying)
+    const StepView before = part_of_step(*file_, from.instant),
+                   after = part_of_step(*file_, to.instant);
+    if (staying_share(after, from.instant, std::array{to.isovalue}) < kLeastStaying)
         return std::nullopt;
-    const StayingCells staying(after, from.step, false);
+    const StayingCells staying(after, from.instant, false);
     CellSet gone, come;
     gone.query = from;
     come.query = to;
@@ -137,11 +138,11 @@ std::optional<CellChange> ChangeSearch::where_chunks_change(const Query& from, c
 
 CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     WorkSpace& work = *work_;
-    if (const std::uint32_t last = std::max(from.step, to.step); last >= work.steps)
+    if (const std::uint32_t last = std::max(from.instant, to.instant).step; last >= work.steps)
         throw Error(fmt::format("step {}: expected 0 to {}", last, work.steps - 1));
-    if (from.step.between() || to.step.between())
+    if (from.instant.between() || to.instant.between())
         return from == to ? CellChange{} : searched(to);
-    if (!file_->has_cells(from.step) || !file_->has_cells(to.step))
+    if (!file_->has_cells(from.instant.step) || !file_->has_cells(to.instant.step))
         return without_cells(from, to);
     const CellTier* cells = work.cells;
     const std::optional<Cut> from_cut = work.cut_at(from.isovalue);
@@ -149,7 +150,7 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
         from.isovalue == to.isovalue ? from_cut : work.cut_at(to.isovalue);
     if (!to_cut)
         return {true, {}, {}}; // nothing is active any more
-    if (from.step == to.step && from_cut == to_cut && to_cut->exact)
+    if (from.instant == to.instant && from_cut == to_cut && to_cut->exact)
         return {};
     if (!to_cut->exact || !from_cut || !from_cut->exact)
         return searched(to);
@@ -157,19 +158,20 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     work.clear();
     bool disjoint = true; // each cell is in at most one of the runs
     bool found = true;
-    const std::uint32_t steps = from.step < to.step ? to.step - from.step : from.step - to.step;
+    const std::uint32_t before = from.instant.step, after = to.instant.step;
+    const std::uint32_t steps = before < after ? after - before : before - after;
     if (steps == 0) {
-        cells->level_difference(to.step, *from_cut, *to_cut, work.added, work.removed);
+        cells->level_difference(after, *from_cut, *to_cut, work.added, work.removed);
     } else if (*from_cut == *to_cut && cells->has_deltas() && steps <= kMaxChain) {
-        const bool forwards = from.step < to.step;
-        for (std::uint32_t step = from.step; step != to.step;) {
+        const bool forwards = before < after;
+        for (std::uint32_t step = before; step != after;) {
             const std::uint32_t next = forwards ? step + 1 : step - 1;
             cells->change(step, next, *to_cut, work.added, work.removed);
             step = next;
         }
         disjoint = steps == 1;
     } else if (*from_cut == *to_cut) {
-        cells->difference(from.step, to.step, *to_cut, work.removed, work.added);
+        cells->difference(before, after, *to_cut, work.removed, work.added);
         disjoint = false;
     } else {
         found = false;
@@ -179,7 +181,7 @@ CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     if (!found || added.size() + removed.size() > kFew) {
         work.all.clear();
         work.ambiguous.clear();
-        cells->search(to.step, *to_cut, work.all, work.ambiguous);
+        cells->search(after, *to_cut, work.all, work.ambiguous);
         if (!found || added.size() + removed.size() > count_ids(work.all))
             return {true, ids_of(work.all, work.added_ids), {}};
     }

@@ -46,8 +46,8 @@ class IndexSearch {
             return false;
         }
         if (!step.between()) {
-            file_->chunks().worked_on(step.at());
-            answered_[step.at()] = true;
+            file_->chunks().worked_on(step.at().step);
+            answered_[step.at().step] = true;
         }
         return true;
     }
@@ -59,14 +59,14 @@ class IndexSearch {
     /// have been read, and between steps only bricks help.
     SearchMethod method_at(const Query& query) const {
         const bool bricks = can_search(*file_, SearchMethod::bricks);
-        if (query.step.between()) // cells and tree are of steps alone
+        if (query.instant.between()) // cells and tree are of steps alone
             return bricks && method_ != SearchMethod::scan ? SearchMethod::bricks
                                                            : SearchMethod::scan;
         if (method_ != SearchMethod::cells)
             return method_;
-        if (!file_->has_cells(query.step))
+        if (!file_->has_cells(query.instant.step))
             return bricks ? SearchMethod::bricks : SearchMethod::scan;
-        if (!free_ || !bricks || answered_[query.step] || !std::isfinite(query.isovalue))
+        if (!free_ || !bricks || answered_[query.instant.step] || !std::isfinite(query.isovalue))
             return method_;
         const MissingBytes missing = missing_bytes(*file_, query, shading_ != Shading::none);
         return missing.bricks < missing.cells ? SearchMethod::bricks : method_;
@@ -90,7 +90,7 @@ class IndexSearch {
         const auto held = file_->cells()->hold();
         certain_.clear();
         ambiguous_.clear();
-        file_->cells()->search(set.query.step, *cut, certain_, ambiguous_);
+        file_->cells()->search(set.query.instant.step, *cut, certain_, ambiguous_);
         assign_ids(certain_, set.ids);
         set.candidates = set.ids.size();
         if (!ambiguous_.empty()) {
@@ -107,7 +107,7 @@ class IndexSearch {
         if (!tree_)
             tree_ = tree_of(*file_);
         const auto reused = static_cast<std::ptrdiff_t>(tree_->search_incremental(
-            cursor_, set.query.step, keys_.threshold(set.query.isovalue)));
+            cursor_, set.query.instant.step, keys_.threshold(set.query.isovalue)));
         const auto first = cursor_.cells.begin();
         set.candidates = cursor_.cells.size();
         candidates_.assign(first, first + reused);
@@ -167,8 +167,8 @@ SearchMethod cheapest_method(const IndexFile& file) {
 }
 
 StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues) {
-    if (const std::size_t steps = file.info().steps(); at >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", std::uint32_t{at}, steps - 1));
+    if (const std::size_t steps = file.info().steps(); at.step >= steps)
+        throw Error(fmt::format("step {}: expected 0 to {}", at.step, steps - 1));
     return step_of(file, at, isovalues);
 }
 
@@ -186,7 +186,7 @@ Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMeth
     return [file, search = search_into(file, method, shading)](
                const Query& query, const std::stop_token& stop) -> CellSetPtr {
         auto set = std::make_shared<CellSet>();
-        const StepView step = step_of_query(*file, query.step, {&query.isovalue, 1});
+        const StepView step = step_of_query(*file, query.instant, {&query.isovalue, 1});
         return search(step, query.isovalue, stop, *set) ? set : nullptr;
     };
 }

@@ -198,8 +198,8 @@ std::vector<ChangeCase> next_steps_of_sphere(const fs::path& path, unsigned repe
     const auto steps = static_cast<std::uint32_t>(file->info().times.size());
     for (std::uint32_t step = 0; step + 1 < steps; step += std::max(1u, steps / (6 * repeats)))
         alike.push_back({"sphere-55, with deltas",
-                         {.step = step, .isovalues = {isovalue}},
-                         {.step = step + 1, .isovalues = {isovalue}},
+                         {.instant = index::Instant(step), .isovalues = {isovalue}},
+                         {.instant = index::Instant(step + 1), .isovalues = {isovalue}},
                          0.8,
                          index::SearchMethod::cells,
                          false});
@@ -212,9 +212,7 @@ void run_bench_change(const ChangeArguments& arguments) {
     const auto context =
         stereo::make_context(stereo::ContextKind::egl, {.size = {16, 16}, .vsync = false});
     const render::Gl gl(context->loader());
-    const struct {
-        double stay, floor;
-    } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
+    const struct { double stay, floor; } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
     std::vector<double> stay;
     for (const auto& share : shares)
         for (unsigned i = 0; i < arguments.repeats; ++i)
@@ -258,8 +256,8 @@ void run_bench_change(const ChangeArguments& arguments) {
             std::vector<ChangeCase>& alike = cases.emplace_back();
             for (unsigned i = 0; i < arguments.repeats; ++i, ++step)
                 alike.push_back({fmt::format("{:.0f} % stay, {}", 100 * share.stay, how),
-                                 {.step = step, .isovalues = {0.0}},
-                                 {.step = step + 1, .isovalues = {0.0}},
+                                 {.instant = index::Instant(step), .isovalues = {0.0}},
+                                 {.instant = index::Instant(step + 1), .isovalues = {0.0}},
                                  share.floor});
         }
         if (changing == Changing::together) {
@@ -268,8 +266,8 @@ void run_bench_change(const ChangeArguments& arguments) {
             std::vector<ChangeCase>& alike = cases.emplace_back();
             for (unsigned i = 0; i < arguments.repeats; ++i)
                 alike.push_back({"isovalue moved by 0.5 %",
-                                 {.step = i, .isovalues = {0.0}},
-                                 {.step = i, .isovalues = {moved}},
+                                 {.instant = index::Instant(i), .isovalues = {0.0}},
+                                 {.instant = index::Instant(i), .isovalues = {moved}},
                                  0.8});
         }
         measure_cases(path, cases);

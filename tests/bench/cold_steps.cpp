@@ -140,8 +140,9 @@ void measure_cold_steps(const fs::path& folder, const index::Progress& progress,
                             index::search_in(file, {}, index::Shading::cells);
                         forget(path);
                         index::CellSetPtr set;
-                        ours.push_back(
-                            seconds_of([&] { set = search({step, kColdIsovalue}, {}); }));
+                        ours.push_back(seconds_of([&] {
+                            set = search({index::Instant(step), kColdIsovalue}, {});
+                        }));
                         if (first)
                             plain.push_back(steps.read_and_scan(step, scanned));
                         if (scanned.ids != set->ids)

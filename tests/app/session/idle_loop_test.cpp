@@ -219,7 +219,9 @@ TEST_F(IdleLoop, CellsThatAreAskedForAreShownBeforeItWaitsAgain) {
 }
 
 TEST_F(IdleLoop, ACursorThatMovesIsFollowed) {
-    run({[&](auto&, Seconds) { window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480}); },
+    run({[&](auto&, Seconds) {
+             window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480});
+         },
          [&](auto&, Seconds) {
              EXPECT_GE(since_wait_.frames, 2 + IdleWait::kFramesAfter);
              EXPECT_LE(since_wait_.presents, since_wait_.frames);
@@ -308,7 +310,8 @@ TEST_F(IdleLoop, TimePlaysOnFromWhenItWasAskedForAndNotFromWhenTheWaitBegan) {
     }});
     rate = session_->log().frames_per_second(120);
     EXPECT_TRUE(session_->state().playback.playing);
-    EXPECT_EQ(session_->state().step, 0u) << "of " << steps << ", a second or more apart";
+    EXPECT_EQ(session_->state().instant, index::Instant(0))
+        << "of " << steps << ", a second or more apart";
     EXPECT_EQ(missed, 0u);
     EXPECT_NEAR(rate, 1 / kFrame.count(), 1);
 }
@@ -401,7 +404,7 @@ TEST_F(IdleLoop, NewStepsWakeIt) {
         wake.take();
         --next_; // it may have been an earlier call, which came late
     }});
-    EXPECT_EQ(session_->state().step, 8u);
+    EXPECT_EQ(session_->state().instant, index::Instant(8));
     EXPECT_EQ(last().shown, last().asked);
 }
 

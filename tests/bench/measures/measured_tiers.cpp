@@ -65,8 +65,8 @@ Recipe bricks_of(const FilePtr& file) {
                 structure.build_seconds = seconds_for_bricks(*file);
                 structure.ids = [file](const Query& query, Ids& out) {
                     out.clear();
-                    const index::LoadedStep step = file->load(query.step);
-                    index::search_bricks(step.values, *file->chunks().levels(query.step),
+                    const index::LoadedStep step = file->load(query.instant.step);
+                    index::search_bricks(step.values, *file->chunks().levels(query.instant.step),
                                          step.bricks, query, out);
                 };
                 return structure;
@@ -81,7 +81,7 @@ struct CellSearch {
         certain.clear();
         ambiguous.clear();
         if (const auto cut = file->levels().cut(file->info().scaling, query.isovalue))
-            file->cells()->search(query.step, *cut, certain, ambiguous);
+            file->cells()->search(query.instant.step, *cut, certain, ambiguous);
         return certain;
     }
 

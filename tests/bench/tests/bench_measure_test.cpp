@@ -29,7 +29,7 @@ double mean_active(const index::StepValues& values, double isovalue) {
     double sum = 0;
     for (std::uint32_t step = 0; step < values.steps; ++step) {
         Ids found;
-        index::scan(values, {step, isovalue}, found);
+        index::scan(values, {index::Instant(step), isovalue}, found);
         sum += static_cast<double>(found.size());
     }
     return sum / static_cast<double>(values.steps);
@@ -77,17 +77,17 @@ TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
         EXPECT_EQ(count.false_positives > 0, structure.candidates) << structure.name;
         if (structure.change) {
             Ids before, after, differ;
-            index::scan(file->values(), {1, 60}, before);
-            index::scan(file->values(), {2, 60}, after);
+            index::scan(file->values(), {index::Instant(1), 60}, before);
+            index::scan(file->values(), {index::Instant(2), 60}, after);
             std::ranges::set_symmetric_difference(before, after, std::back_inserter(differ));
-            EXPECT_EQ(structure.change({1, 60}, {2, 60}), differ.size());
+            EXPECT_EQ(structure.change({index::Instant(1), 60}, {2, 60}), differ.size());
         }
         if (!structure.follow)
             continue;
         for (const std::uint32_t step : {0u, 1u, 5u, 2u}) {
             Ids found;
-            structure.ids({step, 60}, found);
-            EXPECT_EQ(structure.follow({step, 60}), found.size());
+            structure.ids({index::Instant(step), 60}, found);
+            EXPECT_EQ(structure.follow({index::Instant(step), 60}), found.size());
         }
     }
     EXPECT_THAT(names,

@@ -80,7 +80,7 @@ inline std::vector<CellId> search(const CellTier& tier, const CellSeries& series
     std::vector<IdRun> certain, ambiguous;
     tier.search(step, *cut, certain, ambiguous);
     std::vector<CellId> ids = sorted_ids(certain), open = sorted_ids(ambiguous);
-    keep_active(series.values, {step, isovalue}, open);
+    keep_active(series.values, {Instant(step), isovalue}, open);
     ids.insert(ids.end(), open.begin(), open.end());
     std::sort(ids.begin(), ids.end());
     return ids;

@@ -1,6 +1,8 @@
 // Merging and comparison of commands, by the list of their fields.
 #include "interaction/command_fields.h"
 
+#include <utility>
+
 namespace isochron::interaction {
 namespace {
 
@@ -25,9 +27,11 @@ void merge(Commands& into, const Commands& later) {
     // A later list has its own isovalues, and an isovalue belonged to the surface picked before.
     if (later.isosurfaces || later.picked)
         into.isovalue.reset();
-    if (later.step && !later.fraction) // it is that step itself
-        into.fraction.reset();
     each_field([](const Field&, auto& a, const auto& b) { combine(a, b); }, into, later);
+    if (later.instant)
+        into.fraction.reset();
+    else if (into.instant && into.fraction)
+        into.instant->fraction = *std::exchange(into.fraction, std::nullopt);
 }
 
 std::vector<std::string> differences(const Commands& a, const Commands& b) {

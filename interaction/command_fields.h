@@ -41,9 +41,9 @@ void each_field(Visit&& visit, Records&... r) {
 template <class Visit, Of<Bookmark>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"name"}, r.name...);
-    visit(Field{"step"}, r.step...);
-    visit(Field{.key = "fraction", .low = 0, .high = kFractions - 1, .may_lack = true},
-          r.fraction...);
+    visit(Field{"step"}, r.instant.step...);
+    visit(Field{.key = "fraction", .low = 0, .high = kMostFraction, .may_lack = true},
+          r.instant.fraction...);
 }
 
 template <class Visit, Of<Viewpoint>... Records>
@@ -118,10 +118,10 @@ void each_field(Visit&& visit, Records&... r) {
 template <class Visit, Of<MarkedPoint>... Records>
 void each_field(Visit&& visit, Records&... r) {
     visit(Field{"position"}, r.position...);
-    visit(Field{"step"}, r.step...);
+    visit(Field{"step"}, r.instant.step...);
     visit(Field{"value"}, r.value...);
-    visit(Field{.key = "fraction", .low = 0, .high = kFractions - 1, .may_lack = true},
-          r.fraction...);
+    visit(Field{.key = "fraction", .low = 0, .high = kMostFraction, .may_lack = true},
+          r.instant.fraction...);
 }
 
 template <class Visit, Of<HapticPulse>... Records>
@@ -155,6 +155,7 @@ template <class Visit, Of<Commands>... Records>
 void each_field(Visit&& visit, Records&... r) {
     each_setting(visit, r...);
     visit(Field{"isovalue"}, r.isovalue...);
+    visit(Field{.key = "fraction", .low = 0, .high = kMostFraction}, r.fraction...);
     visit(Field{"screenshot"}, r.screenshot...);
     visit(Field{"copy"}, r.copy...);
     visit(Field{"save"}, r.save...);

@@ -22,6 +22,8 @@ inline constexpr double kLongestPulse = 1.0; ///< [s]
 /// applying them again changes nothing.
 struct Commands : SettingChanges {
     std::optional<double> isovalue; ///< of the picked surface
+    /// Another fraction of the way from the step that is shown to the next one; not beside `instant`.
+    std::optional<std::uint32_t> fraction;
     bool screenshot = false;
     bool copy =
         false; ///< the value under the pointer, or of the mark, as a text to paste elsewhere

@@ -31,11 +31,11 @@ Way swung(const StepTrack& track, const Way& from, double distance, bool to_star
 
 } // namespace
 
-Playback::Result Playback::advance(std::span<const double> times, const Moment& from,
+Playback::Result Playback::advance(std::span<const double> times, const Instant& from,
                                    const PlaybackState& state, Seconds elapsed,
                                    const StepRange& range, const StepGaps* blended) {
     const auto stays = [&](std::uint32_t step) {
-        return Result{step, false, state.reverse, from.fraction};
+        return Result{{step, from.fraction}, false, state.reverse};
     };
     if (times.empty())
         return stays(from.step);
@@ -58,8 +58,9 @@ Playback::Result Playback::advance(std::span<const double> times, const Moment& 
         place = track.last() - end;
         time_ = blends ? track.start(place) : entry(track, place, state.reverse);
     } else if (blends) {
-        if (track.moment_at(time_, *blended) != Moment(step, from.fraction))
-            time_ = track.time_of({step, from.fraction}, state.reverse);
+        const Instant at(step, from.fraction);
+        if (track.instant_at(time_, *blended) != at)
+            time_ = track.time_of(at, state.reverse);
     } else if (turned_at_rest || track.place_at(time_) != place) {
         time_ = entry(track, place, state.reverse);
     }
@@ -67,9 +68,9 @@ Playback::Result Playback::advance(std::span<const double> times, const Moment& 
         return stays(step);
 
     const auto shown = [&](bool playing, bool reverse) {
-        const Moment now =
-            blends ? track.moment_at(time_, *blended) : Moment(track.step(track.place_at(time_)));
-        return Result{now.step, playing, reverse, now.fraction};
+        const Instant now =
+            blends ? track.instant_at(time_, *blended) : Instant(track.step(track.place_at(time_)));
+        return Result{now, playing, reverse};
     };
     const double distance = track_rate(state, times) * std::max(elapsed.count(), 0.0);
     if (state.ping_pong) {

@@ -15,18 +15,17 @@ namespace isochron::interaction {
 class Playback {
   public:
     struct Result {
-        std::uint32_t step;   ///< what to show now
+        Instant instant;      ///< what to show now: a step, unless steps are blended
         bool playing;         ///< false while paused, and once an end is reached without `loop`
         bool reverse = false; ///< the direction from now on: `ping_pong` turns at the ends
-        std::uint32_t fraction = 0; ///< of the way to the next step, where steps are blended
     };
     /// Advances physical time by `elapsed` at the speed of `state`. If `step` is not the one that
     /// this object returned last, time continues from `step`. Without `loop`, playing that starts
     /// at its last step starts over from the other end. Fewer than two steps never play.
     /// @param times physical times of the steps, increasing
-    /// @param from the moment that is shown
+    /// @param from the instant that is shown
     /// @param blended time is shown between the steps, too, but for these gaps; null: only steps are
-    Result advance(std::span<const double> times, const Moment& from, const PlaybackState& state,
+    Result advance(std::span<const double> times, const Instant& from, const PlaybackState& state,
                    Seconds elapsed, const StepRange& range = {}, const StepGaps* blended = nullptr);
 
   private:

@@ -1,13 +1,13 @@
 // The values that settings have: records and words of their own.
 #pragma once
 
+#include "index/volume/instant.h"
 #include "interaction/enum_names.h"
 #include "interaction/pose.h"
 
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -58,17 +58,8 @@ enum class BetweenSteps : std::uint8_t {
 template <>
 inline constexpr std::array<std::string_view, 2> kNames<BetweenSteps>{"hold", "blend"};
 
-inline constexpr std::uint32_t kFractions = 65536; ///< of the time from a step to the next one
-
-/// A step and so many fractions of the way to the next one.
-struct Moment {
-    std::uint32_t step = 0;
-    std::uint32_t fraction = 0; ///< below kFractions
-
-    constexpr Moment() = default;
-    constexpr Moment(std::uint32_t of_step, std::uint32_t n = 0) : step(of_step), fraction(n) {}
-    auto operator<=>(const Moment&) const = default; ///< the earlier one is less
-};
+using index::Instant; ///< the instants that are shown are those that queries ask for
+inline constexpr std::uint32_t kMostFraction = Instant::kFractions - 1;
 
 /// The steps that playing keeps to, counted from 0. A series that grows has new steps at its end:
 /// a range without `last` has them, too.
@@ -81,9 +72,7 @@ struct StepRange {
 /// A time to come back to.
 struct Bookmark {
     std::string name;
-    std::uint32_t step = 0;
-    std::uint32_t fraction = 0; ///< of the way to the next step, below kFractions
-    Moment moment() const { return {step, fraction}; }
+    Instant instant;
     bool operator==(const Bookmark&) const = default;
 };
 inline constexpr std::size_t kMostBookmarks = 256;
@@ -175,7 +164,7 @@ struct Look {
 
 /// Which steps are exported.
 enum class ExportedSteps : std::uint8_t {
-    shown, ///< the moment that is shown
+    shown, ///< the instant that is shown
     range  ///< all steps of the range that plays
 };
 template <>
@@ -220,10 +209,9 @@ struct RoomPanel {
 
 /// A place in the data that the user picked, and the value there.
 struct MarkedPoint {
-    glm::dvec3 position{0.0};   ///< physical space
-    std::uint32_t step = 0;     ///< shown when it was picked
-    double value = 0;           ///< of the data there
-    std::uint32_t fraction = 0; ///< as of a Moment; shown with the step
+    glm::dvec3 position{0.0}; ///< physical space
+    Instant instant;          ///< shown when it was picked
+    double value = 0;         ///< of the data there
     bool operator==(const MarkedPoint&) const = default;
 };
 /// The one place that is marked, or none.

@@ -43,10 +43,7 @@ struct SettingsOf {
 
     // Time.
     Holds<std::uint32_t> steps{}; ///< number that the session shows; 0: all that the index has
-    Holds<std::uint32_t> step{};
-    /// How far time is on the way to the next step, in parts of kFractions; a command with a step and
-    /// without it sets it to 0.
-    Holds<std::uint32_t> fraction{};
+    Holds<Instant> instant{};     ///< that the user asks for; recordings: `step` and `fraction`
     Holds<BetweenSteps> between{};
     Holds<bool> follow{}; ///< show the last step whenever a new one arrives
     Holds<PlaybackState> playback{};
@@ -88,9 +85,7 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "look", .dragged = true}, r.look...);
     visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
     visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
-    visit(Field{.key = "step", .dragged = true}, r.step...);
-    visit(Field{.key = "fraction", .low = 0, .high = kFractions - 1, .dragged = true},
-          r.fraction...);
+    visit(Field{.key = "step", .dragged = true}, r.instant...);
     visit(Field{"between"}, r.between...);
     visit(Field{.key = "follow"}, r.follow...);
     visit(Field{"playback"}, r.playback...);
@@ -122,8 +117,11 @@ using SettingValue = T;
 struct Settings : SettingsOf<SettingValue> {
     double isovalue() const { return isosurfaces[picked].isovalue; }
     void set_isovalue(double isovalue) { isosurfaces[picked].isovalue = isovalue; }
-    /// The moment that is shown.
-    Moment moment() const { return {step, blends() ? fraction : 0}; }
+    /// The instant that is shown: a step where steps are not blended, and the last step holds.
+    Instant shown_instant() const {
+        const Instant shown = blends() ? instant : Instant(instant.step);
+        return steps == 0 ? shown : shown.within(steps);
+    }
     /// Whether steps are blended; pictures as in the paper never are.
     bool blends() const { return between == BetweenSteps::blend && quality != QualityMode::paper; }
     bool operator==(const Settings&) const = default;

@@ -9,7 +9,7 @@
 namespace isochron::interaction {
 
 /// The steps behind which a series has a gap. Time that plays between the steps shows the step before
-/// a gap until the step behind it; a moment in a gap is shown to whoever asks for it.
+/// a gap until the step behind it; an instant in a gap is shown to whoever asks for it.
 class StepGaps {
   public:
     StepGaps() = default;

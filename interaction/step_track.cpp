@@ -53,22 +53,22 @@ std::uint32_t StepTrack::place_at(double time) const {
     return std::max(low, 1u) - 1;
 }
 
-Moment StepTrack::moment_at(double time, const StepGaps& gaps) const {
+Instant StepTrack::instant_at(double time, const StepGaps& gaps) const {
     const std::uint32_t place = place_at(time), at = step(place);
     if (place >= last() || every_ != 1 || gaps.behind(at))
-        return at;
+        return Instant(at);
     const double begin = start(place);
     const double share = std::clamp((time - begin) / (start(place + 1) - begin), 0.0, 1.0);
-    const auto fraction = static_cast<std::uint32_t>(std::lround(share * kFractions));
-    return fraction == kFractions ? Moment(at + 1) : Moment(at, fraction);
+    const auto fraction = static_cast<std::uint32_t>(std::lround(share * Instant::kFractions));
+    return fraction == Instant::kFractions ? Instant(at + 1) : Instant(at, fraction);
 }
 
-double StepTrack::time_of(const Moment& moment, bool reverse) const {
-    const std::uint32_t place = place_of(moment.step, reverse);
-    if (step(place) != moment.step || place >= last())
+double StepTrack::time_of(Instant at, bool reverse) const {
+    const std::uint32_t place = place_of(at.step, reverse);
+    if (step(place) != at.step || place >= last())
         return start(place);
     return std::lerp(start(place), start(place + 1),
-                     static_cast<double>(moment.fraction) / kFractions);
+                     static_cast<double>(at.fraction) / Instant::kFractions);
 }
 
 double period(std::span<const double> times) {
@@ -91,8 +91,10 @@ std::uint32_t next_step(std::uint32_t step, const PlaybackState& state, std::uin
     return state.loop ? 0 : last;
 }
 
-std::uint32_t previous_step(std::uint32_t step, const PlaybackState& state, std::uint32_t steps) {
-    const std::uint32_t last = steps - 1, every = std::max(state.every, 1u);
+std::uint32_t previous_step(Instant now, const PlaybackState& state, std::uint32_t steps) {
+    const std::uint32_t last = steps - 1, every = std::max(state.every, 1u), step = now.step;
+    if (now.within(steps).between())
+        return step;
     if (step >= every)
         return std::min(step - every, last);
     return state.loop ? last - last % every : 0;
@@ -135,46 +137,47 @@ StepRange marked_at(std::uint32_t step, const StepRange& range) {
     return !range.first || step < *range.first ? StepRange{step, {}} : StepRange{range.first, step};
 }
 
-std::optional<Moment> next_bookmark(std::span<const Bookmark> bookmarks, Moment now, bool blends) {
+std::optional<Instant> next_bookmark(std::span<const Bookmark> bookmarks, Instant now,
+                                     bool blends) {
     if (!blends)
-        now.fraction = kFractions - 1;
-    std::optional<Moment> first, next;
+        now.fraction = kMostFraction;
+    std::optional<Instant> first, next;
     for (const Bookmark& each : bookmarks) {
-        first = std::min(first.value_or(each.moment()), each.moment());
-        if (each.moment() > now)
-            next = std::min(next.value_or(each.moment()), each.moment());
+        first = std::min(first.value_or(each.instant), each.instant);
+        if (each.instant > now)
+            next = std::min(next.value_or(each.instant), each.instant);
     }
     return next ? next : first;
 }
 
-std::optional<Moment> previous_bookmark(std::span<const Bookmark> bookmarks, Moment now,
-                                        bool blends) {
+std::optional<Instant> previous_bookmark(std::span<const Bookmark> bookmarks, Instant now,
+                                         bool blends) {
     if (!blends)
         now.fraction = 0;
-    std::optional<Moment> last, previous;
+    std::optional<Instant> last, previous;
     for (const Bookmark& each : bookmarks) {
-        last = std::max(last.value_or(each.moment()), each.moment());
-        if (each.moment() < now)
-            previous = std::max(previous.value_or(each.moment()), each.moment());
+        last = std::max(last.value_or(each.instant), each.instant);
+        if (each.instant < now)
+            previous = std::max(previous.value_or(each.instant), each.instant);
     }
     return previous ? previous : last;
 }
 
-std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, const Moment& at) {
-    if (std::erase_if(bookmarks, [&](const Bookmark& each) { return each.moment() == at; }) > 0 ||
+std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, Instant at) {
+    if (std::erase_if(bookmarks, [&](const Bookmark& each) { return each.instant == at; }) > 0 ||
         bookmarks.size() == kMostBookmarks)
         return bookmarks;
     const auto after =
-        std::ranges::find_if(bookmarks, [&](const Bookmark& each) { return each.moment() > at; });
-    bookmarks.insert(after, {name_of(at), at.step, at.fraction});
+        std::ranges::find_if(bookmarks, [&](const Bookmark& each) { return each.instant > at; });
+    bookmarks.insert(after, {name_of(at), at});
     return bookmarks;
 }
 
-std::string name_of(const Moment& moment) {
-    if (moment.fraction == 0)
-        return fmt::format("step {}", moment.step + 1);
+std::string name_of(Instant at) {
+    if (at.fraction == 0)
+        return fmt::format("step {}", at.step + 1);
     return fmt::format("step {:.2f}",
-                       moment.step + 1 + static_cast<double>(moment.fraction) / kFractions);
+                       at.step + 1 + static_cast<double>(at.fraction) / Instant::kFractions);
 }
 
 PlaybackState counted_in(SpeedUnit unit, PlaybackState state, std::span<const double> times) {

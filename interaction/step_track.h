@@ -32,12 +32,12 @@ class StepTrack {
     double duration() const { return start(places_); }
     /// The place that is shown at a time.
     std::uint32_t place_at(double time) const;
-    /// The moment at a time where steps are blended, rounded once. Only steps next to each other
+    /// The instant at a time where steps are blended, rounded once. Only steps next to each other
     /// are: others are held, and so are the last one and those before a gap.
     /// @param gaps of the whole series
-    Moment moment_at(double time, const StepGaps& gaps) const;
-    /// When a moment of the track comes. @param reverse as `place_of`
-    double time_of(const Moment& moment, bool reverse) const;
+    Instant instant_at(double time, const StepGaps& gaps) const;
+    /// When an instant of the track comes. @param reverse as `place_of`
+    double time_of(Instant at, bool reverse) const;
 
   private:
     std::span<const double> times_;
@@ -57,7 +57,8 @@ double period(std::span<const double> times);
 /// the other end if time loops, and else no further.
 /// @param steps number of steps of the series, above 0
 std::uint32_t next_step(std::uint32_t step, const PlaybackState& state, std::uint32_t steps);
-std::uint32_t previous_step(std::uint32_t step, const PlaybackState& state, std::uint32_t steps);
+/// Between two steps, the earlier one is the step before.
+std::uint32_t previous_step(Instant now, const PlaybackState& state, std::uint32_t steps);
 
 /// The ends of a range in a series. @param steps number of steps of the series, above 0
 std::uint32_t first_of(const StepRange& range, std::uint32_t steps);
@@ -70,19 +71,19 @@ StepRange ended_at(std::uint32_t step, StepRange range);
 /// For one button: begins a range at the step, then ends it there, then takes all steps again.
 StepRange marked_at(std::uint32_t step, const StepRange& range);
 
-/// The moment of the next bookmark after a moment, or before it; behind the last one comes the first.
-/// @param blends time stops between steps, too; else all moments of a step are the same
-std::optional<Moment> next_bookmark(std::span<const Bookmark> bookmarks, Moment now,
-                                    bool blends = true);
-std::optional<Moment> previous_bookmark(std::span<const Bookmark> bookmarks, Moment now,
-                                        bool blends = true);
+/// The instant of the next bookmark after an instant, or before it; behind the last one comes the first.
+/// @param blends time stops between steps, too; else all instants of a step are the same
+std::optional<Instant> next_bookmark(std::span<const Bookmark> bookmarks, Instant now,
+                                     bool blends = true);
+std::optional<Instant> previous_bookmark(std::span<const Bookmark> bookmarks, Instant now,
+                                         bool blends = true);
 
-/// The bookmarks with a moment in addition, or without it if it is among them; the same ones if there
-/// are kMostBookmarks of other moments.
-std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, const Moment& at);
+/// The bookmarks with an instant in addition, or without it if it is among them; the same ones if there
+/// are kMostBookmarks of other instants.
+std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, Instant at);
 
 /// `step 4`, or between two steps `step 4.50`: as people count, from 1.
-std::string name_of(const Moment& moment);
+std::string name_of(Instant at);
 
 /// The same number of pictures a second, counted in another unit.
 PlaybackState counted_in(SpeedUnit unit, PlaybackState state, std::span<const double> times);

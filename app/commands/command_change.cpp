@@ -8,6 +8,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/search/cell_change.h"
+#include "index/volume/instant_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -92,27 +93,29 @@ void run_change(const ChangeArguments& arguments) {
     if (!arguments.removed.empty())
         write_ids(arguments.removed, found.removed);
     if (arguments.json) {
-        const nlohmann::ordered_json j{
-            {"file", arguments.file.string()},  {"array", file->info().array},
-            {"step", std::uint32_t{from.step}}, {"fraction", from.step.fraction},
-            {"isovalue", from.isovalue},        {"to_step", std::uint32_t{to.step}},
-            {"to_fraction", to.step.fraction},  {"to_isovalue", to.isovalue},
-            {"added", found.added.size()},      {"removed", found.removed.size()},
-            {"searched_anew", whole},           {"change_ms", middle->count()}};
+        const nlohmann::ordered_json j{{"file", arguments.file.string()},
+                                       {"array", file->info().array},
+                                       {"step", from.instant.step},
+                                       {"fraction", from.instant.fraction},
+                                       {"isovalue", from.isovalue},
+                                       {"to_step", to.instant.step},
+                                       {"to_fraction", to.instant.fraction},
+                                       {"to_isovalue", to.isovalue},
+                                       {"added", found.added.size()},
+                                       {"removed", found.removed.size()},
+                                       {"searched_anew", whole},
+                                       {"change_ms", middle->count()}};
         print_data(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
         return;
     }
-    const auto at = [](index::Instant moment) {
-        return moment.between() ? fmt::format("{} + {}/65536", moment.step, moment.fraction)
-                                : fmt::format("{}", moment.step);
-    };
     print_safely(fmt::format("isovalue {} at step {} to isovalue {} at step {}\n"
                              "added            {}\n"
                              "removed          {}\n"
                              "found by         {}\n"
                              "time             {:.4f} ms (median of {})\n",
-                             from.isovalue, at(from.step), to.isovalue, at(to.step),
-                             grouped(found.added.size()), grouped(found.removed.size()),
+                             from.isovalue, index::number_text(from.instant), to.isovalue,
+                             index::number_text(to.instant), grouped(found.added.size()),
+                             grouped(found.removed.size()),
                              whole ? "a full search of the second set: little stays the same"
                                    : "a search of only what differs",
                              middle->count(), times.size()));

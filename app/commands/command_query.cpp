@@ -112,7 +112,7 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
         {"array", info.array},
         {"step", arguments.step},
         {"fraction", arguments.fraction},
-        {"time", index::time_at(info.times, result.set->query.step)},
+        {"time", index::time_at(info.times, result.set->query.instant)},
         {"time_unit", info.time_unit},
         {"isovalue", arguments.isovalue},
         {"value_unit", info.value_unit},
@@ -151,11 +151,11 @@ std::string as_text(const QueryArguments& arguments, const index::IndexFile& fil
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
     std::string text =
-        fmt::format("isovalue {}{} at step {}{} (time {}){}\n"
+        fmt::format("isovalue {}{} at step {} (time {}){}\n"
                     "active cells     {}\n",
-                    arguments.isovalue, with_space(info.value_unit), arguments.step,
-                    arguments.fraction > 0 ? fmt::format(" + {}/65536", arguments.fraction) : "",
-                    index::instant_text(info.times, result.set->query.step, info.time_unit),
+                    arguments.isovalue, with_space(info.value_unit),
+                    index::number_text(result.set->query.instant),
+                    index::instant_text(info.times, result.set->query.instant, info.time_unit),
                     arguments.level > 0 ? fmt::format(", level of detail {}", arguments.level) : "",
                     grouped(active));
     text += fmt::format("found by         {}: {} cells tested, {} of them not active\n",

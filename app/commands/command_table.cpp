@@ -53,7 +53,7 @@ class MarkRows {
         if (commands.bookmarks)
             add(*commands.bookmarks);
         for (const std::string& stamp : commands.stamps)
-            push("stamp", step_, fraction_, stamp);
+            push("stamp", instant_, stamp);
     }
     Table table() && {
         return {{"what", "seconds", "step", "fraction", "name", "x", "y", "z", "value"},
@@ -64,7 +64,7 @@ class MarkRows {
     void add(const std::vector<interaction::Bookmark>& all) {
         for (const interaction::Bookmark& each : all)
             if (std::ranges::find(known_, each) == known_.end())
-                push("bookmark", each.step, each.fraction, each.name);
+                push("bookmark", each.instant, each.name);
         known_ = all;
     }
     Json& push(std::string_view what, std::uint32_t step, std::uint32_t fraction,
@@ -88,7 +88,7 @@ class MarkRows {
     }
 
     std::optional<double> seconds_;
-    std::uint32_t step_ = 0, fraction_ = 0;
+    index::Instant instant_;
     std::vector<interaction::Bookmark> known_;
     Json rows_ = Json::array();
 };

@@ -8,6 +8,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/export/mesh_parts.h"
+#include "index/volume/instant_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -84,8 +85,9 @@ std::function<void(index::CellMesh&, const index::Query&)> reshaping(const MeshC
             throw index::Error(fmt::format("step {}: --simplify {}{} leaves none of the {} "
                                            "triangles at isovalue {}; a smaller "
                                            "distance is needed",
-                                           query.step.step, human_number(*error), with_space(unit),
-                                           grouped(before), human_number(query.isovalue)));
+                                           index::number_text(query.instant), human_number(*error),
+                                           with_space(unit), grouped(before),
+                                           human_number(query.isovalue)));
     };
 }
 

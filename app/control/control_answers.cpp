@@ -36,14 +36,14 @@ Json state_of(const ShownFrame& shown) {
 }
 
 Json surfaces_of(const index::SurfacesQuery& query) {
-    return {{"step", query.step.step},
-            {"fraction", query.step.fraction},
+    return {{"step", query.instant.step},
+            {"fraction", query.instant.fraction},
             {"isovalues", query.isovalues}};
 }
 
 Json time_of(const ShownFrame& frame) {
-    return {{"step", frame.state->step},
-            {"fraction", frame.state->fraction},
+    return {{"step", frame.state->instant.step},
+            {"fraction", frame.state->instant.fraction},
             {"playing", frame.state->playback.playing}};
 }
 
@@ -119,7 +119,7 @@ Searched searched(const ControlRequest& request,
     Searched result{.array = index::array_of(file, number), .query = {}, .words = {}};
     const index::Instant at = request.step
                                   ? index::Instant(index::step_named(*result.array, *request.step))
-                                  : shown.instant();
+                                  : shown.shown_instant();
     result.query = {at, request.isovalue.value_or(shown.isovalue())};
     result.words = {{"array", result.array->info().array},
                     {"step", at.step},
@@ -142,7 +142,7 @@ ControlAnswer cells_answer(const std::string& id, const Searched& asked,
     index::CellSet set;
     const auto search = index::search_into(asked.array, std::nullopt,
                                            wide ? index::Shading::cells : index::Shading::none);
-    if (!search(index::step_of_query(*asked.array, asked.query.step, {&asked.query.isovalue, 1}),
+    if (!search(index::step_of_query(*asked.array, asked.query.instant, {&asked.query.isovalue, 1}),
                 asked.query.isovalue, stop, set))
         throw index::Stopped();
     const std::size_t cells = wide ? set.points.size() : set.ids.size();

@@ -20,9 +20,6 @@ bool go_together(const Commands& earlier, const Commands& later) {
     // An isovalue is of the surface that was picked when it was asked for.
     if (earlier.isovalue && (later.picked || later.isosurfaces || later.array))
         return false;
-    // A step without a fraction ends a fraction that was asked for before.
-    if (earlier.fraction && later.step && !later.fraction)
-        return false;
     if (earlier.array && (later.isosurfaces || later.coloring || later.array))
         return false;
     return earlier.stamps.size() + later.stamps.size() <= interaction::kMostEvents &&

@@ -119,7 +119,7 @@ ExplorerState first_look(const Session& session, const ExploreOptions& options,
     const std::size_t steps = file->info().steps(), number = first_array(options, *file);
     if (number > 0)
         state.apply(session.way_to_array(number), steps);
-    if (const std::uint32_t step = first_step(options, steps); step > state.step)
+    if (const std::uint32_t step = first_step(options, steps); step > state.instant.step)
         state.isosurfaces = first_surfaces(config, array_of(file, number), step);
     if (!options.between && !config.between)
         state.between = advised_between(*array_of(file, number));
@@ -140,7 +140,8 @@ ExplorerState start_from(ExplorerState state, const ExploreOptions& options, std
     state.set_isovalue(options.isovalue.value_or(state.isovalue()));
     state.steps = static_cast<std::uint32_t>(steps);
     state.follow = state.follow || options.follow;
-    state.step = options.step || options.follow ? first_step(options, steps) : state.step;
+    if (options.step || options.follow)
+        state.instant = index::Instant(first_step(options, steps));
     if (options.between)
         state.between = *interaction::value_named<interaction::BetweenSteps>(*options.between);
     state.panel = state.panel && !options.no_panel;

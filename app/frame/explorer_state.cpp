@@ -74,11 +74,13 @@ bool holds(const Field& field, const interaction::StepRange& range) {
     return range.first.value_or(0) <= field.high && range.last.value_or(0) <= field.high &&
            (!range.last || range.first.value_or(0) <= *range.last);
 }
+bool holds(const Field& field, const index::Instant& instant) {
+    return holds(field, instant.step) && instant.fraction <= interaction::kMostFraction;
+}
 bool holds(const Field& field, const std::vector<interaction::Bookmark>& bookmarks) {
     return bookmarks.size() <= field.most &&
            std::ranges::all_of(bookmarks, [&](const interaction::Bookmark& bookmark) {
-               return holds(field, bookmark.step) &&
-                      holds(Field{"", 0, interaction::kFractions - 1}, bookmark.fraction);
+               return holds(field, bookmark.instant);
            });
 }
 bool holds(const Field&, const interaction::WrittenPictures& pictures) {
@@ -98,8 +100,7 @@ bool holds(const Field& field, const interaction::ClipPlane& clip) {
     return holds(field, clip.point) && std::abs(glm::length(clip.normal) - 1) < kOff;
 }
 bool holds(const Field& field, const interaction::Mark& mark) {
-    return !mark.point || (holds(field, mark.point->step) &&
-                           holds(Field{"", 0, interaction::kFractions - 1}, mark.point->fraction));
+    return !mark.point || holds(field, mark.point->instant);
 }
 
 /// A record that no rule above is for: each of its fields holds.
@@ -148,7 +149,7 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
             const void* member = &kept;
             if (member == &state.picked)
                 field.high = static_cast<double>(state.isosurfaces.size()) - 1;
-            else if (member == &state.step || member == &state.mark ||
+            else if (member == &state.instant || member == &state.mark ||
                      member == &state.play_range || member == &state.bookmarks)
                 field.high = static_cast<double>(state.known_steps(held)) - 1;
             else if (member == &state.steps)
@@ -159,8 +160,9 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
                 std::min(state.picked, static_cast<std::uint32_t>(state.isosurfaces.size() - 1));
         },
         commands, state);
-    if (commands.step && !commands.fraction) // it is that step itself
-        state.fraction = 0;
+    const Field fraction{"fraction", 0, interaction::kMostFraction};
+    if (commands.fraction && !take(fraction, *commands.fraction, state.instant.fraction))
+        refused(fraction);
     if (commands.isovalue &&
         !take({"isovalue"}, *commands.isovalue, state.isosurfaces[state.picked].isovalue))
         refused(Field{"isovalue"});
@@ -204,14 +206,8 @@ bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) 
     return apply(kept, held);
 }
 
-index::Instant ExplorerState::instant() const {
-    const interaction::Moment now = moment();
-    const index::Instant at(now.step, now.fraction);
-    return steps == 0 ? at : at.within(steps);
-}
-
 index::SurfacesQuery ExplorerState::surfaces() const {
-    index::SurfacesQuery query{instant(), {}};
+    index::SurfacesQuery query{shown_instant(), {}};
     switch (coloring.by) {
     case interaction::ColorBy::surface: break;
     case interaction::ColorBy::value: query.coloring = index::CellColoring::value; break;
@@ -241,8 +237,6 @@ interaction::Commands ExplorerState::commands_to(const ExplorerState& target) co
                 command = other;
         },
         changes, *this, target);
-    if (changes.step && target.fraction != 0) // a step alone is shown without it
-        changes.fraction = target.fraction;
     return changes;
 }
 

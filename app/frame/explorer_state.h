@@ -44,9 +44,7 @@ struct ExplorerState : interaction::Settings {
     /// Commands that lead back to the start state, except for displays, viewpoints and tools.
     interaction::Commands way_to_start(const ExplorerState& start) const;
 
-    /// The moment that is shown, as queries have it: the last known step holds.
-    index::Instant instant() const;
-    /// The query for the cells: moment, isovalues in the order of `isosurfaces`, and coloring.
+    /// The query for the cells: instant, isovalues in the order of `isosurfaces`, and coloring.
     index::SurfacesQuery surfaces() const;
     bool operator==(const ExplorerState&) const = default;
 };

@@ -43,7 +43,7 @@ struct FrameDrawing {
 
 /// The cells of the frame.
 struct FrameCells {
-    index::SurfacesQuery asked{0, {0.0}};      ///< at least one isovalue
+    index::SurfacesQuery asked{{}, {0.0}};     ///< at least one isovalue
     std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
     std::uint64_t cells = 0;                   ///< drawn
     unsigned finest = 0, coarsest = 0;         ///< levels of detail that they are of

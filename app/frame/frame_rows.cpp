@@ -28,9 +28,9 @@ nlohmann::json time_json(const std::optional<Milliseconds>& time) {
 }
 
 nlohmann::json query_json(const index::SurfacesQuery& query) {
-    nlohmann::json json{{"step", std::uint32_t{query.step}}, {"isovalue", query.isovalues.front()}};
-    if (query.step.between())
-        json["fraction"] = query.step.fraction;
+    nlohmann::json json{{"step", query.instant.step}, {"isovalue", query.isovalues.front()}};
+    if (query.instant.between())
+        json["fraction"] = query.instant.fraction;
     if (query.isovalues.size() > 1)
         json["more_isovalues"] = std::vector(query.isovalues.begin() + 1, query.isovalues.end());
     if (query.array > 0)

@@ -32,9 +32,8 @@ Changed changed(const ExplorerState& a, const ExplorerState& b) {
     interaction::each_setting(
         [&](const interaction::Field& field, const auto& left, const auto& right) {
             const void* member = &left;
-            const bool played =
-                (a.playback.playing && (member == &a.step || member == &a.fraction)) ||
-                (member == &a.playback && turned_by_itself(a, b));
+            const bool played = (a.playback.playing && member == &a.instant) ||
+                                (member == &a.playback && turned_by_itself(a, b));
             if (field.undone && !played && !(left == right)) {
                 result.all |= bit;
                 if (field.dragged)
@@ -54,10 +53,8 @@ bool holds_something(const interaction::InputState& input) {
 
 interaction::Commands way_to(const ExplorerState& target, const ExplorerState& from) {
     interaction::Commands way = from.commands_to(target);
-    if (from.playback.playing && target.playback.playing) { // undo does not stop time that plays
-        way.step.reset();
-        way.fraction.reset();
-    }
+    if (from.playback.playing && target.playback.playing) // undo does not stop time that plays
+        way.instant.reset();
     return way;
 }
 

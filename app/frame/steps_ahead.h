@@ -10,10 +10,10 @@
 
 namespace isochron::app {
 
-/// What playing shows after a step; empty if it shows only one.
-/// @param step that is shown now @param settings range and way of playing
+/// What playing shows after an instant; empty if it shows only one step.
+/// @param now what is shown @param settings range and way of playing
 /// @param times of the steps that can be shown
-std::optional<index::StepsAhead> steps_ahead(index::Instant step,
+std::optional<index::StepsAhead> steps_ahead(index::Instant now,
                                              const interaction::Settings& settings,
                                              std::span<const double> times);
 

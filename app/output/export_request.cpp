@@ -68,7 +68,7 @@ index::ExportRequest shown_request(const ExplorerState& state,
         for (std::uint32_t step = first_of(range, steps); step <= last_of(range, steps); ++step)
             request.plan.steps.push_back(step);
     } else {
-        const index::Instant now = state.instant();
+        const index::Instant now = state.shown_instant();
         request.plan.steps = {now.step};
         request.plan.fraction = now.fraction;
     }

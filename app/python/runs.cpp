@@ -76,11 +76,11 @@ Triangles<Number> unpacked(const index::CellMesh& mesh, const index::Grid& grid,
 
 } // namespace
 
-index::Query RunArray::query(const Moment& at, double isovalue) const {
+index::Query RunArray::query(const AskedInstant& at, double isovalue) const {
     return {index::instant_named(*file_, at.step, at.fraction), isovalue};
 }
 
-CellNumbers RunArray::cells(const Moment& at, double isovalue) {
+CellNumbers RunArray::cells(const AskedInstant& at, double isovalue) {
     const index::Query asked = query(at, isovalue);
     const index::Grid& grid = file_->info().grid;
     CellNumbers result;
@@ -92,7 +92,7 @@ CellNumbers RunArray::cells(const Moment& at, double isovalue) {
     };
     index::CellSet set = searches_.with(make, [&](index::SearchInto& search) {
         index::CellSet found;
-        search(index::step_of_query(*file_, asked.step, {&isovalue, 1}), isovalue, {}, found);
+        search(index::step_of_query(*file_, asked.instant, {&isovalue, 1}), isovalue, {}, found);
         return found;
     });
     if (result.are_wide) {
@@ -105,8 +105,8 @@ CellNumbers RunArray::cells(const Moment& at, double isovalue) {
     return result;
 }
 
-CellDifference RunArray::change(const Moment& at, double isovalue, const Moment& to_moment,
-                                double to_isovalue) {
+CellDifference RunArray::change(const AskedInstant& at, double isovalue,
+                                const AskedInstant& to_moment, double to_isovalue) {
     const index::Query from = query(at, isovalue), to = query(to_moment, to_isovalue);
     index::expect_narrow_ids(*file_);
     const auto make = [this] { return std::make_unique<index::ChangeSearch>(file_); };
@@ -126,7 +126,7 @@ CellDifference RunArray::change(const Moment& at, double isovalue, const Moment&
     return result;
 }
 
-index::CellMesh RunArray::packed_mesh(const Moment& at, double isovalue) {
+index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue) {
     const index::Query asked = query(at, isovalue);
     const auto make = [this] { return std::make_unique<index::SurfaceMeshes>(file_); };
     return meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
@@ -134,16 +134,16 @@ index::CellMesh RunArray::packed_mesh(const Moment& at, double isovalue) {
     });
 }
 
-Triangles<float> RunArray::mesh_from_origin(const Moment& at, double isovalue) {
+Triangles<float> RunArray::mesh_from_origin(const AskedInstant& at, double isovalue) {
     const index::Grid& grid = file_->info().grid;
     return unpacked<float>(packed_mesh(at, isovalue), grid, grid.origin);
 }
 
-Triangles<double> RunArray::mesh(const Moment& at, double isovalue) {
+Triangles<double> RunArray::mesh(const AskedInstant& at, double isovalue) {
     return unpacked<double>(packed_mesh(at, isovalue), file_->info().grid, glm::dvec3(0.0));
 }
 
-std::vector<std::byte> RunArray::values(const Moment& moment, const Box& box) const {
+std::vector<std::byte> RunArray::values(const AskedInstant& moment, const Box& box) const {
     const index::Instant at = index::instant_named(*file_, moment.step, moment.fraction);
     // Part of a step is read by its chunks, whatever is faster for a search.
     const index::StepView step =
@@ -157,8 +157,8 @@ std::vector<std::byte> RunArray::values(const Moment& moment, const Box& box) co
         return result;
     if (!step.by_chunks()) {
         const auto& n = step.grid().vertices;
-        copy_shared(step.whole({}).values.step_bytes(at), {}, {n[2], n[1], n[0]}, box, value_bytes,
-                    result);
+        copy_shared(step.whole({}).values.step_bytes(at.step), {}, {n[2], n[1], n[0]}, box,
+                    value_bytes, result);
         return result;
     }
     constexpr std::uint32_t kEdge = index::kChunkEdge;
@@ -180,7 +180,7 @@ std::vector<std::byte> RunArray::values(const Moment& moment, const Box& box) co
     return result;
 }
 
-std::vector<double> RunArray::blended_values(const Moment& at, const Box& box) const {
+std::vector<double> RunArray::blended_values(const AskedInstant& at, const Box& box) const {
     const std::vector<std::byte> stored = values(at, box);
     const index::Blend blend(file_->info().type, file_->info().scaling, 1);
     return index::visit_value_type(blend.type(), [&]<class T>(std::type_identity<T>) {

@@ -76,23 +76,24 @@ class RunArray {
     const index::IndexFile& file() const { return *file_; }
     /// Each of these throws index::Error: there is no such step, or the file is damaged.
     /// A moment is a step and so many 65536ths of the way to the next one.
-    struct Moment {
+    struct AskedInstant {
         std::int64_t step, fraction;
     };
-    CellNumbers cells(const Moment& at, double isovalue);
-    CellDifference change(const Moment& at, double isovalue, const Moment& to, double to_isovalue);
+    CellNumbers cells(const AskedInstant& at, double isovalue);
+    CellDifference change(const AskedInstant& at, double isovalue, const AskedInstant& to,
+                          double to_isovalue);
     /// Coordinates less the grid's origin, as floats.
-    Triangles<float> mesh_from_origin(const Moment& at, double isovalue);
-    Triangles<double> mesh(const Moment& at, double isovalue);
+    Triangles<float> mesh_from_origin(const AskedInstant& at, double isovalue);
+    Triangles<double> mesh(const AskedInstant& at, double isovalue);
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
-    std::vector<std::byte> values(const Moment& at, const Box& box) const;
+    std::vector<std::byte> values(const AskedInstant& at, const Box& box) const;
     /// The same between two steps, scaled.
-    std::vector<double> blended_values(const Moment& at, const Box& box) const;
+    std::vector<double> blended_values(const AskedInstant& at, const Box& box) const;
 
   private:
-    index::Query query(const Moment& at, double isovalue) const;
-    index::CellMesh packed_mesh(const Moment& at, double isovalue);
+    index::Query query(const AskedInstant& at, double isovalue) const;
+    index::CellMesh packed_mesh(const AskedInstant& at, double isovalue);
 
     std::shared_ptr<const index::IndexFile> file_;
     WorkSpaces<index::SearchInto> searches_;

@@ -24,8 +24,8 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
                                    fmt::join(values, ", "), with_space(info.value_unit));
     if (info.steps() > 1)
         text += fmt::format(", at {} ({} of {})",
-                            index::instant_text(info.times, shown.step, info.time_unit),
-                            steps_text(shown.step), info.steps());
+                            index::instant_text(info.times, shown.instant, info.time_unit),
+                            steps_text(shown.instant), info.steps());
     return text;
 }
 

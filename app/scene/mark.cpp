@@ -16,7 +16,7 @@ std::string place_text(const interaction::MarkedPoint& point, const index::Serie
 }
 
 std::string time_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info) {
-    const index::Instant at = index::Instant(point.step, point.fraction).within(info.steps());
+    const index::Instant at = point.instant.within(info.steps());
     const std::string time = index::instant_text(info.times, at, info.time_unit);
     return at.between() ? fmt::format("{}, {}", time, steps_text(at)) : time;
 }
@@ -38,8 +38,8 @@ std::vector<std::string> pointed_lines(const interaction::Pointed& pointed, std:
                                        const index::SeriesInfo& info) {
     std::vector<std::string> lines{with_unit(pointed.point.value, info.value_unit),
                                    place_text(pointed.point, info)};
-    if (pointed.point.fraction > 0)
-        lines.push_back(steps_text({pointed.point.step, pointed.point.fraction}));
+    if (pointed.point.instant.between())
+        lines.push_back(steps_text(pointed.point.instant));
     if (surfaces > 1)
         lines.push_back(fmt::format("surface {} of {}", pointed.surface + 1, surfaces));
     return lines;

@@ -68,7 +68,7 @@ void CellSupply::request(const Frame& frame) {
     const index::ExtractionPtr& moving = sets_.held(CellSets::Use::always);
     request.before_meshes = moving && details_.lacks_what_is_seen(moving->query.detail);
     if (frame.state.playback.playing)
-        request.ahead = steps_ahead(request.query.step, frame.state,
+        request.ahead = steps_ahead(request.query.instant, frame.state,
                                     std::span(frame.file.info().times).first(frame.steps));
     extractor_.request(request);
     frame.report.extracting = extractor_.busy();

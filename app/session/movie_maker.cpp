@@ -265,8 +265,7 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
     header.start.leaving = false;
     header.start.exporting = interaction::ExportWork{};
     header.start.follow = false;
-    header.start.step = 0;
-    header.start.fraction = 0;
+    header.start.instant.emplace();
     const interaction::PlaybackState played =
         view.state.playback.value_or(interaction::PlaybackState{});
     header.start.playback = interaction::PlaybackState{};
@@ -278,7 +277,7 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
     const double per_second = interaction::track_rate(played, times);
     double start = 0;
     const double seconds = track.start(track.last()) / per_second;
-    // Its frames are moments, unless there are fewer frames than steps.
+    // Its frames are instants, unless there are fewer frames than steps.
     const bool blends = view.state.between == interaction::BetweenSteps::blend &&
                         played.every == 1 && std::isfinite(seconds) && per_second > 0 &&
                         seconds * rate >= track.last();
@@ -287,11 +286,9 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
         for (std::uint64_t i = 0; i <= count; ++i) {
             start = static_cast<double>(i) / rate;
             const double at = played.reverse ? seconds - start : start;
-            const interaction::Moment moment = track.moment_at(at * per_second, all.gaps);
             interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
             frame.input.time = Seconds(start);
-            frame.commands.step = moment.step;
-            frame.commands.fraction = moment.fraction;
+            frame.commands.instant = track.instant_at(at * per_second, all.gaps);
             recording.frames.push_back(std::move(frame));
         }
         start += least;
@@ -300,7 +297,7 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
         interaction::RecordedFrame frame{.input = seen, .commands = {}, .from_panel = {}};
         const std::uint32_t place = played.reverse ? track.last() - i : i;
         frame.input.time = Seconds(start);
-        frame.commands.step = track.step(place);
+        frame.commands.instant.emplace(track.step(place));
         const double seconds = (track.start(place + 1) - track.start(place)) / per_second;
         start += std::isfinite(seconds) ? std::max(least, seconds) : least;
         recording.frames.push_back(std::move(frame));

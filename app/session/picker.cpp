@@ -67,8 +67,7 @@ std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& sta
     const auto hit = index::first_hit(*shown, file_->info().grid, *seen, visible(state));
     if (!hit || (state.clip.shown && beyond(state.clip, hit->at) > kOnPlane * glm::length(hit->at)))
         return std::nullopt;
-    const index::Instant at = shown->query.step;
-    return Pointed{{hit->at, at.step, shown->query.isovalues[hit->surface], at.fraction},
+    return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
                    hit->surface};
 }
 

@@ -279,8 +279,7 @@ PictureNote Session::note() const {
     note.text = drawn_ ? drawn_->layout.text : 0.0f;
     ExplorerState state = state_;
     if (const index::ExtractionPtr& shown = scene_.cells().shown()) { // may lag while time plays
-        state.step = shown->query.step;
-        state.fraction = shown->query.step.fraction;
+        state.instant = shown->query.instant;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
              ++i)
             state.isosurfaces[i].isovalue = shown->query.isovalues[i];

@@ -29,7 +29,8 @@ ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::Inde
                           fmt::format("{:.4g} to {:.4g}", array.stats().low, array.stats().high),
                           {}});
         if (number > 0)
-            first_surfaces_.push_back(first_surfaces(config, array_of(file_, number), home.step));
+            first_surfaces_.push_back(
+                first_surfaces(config, array_of(file_, number), home.instant.step));
     }
 }
 

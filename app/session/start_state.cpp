@@ -47,7 +47,8 @@ double first_isovalue(const std::shared_ptr<const IndexFile>& array, std::uint32
         // Values of coarser levels are means, so the step itself has such values, too.
         if (!here || (here->low < of_all && of_all <= here->high))
             return of_all;
-        const auto found = search_in(array, std::nullopt, index::Shading::none)({step, of_all}, {});
+        const auto found = search_in(array, std::nullopt,
+                                     index::Shading::none)({index::Instant(step), of_all}, {});
         return found && !found->ids.empty() ? of_all : quantile(*here, share);
     } catch (const index::Error&) { // the search for the first picture will tell
         return of_all;
@@ -80,7 +81,7 @@ ExplorerState start_state(const Config& config, const std::shared_ptr<const Inde
     state.grid = config.grid;
     state.steps = static_cast<std::uint32_t>(file->info().steps());
     state.eye_separation = config.installation.viewers.front().eye_separation;
-    state.isosurfaces = first_surfaces(config, file, state.step);
+    state.isosurfaces = first_surfaces(config, file, state.instant.step);
     state.coloring = config.coloring;
     state.look = config.look;
     state.bounding_box = config.rendering.bounding_box;

@@ -68,7 +68,7 @@ bool DetailSearch::search(const SurfacesQuery& query, unsigned level, const Chun
         set.query = query.surface(i);
         set.method = by_bricks_ ? SearchMethod::bricks : SearchMethod::scan;
         if (std::isfinite(set.query.isovalue) &&
-            !searcher(level).search(step(query.step, level), set, by_bricks_, true, stop, only))
+            !searcher(level).search(step(query.instant, level), set, by_bricks_, true, stop, only))
             return false;
         if (!color(set.query, level, set, found.colors.emplace_back(), stop))
             return false;
@@ -107,13 +107,13 @@ bool DetailSearch::color(const Query& query, unsigned level, const CellSet& set,
             return true;
         const FirstCrossings* const first = crossings(query.isovalue, level, stop);
         if (first)
-            color_by_first_crossing(*first, file_->info().times, query.step, set.ids, colors);
+            color_by_first_crossing(*first, file_->info().times, query.instant, set.ids, colors);
         return first != nullptr;
     }
     const ChunkStore* const store = source_ ? source_->chunks(level) : nullptr;
     if (!store || set.ids.empty())
         return true;
-    return searcher(level).color_cells(step(query.step, level), set, *source_, colors, stop);
+    return searcher(level).color_cells(step(query.instant, level), set, *source_, colors, stop);
 }
 
 /// Finds the whole levels, the coarsest first, until there are too many cells or the next level
@@ -156,7 +156,7 @@ double DetailSearch::expected_cells(std::size_t region, unsigned level) const {
 double DetailSearch::least_cells_of_volume(const SurfacesQuery& query) const {
     if (!by_bricks_)
         return 0;
-    const StepView at = step(query.step, 0);
+    const StepView at = step(query.instant, 0);
     double chunks = 0;
     for (const double isovalue : query.isovalues) {
         const auto cut = at.cut(isovalue);
@@ -310,7 +310,7 @@ std::optional<std::uint64_t> DetailSearch::count(const SurfacesQuery& query,
         if (!std::isfinite(isovalue))
             continue;
         const auto of_surface =
-            searcher(0).count(step(query.step, 0), {query.step, isovalue}, by_bricks_, stop);
+            searcher(0).count(step(query.instant, 0), {query.instant, isovalue}, by_bricks_, stop);
         if (!of_surface)
             return std::nullopt;
         cells += *of_surface;
@@ -332,7 +332,8 @@ DetailSearch::Outcome DetailSearch::find(const SurfacesQuery& query,
                                          std::optional<std::uint64_t> volume_cells,
                                          DetailCells& result, const std::stop_token& stop) {
     const auto most = static_cast<double>(query.detail.most_cells);
-    if (top_ == 0 || !has_mixed_levels(file_->info().grid) || query.step >= file_->info().steps())
+    if (top_ == 0 || !has_mixed_levels(file_->info().grid) ||
+        query.instant.step >= file_->info().steps())
         return Outcome::whole;
     coloring_ = query.coloring;
     source_.reset();

@@ -88,7 +88,7 @@ bool LostCells::find(const Query& query, std::span<const CellPoint> drawn,
                      const std::stop_token& stop) {
     found = {};
     found.query = query;
-    const StepView step = step_in_chunks(file_, query.step, finest_);
+    const StepView step = step_in_chunks(file_, query.instant, finest_);
     const auto cut = step.cut(query.isovalue);
     if (!cut)
         return true;

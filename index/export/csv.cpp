@@ -17,7 +17,7 @@ class CsvWriter : public SurfaceWriter {
         : plan_(plan), name_(std::move(name)) {}
 
     void add(const ExportedStep& step) override {
-        NewFile file(file_of_step(name_, plan_, step.step));
+        NewFile file(file_of_step(name_, plan_, step.instant.step));
         BufferedSink out(file);
         out.text("surface,isovalue,id,x,y,z,nx,ny,nz\n");
         fmt::memory_buffer line;

@@ -44,9 +44,8 @@ std::string words_of(const ExportPlan& plan, const ExportedPlaces& places) {
 }
 
 std::string words_of(const ExportPlan& plan, const ExportedStep& step) {
-    return fmt::format("step {}{}, time {}{}", step.step,
-                       step.fraction > 0 ? fmt::format(" + {}/65536", step.fraction) : "",
-                       step.time, plan.time_unit.empty() ? "" : " " + plan.time_unit);
+    return fmt::format("step {}, time {}{}", number_text(step.instant), step.time,
+                       plan.time_unit.empty() ? "" : " " + plan.time_unit);
 }
 
 } // namespace isochron::index

@@ -5,6 +5,7 @@
 #include "index/surface/cell_mesh.h"
 #include "index/surface/cell_set.h"
 #include "index/volume/grid.h"
+#include "index/volume/instant_text.h"
 
 #include <glm/vec3.hpp>
 
@@ -68,8 +69,7 @@ struct ExportedSurface {
 };
 
 struct ExportedStep {
-    std::uint32_t step = 0;
-    std::uint32_t fraction = 0; ///< of the way to the next step, in 65536ths
+    Instant instant;
     double time = 0;
     const Grid* grid = nullptr;
     std::vector<ExportedSurface> surfaces;

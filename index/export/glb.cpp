@@ -57,7 +57,7 @@ class GlbFile {
         for (const ExportedSurface& surface : step.surfaces)
             if (surface.mesh->triangles() > 0) // meshes of glTF have triangles
                 children.push_back(add(surface, places));
-        json node{{"name", fmt::format("step {}", step.step)},
+        json node{{"name", "step " + number_text(step.instant)},
                   {"extras",
                    {{"time", step.time},
                     {"time_unit", plan_.time_unit},
@@ -306,7 +306,7 @@ class GlbWriter : public SurfaceWriter {
     GlbWriter(const ExportPlan& plan, std::filesystem::path name)
         : plan_(plan), name_(std::move(name)) {}
     void add(const ExportedStep& step) override {
-        GlbFile file(plan_, file_of_step(name_, plan_, step.step));
+        GlbFile file(plan_, file_of_step(name_, plan_, step.instant.step));
         file.add(step);
         file.finish();
     }

@@ -17,7 +17,7 @@ class ObjWriter : public SurfaceWriter {
         : plan_(plan), name_(std::move(name)) {}
 
     void add(const ExportedStep& step) override {
-        NewFile file(file_of_step(name_, plan_, step.step));
+        NewFile file(file_of_step(name_, plan_, step.instant.step));
         BufferedSink out(file);
         const ExportedPlaces places(*step.grid, plan_);
         out.text(fmt::format("# {}\n# {}\n# {}\n", plan_.note, words_of(plan_, step),

@@ -15,7 +15,7 @@ class PlyWriter : public SurfaceWriter {
         : plan_(plan), name_(std::move(name)) {}
 
     void add(const ExportedStep& step) override {
-        NewFile file(file_of_step(name_, plan_, step.step));
+        NewFile file(file_of_step(name_, plan_, step.instant.step));
         BufferedSink out(file);
         const ExportedPlaces places(*step.grid, plan_);
         out.text(header(step, places));

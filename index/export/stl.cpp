@@ -22,7 +22,7 @@ class StlWriter : public SurfaceWriter {
     void add(const ExportedStep& step) override {
         for (std::size_t i = 0; i < step.surfaces.size(); ++i)
             write(step, step.surfaces[i],
-                  file_of_step(name_, plan_, step.step,
+                  file_of_step(name_, plan_, step.instant.step,
                                step.surfaces.size() > 1 ? std::optional(i) : std::nullopt));
     }
 

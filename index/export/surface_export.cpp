@@ -52,11 +52,8 @@ class StepMaker {
         made->meshes.reserve(surfaces); // surfaces point to them
         made->cells.resize(of_cells_ ? surfaces : 0);
         const Instant at(step, request_.plan.fraction);
-        made->step = {.step = step,
-                      .fraction = at.fraction,
-                      .time = time_at(info_.times, at),
-                      .grid = &info_.grid,
-                      .surfaces = {}};
+        made->step = {
+            .instant = at, .time = time_at(info_.times, at), .grid = &info_.grid, .surfaces = {}};
         std::uint64_t found = 0;
         for (std::size_t i = 0; i < surfaces; ++i)
             found += add_surface(*made, i, count, look);
@@ -73,7 +70,7 @@ class StepMaker {
         const SurfaceWish& wish = request_.surfaces[number];
         ExportedMesh& mesh = made.meshes.emplace_back(name_);
         CellSet* const cells = of_cells_ ? &made.cells[number] : nullptr;
-        const Query query{Instant(made.step.step, made.step.fraction), wish.isovalue};
+        const Query query{made.step.instant, wish.isovalue};
         const bool by_crossing = request_.values && !request_.values->array;
         bool complete = false;
         if (cells) {
@@ -124,7 +121,7 @@ class StepMaker {
         if (!known)
             return false;
         std::vector<std::uint16_t> coordinates(cells.ids.size());
-        color_by_first_crossing(*known, info_.times, cells.query.step, cells.ids, coordinates);
+        color_by_first_crossing(*known, info_.times, cells.query.instant, cells.ids, coordinates);
         color_by_cells(mesh, coordinates);
         for (const std::uint16_t color : std::exchange(mesh.colors, {}))
             mesh.values.push_back(

@@ -31,7 +31,7 @@ class VtpWriter : public SurfaceWriter {
         : plan_(plan), name_(std::move(name)) {}
 
     void add(const ExportedStep& step) override {
-        const std::filesystem::path path = file_of_step(name_, plan_, step.step);
+        const std::filesystem::path path = file_of_step(name_, plan_, step.instant.step);
         NewFile file(path);
         BufferedSink out(file);
         write(step, out);

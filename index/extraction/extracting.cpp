@@ -39,7 +39,7 @@ class Extracting {
         result->number = ++last_number;
         try {
             ExtractionPtr made =
-                make(result, step_of_query(*file_, query.step, query.isovalues), stop);
+                make(result, step_of_query(*file_, query.instant, query.isovalues), stop);
             if (made)
                 at_hand_.set(made);
             return made;
@@ -145,7 +145,7 @@ class Extracting {
         result->levels = values_of(step).levels(result->query.isovalues).units;
         result->blocks = gatherer_of(step).none();
         if (result->cells() > 0)
-            find_surroundings(step_in_chunks(*file_, result->query.step), *result, stop);
+            find_surroundings(step_in_chunks(*file_, result->query.instant), *result, stop);
         result->gather_time = std::chrono::steady_clock::now() - started;
         return result;
     }
@@ -275,7 +275,7 @@ class Extracting {
         PlaneRange changed;
         if (known) {
             result.surroundings = *known;
-            changed = changed_planes(store, query.step, at_hand_.earlier_step());
+            changed = changed_planes(store, query.instant.step, at_hand_.earlier_step());
             if (changed.end == 0)
                 return;
         }
@@ -288,12 +288,12 @@ class Extracting {
                                                    step.at(), nullptr,
                                                    Blend(store.info().type, store.info().scaling,
                                                          step.at().fraction, query.isovalues))
-                             : at(query.step);
+                             : at(query.instant.step);
         if (known)
-            renew_surroundings(result.surroundings, loaded.values, query.step, query.isovalues,
-                               changed);
+            renew_surroundings(result.surroundings, loaded.values, query.instant.step,
+                               query.isovalues, changed);
         else
-            result.surroundings = surroundings_of(loaded.values, query.step,
+            result.surroundings = surroundings_of(loaded.values, query.instant.step,
                                                   static_cast<unsigned>(level), query.isovalues);
     }
 

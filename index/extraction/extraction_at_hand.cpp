@@ -39,11 +39,12 @@ void ExtractionAtHand::set(const ExtractionPtr& made, bool same_colors) {
 
 bool ExtractionAtHand::may_keep(const SurfacesQuery& query) const {
     if (!free_ || !from_ || from_->query.array != query.array || has_wide_ids(file_->info().grid) ||
-        from_->query.step >= file_->info().steps())
+        from_->query.instant.step >= file_->info().steps())
         return false;
-    if (from_->query.step.between() || query.step.between()) // tables say what stays at a step
+    if (from_->query.instant.between() ||
+        query.instant.between()) // tables say what stays at a step
         return false;
-    return from_->query.step == query.step ||
+    return from_->query.instant == query.instant ||
            (file_->has_since() && file_->plan().tiers.has(Tier::bricks));
 }
 
@@ -58,19 +59,19 @@ void ExtractionAtHand::begin(const SurfacesQuery& query) {
     colored_.assign(query.isovalues.size(), {});
     if (!may_keep(query))
         return;
-    looks_ = from_->query.step == query.step ? looks_ + 1 : 0;
-    step_.emplace(looks_ > kManyLooks ? step_of(*file_, query.step)
-                                      : part_of_step(*file_, query.step));
-    const double share = from_->query.step == query.step
+    looks_ = from_->query.instant == query.instant ? looks_ + 1 : 0;
+    step_.emplace(looks_ > kManyLooks ? step_of(*file_, query.instant)
+                                      : part_of_step(*file_, query.instant));
+    const double share = from_->query.instant == query.instant
                              ? 1.0
-                             : staying_share(*step_, from_->query.step, query.isovalues);
+                             : staying_share(*step_, from_->query.instant, query.isovalues);
     if (share < kLeastKept)
         return;
     // Ids alone are found in a step in memory sooner than they are joined with those that stay.
     if (shading_ == Shading::none && query.coloring != CellColoring::value && !step_->by_chunks() &&
         share < kPlenty)
         finds_anew_ = true;
-    staying_.emplace(*step_, from_->query.step, shading_ != Shading::none);
+    staying_.emplace(*step_, from_->query.instant, shading_ != Shading::none);
     if (finds_anew_ || enough_stays(share))
         look_at_colors();
     else
@@ -85,7 +86,7 @@ void ExtractionAtHand::look_at_colors() {
         query_.colors >= ColorSource::count(*file_))
         return;
     if (const ChunkStore* const chunks = ColorSource(*file_, query_.colors).chunks())
-        staying_colors_.emplace(StepView(*chunks, query_.step), earlier.step, false);
+        staying_colors_.emplace(StepView(*chunks, query_.instant), earlier.instant, false);
 }
 
 /// Of the cells at hand. @param chunks share of the chunks that stay
@@ -114,7 +115,7 @@ bool ExtractionAtHand::find(std::size_t surface, bool meshed, const std::stop_to
     set.method = SearchMethod::bricks;
     CellSet others;
     others.query = set.query;
-    if (from_->query.step != query_.step) {
+    if (from_->query.instant != query_.instant) {
         if (!step_->by_chunks())
             step_->whole(stop); // before there are several threads
         if (!layers_.search_others(*step_, others, *staying_, shading_ != Shading::none, stop))

@@ -48,7 +48,7 @@ class ExtractionAtHand {
 
     /// Whether the extraction at hand is of the same step, some of whose chunks are in memory then.
     bool of_same_step() const {
-        return staying_ && from_->query.step == query_.step &&
+        return staying_ && from_->query.instant == query_.instant &&
                file_->plan().tiers.has(Tier::bricks);
     }
     /// Where work on a part of the step's cells finds its values.
@@ -58,7 +58,7 @@ class ExtractionAtHand {
     /// The surroundings that are taken over where the volume stays; null: none.
     const SurroundingField* surroundings() const;
     /// Of the extraction at hand, which must be there.
-    Instant earlier_step() const { return from_->query.step; }
+    std::uint32_t earlier_step() const { return from_->query.instant.step; }
     /// The blocks that are taken over. @param only_if_same_levels for other isovalues they differ
     KnownBlocks blocks(bool only_if_same_levels) const;
 

@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Whether what was extracted for one query is what another asks for.
 bool answers(const SurfacesQuery& query, const SurfacesQuery& wanted) {
-    return query.step == wanted.step && same_but_for_step(query, wanted) &&
+    return query.instant == wanted.instant && same_but_for_step(query, wanted) &&
            query.mesh_room >= wanted.mesh_room;
 }
 
@@ -49,7 +49,7 @@ struct Extractor::State {
         if (!step)
             return {};
         SurfacesQuery query = wanted->query;
-        query.step = *step;
+        query.instant = Instant(*step);
         return query;
     }
     /// What meshes are still to be made of; null: nothing.
@@ -228,9 +228,9 @@ void Extractor::State::finish(const Job& job, const Outcome& outcome) {
         }
         // Prefetching ends after a step that failed, and once the only step asked for is there.
         if (job.prefetch && !stopped && wanted->ahead)
-            prefetch_done = outcome.extraction
-                                ? wanted->ahead->steps == 0 && wanted->ahead->next == job.query.step
-                                : same_but_for_step(job.query, wanted->query);
+            prefetch_done = outcome.extraction ? wanted->ahead->steps == 0 &&
+                                                     wanted->ahead->next == job.query.instant.step
+                                               : same_but_for_step(job.query, wanted->query);
         if (!job.prefetch)
             abandoned = !outcome.extraction && stopped;
         changed.notify_all();
@@ -291,9 +291,10 @@ void Extractor::request(const Request& request) {
                 (s.running->meshes_of ? s.running->meshes_of == request.meshes_of
                                       : same_but_for_step(s.running->query, request.query));
             // Time that plays between steps asks for another moment in every frame.
-            const bool shown_late =
-                s.running && !s.running->prefetch && s.running->query.step.between() &&
-                request.query.step.between() && same_but_for_step(s.running->query, request.query);
+            const bool shown_late = s.running && !s.running->prefetch &&
+                                    s.running->query.instant.between() &&
+                                    request.query.instant.between() &&
+                                    same_but_for_step(s.running->query, request.query);
             const bool obsolete = s.running && !going_on && !shown_late &&
                                   !s.finishes_meshes(request) &&
                                   !answers(s.running->query, request.query);

@@ -48,14 +48,14 @@ ExtractionPtr RecentExtractions::find(const SurfacesQuery& query) const {
         return kept.extraction->query.mesh_room >= query.mesh_room;
     };
     if (same_but_for_step(kept_.front().extraction->query, query)) {
-        const auto known = by_step_.find(query.step.number());
+        const auto known = by_step_.find(query.instant.number());
         return known != by_step_.end() && enough(*known->second) ? known->second->extraction
                                                                  : nullptr;
     }
     // At most a few kept extractions are for other surfaces.
     std::size_t looked_at = 0;
     for (auto it = kept_.rbegin(); it != kept_.rend() && looked_at < kFewest; ++it, ++looked_at)
-        if (it->extraction->query.step == query.step && enough(*it) &&
+        if (it->extraction->query.instant == query.instant && enough(*it) &&
             same_but_for_step(it->extraction->query, query))
             return it->extraction;
     return nullptr;
@@ -67,11 +67,11 @@ std::optional<std::uint32_t> RecentExtractions::missing(const SurfacesQuery& que
     std::uint64_t bytes = 0;
     const std::uint32_t count = std::min<std::uint32_t>(ahead.count(), kMostKept - kFewest);
     for (std::uint32_t i = 0; i < count; ++i) {
-        at.step = ahead.at(i);
+        at.instant = Instant(ahead.at(i));
         if (const ExtractionPtr known = find(at))
             bytes += bytes_of(*known);
         else if (i == 0 || bytes + largest_ <= budget_)
-            return at.step;
+            return at.instant.step;
         else
             return {};
     }
@@ -82,15 +82,15 @@ std::vector<std::uint32_t> RecentExtractions::steps(const SurfacesQuery& query) 
     std::vector<std::uint32_t> steps;
     if (!kept_.empty() && same_but_for_step(kept_.front().extraction->query, query))
         for (const auto& [number, place] : by_step_)
-            if (const Instant at = place->extraction->query.step; !at.between())
-                steps.push_back(at);
+            if (const Instant at = place->extraction->query.instant; !at.between())
+                steps.push_back(at.step);
     std::ranges::sort(steps);
     return steps;
 }
 
 void RecentExtractions::drop(Place place, Dropped& dropped) {
     bytes_ -= place->bytes;
-    const auto known = by_step_.find(place->extraction->query.step.number());
+    const auto known = by_step_.find(place->extraction->query.instant.number());
     if (known != by_step_.end() && known->second == place)
         by_step_.erase(known);
     dropped.push_back(std::move(place->extraction));
@@ -130,12 +130,13 @@ RecentExtractions::Dropped RecentExtractions::add(ExtractionPtr extraction,
         while (!kept_.empty() && (kept_.size() >= kFewest || bytes_ + bytes > budget_))
             drop(std::prev(kept_.end()), dropped);
     }
-    if (const auto known = by_step_.find(extraction->query.step.number()); known != by_step_.end())
+    if (const auto known = by_step_.find(extraction->query.instant.number());
+        known != by_step_.end())
         drop(known->second, dropped);
     largest_ = std::max(largest_, bytes);
     bytes_ += bytes;
     kept_.push_front({std::move(extraction), bytes});
-    by_step_[kept_.front().extraction->query.step.number()] = kept_.begin();
+    by_step_[kept_.front().extraction->query.instant.number()] = kept_.begin();
     drop_to_fit(ahead, dropped);
     return dropped;
 }

@@ -48,7 +48,7 @@ bool SurfaceColors::fill(const SurfacesQuery& query, const std::vector<CellSet>&
             const FirstCrossings* first = crossings(query.isovalues[i], blended, stop);
             if (!first)
                 return false;
-            color_by_first_crossing(*first, file_->info().times, query.step, cells, part);
+            color_by_first_crossing(*first, file_->info().times, query.instant, cells, part);
         }
         rank = out.size();
     }

@@ -9,10 +9,10 @@
 
 namespace isochron::index {
 
-std::optional<double> value_in(const IndexFile& file, Instant step, const glm::dvec3& at) {
-    const StepView view = step_of(file, step);
+std::optional<double> value_in(const IndexFile& file, Instant instant, const glm::dvec3& at) {
+    const StepView view = step_of(file, instant);
     if (!view.by_chunks())
-        return value_at(view.whole({}).values, step, at);
+        return value_at(view.whole({}).values, instant.step, at);
     return value_at(view.grid(), at, [&](const std::array<std::uint32_t, 3>& vertex) {
         const std::uint32_t place =
             view.chunk_grid().place(vertex[0] / kChunkEdge, vertex[1] / kChunkEdge);

@@ -186,7 +186,7 @@ bool BlockGatherer::gather_whole(const StepValues& step, Instant at_step, const 
                                  const KnownBlocks& known, const ChunkGrid* chunks) {
     take_marked(blocks);
     const Room room = take_known(known, chunks, blocks);
-    const std::byte* first = step.step_bytes(at_step).data();
+    const std::byte* first = step.step_bytes(at_step.step).data();
     const auto& n = grid_.vertices;
     const std::size_t size = size_of(values_.stored()), row = n[0] * size, plane = n[1] * row;
     for (std::size_t k = 0; k < room.others.size(); ++k) {

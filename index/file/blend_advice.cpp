@@ -68,7 +68,7 @@ std::vector<SampledChunk> sampled(const ChunkStore& store, const IndexStats& sta
     for (const std::uint32_t step : spread(middle, kMostSampledSteps))
         for (const double share : kQuantiles) {
             const double isovalue = value_at_share(stats, share);
-            const StepView view(store, step);
+            const StepView view(store, Instant(step));
             const auto cut = view.cut(isovalue);
             std::vector<SampledChunk> of_step;
             for (std::uint32_t layer = 0; cut && layer < view.chunk_grid().layers(); ++layer) {
@@ -86,7 +86,7 @@ std::vector<SampledChunk> sampled(const ChunkStore& store, const IndexStats& sta
 /// Scaled values of one chunk at a step.
 std::vector<double> values_of(const ChunkStore& store, std::uint32_t step, const SampledChunk& at,
                               const std::stop_token& stop) {
-    const StepView view(store, step);
+    const StepView view(store, Instant(step));
     const ChunkPtr chunk = view.chunks(at.layer, std::array{at.place}, stop).front();
     return visit_value_type(view.type(), [&]<class T>(std::type_identity<T>) {
         const auto* values = reinterpret_cast<const T*>(chunk->values.data());

@@ -39,7 +39,7 @@ const LoadedStep& StepView::whole(const std::stop_token& stop) const {
     if (whole_)
         return *whole_;
     if (!between()) {
-        whole_ = load_(at_, stop);
+        whole_ = load_(at_.step, stop);
     } else {
         const LoadedStep now = load_(at_.step, stop);
         stop_if_asked(stop);
@@ -53,7 +53,7 @@ LevelMapPtr StepView::levels() const {
         return between_->levels();
     if (!by_chunks() && store_->is_small() && store_->carries_values())
         whole({});
-    return store_->levels(at_);
+    return store_->levels(at_.step);
 }
 
 std::vector<ChunkPtr> StepView::cut_out(std::uint32_t layer, std::span<const std::uint32_t> places,
@@ -75,7 +75,7 @@ std::vector<ChunkPtr> StepView::cut_out(std::uint32_t layer, std::span<const std
         const std::size_t width = nx * size;
         chunk->memory.resize((width * ny * nz + 7) / 8);
         const auto values = std::as_writable_bytes(std::span(chunk->memory));
-        const std::byte* const first = all.values.step_bytes(at_).data() +
+        const std::byte* const first = all.values.step_bytes(at_.step).data() +
                                        layer * kChunkEdge * plane + y * kChunkEdge * row +
                                        x * kChunkEdge * size;
         for (std::size_t z = 0, to = 0; z < nz; ++z)
@@ -111,8 +111,8 @@ StepView step_of(const IndexFile& file, Instant at, std::span<const double> isov
     // Between two steps only what is needed is blended.
     if (at.within(file.info().steps()).between() && !file.referral())
         return step_in_chunks(file, at, 0, isovalues);
-    return file.better_whole(at) ? as_a_whole(file, at, isovalues)
-                                 : step_in_chunks(file, at, 0, isovalues);
+    return file.better_whole(at.step) ? as_a_whole(file, at, isovalues)
+                                      : step_in_chunks(file, at, 0, isovalues);
 }
 
 StepView part_of_step(const IndexFile& file, Instant at) {

@@ -1,7 +1,7 @@
 // One step of an array, or a moment between two, as work on it asks for it: its grid, type and
 // scaling, and its values whole or in chunks.
 //
-//     const index::StepView step = index::step_of(*file, query.step);
+//     const index::StepView step = index::step_of(*file, query.instant);
 //     index::LayerSearch(file).search(step, set, true, true, {}); // whole or in chunks
 #pragma once
 
@@ -68,7 +68,7 @@ class StepView {
         return levels()->cut(scaling(), isovalue);
     }
     ChunkLayerPtr layer(std::uint32_t layer) const {
-        return between_ ? between_->layer(layer) : store_->layer(at_, layer);
+        return between_ ? between_->layer(layer) : store_->layer(at_.step, layer);
     }
     /// Of a step that is worked on as a whole, they are cut out of it.
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
@@ -76,30 +76,30 @@ class StepView {
         if (!by_chunks())
             return cut_out(layer, places, stop);
         return between_ ? between_->chunks(layer, places, stop)
-                        : store_->chunks(at_, layer, places, stop);
+                        : store_->chunks(at_.step, layer, places, stop);
     }
     /// For a ChunkCube, by chunks: between two steps pairs, of which it blends what it needs.
     std::vector<ChunkPtr> cube_chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                       const std::stop_token& stop) const {
         return between_ ? between_->pairs(layer, places, stop)
-                        : store_->chunks(at_, layer, places, stop);
+                        : store_->chunks(at_.step, layer, places, stop);
     }
     /// Of these pairs; null at a step.
     const Blend* cube_blend() const { return between_ ? &*blend_ : nullptr; }
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
         if (!by_chunks())
             return 0;
-        return between_ ? between_->expect(layer, places) : store_->expect(at_, layer, places);
+        return between_ ? between_->expect(layer, places) : store_->expect(at_.step, layer, places);
     }
     std::uint64_t fetch(std::uint32_t layer, std::span<const std::uint32_t> places,
                         const std::stop_token& stop) const {
         if (!by_chunks())
             return 0;
         return between_ ? between_->fetch(layer, places, stop)
-                        : store_->fetch(at_, layer, places, stop);
+                        : store_->fetch(at_.step, layer, places, stop);
     }
     /// Between two steps, none is read for it alone.
-    bool was_worked_on() const { return between_ || store_->was_worked_on(at_); }
+    bool was_worked_on() const { return between_ || store_->was_worked_on(at_.step); }
     const ChunkStore& store() const { return *store_; }
 
   private:

@@ -310,14 +310,14 @@ std::optional<std::uint64_t> search_in_bricks(const StepValues& values, const Le
                                               std::span<const std::uint8_t> bricks,
                                               const Query& query, bool may_scan,
                                               std::vector<CellId>& out) {
-    assert(query.step < values.steps && levels.type() == values.type);
+    assert(query.instant.step < values.steps && levels.type() == values.type);
     assert(bricks.size() == BrickGrid(values.grid).bytes_per_step());
     const auto level = levels.cut(values.scaling, query.isovalue);
     const auto cut = stored_cut(values.type, values.scaling, query.isovalue);
     if (!level || !cut)
         return 0;
-    return HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.step, may_scan,
-                                             out);
+    return HWY_DYNAMIC_DISPATCH(search_step)(values, bricks, *level, *cut, query.instant.step,
+                                             may_scan, out);
 }
 
 } // namespace

@@ -248,15 +248,15 @@ HWY_EXPORT(scan_step);
 HWY_EXPORT(keep_active_in_step);
 
 void scan(const StepValues& values, const Query& query, std::vector<CellId>& out) {
-    assert(query.step < values.steps);
+    assert(query.instant.step < values.steps);
     if (const auto cut = stored_cut(values.type, values.scaling, query.isovalue))
-        HWY_DYNAMIC_DISPATCH(scan_step)(values, query.step, *cut, out);
+        HWY_DYNAMIC_DISPATCH(scan_step)(values, query.instant.step, *cut, out);
 }
 
 void keep_active(const StepValues& values, const Query& query, std::vector<CellId>& ids) {
-    assert(query.step < values.steps);
+    assert(query.instant.step < values.steps);
     if (const auto cut = stored_cut(values.type, values.scaling, query.isovalue))
-        HWY_DYNAMIC_DISPATCH(keep_active_in_step)(values, query.step, *cut, ids);
+        HWY_DYNAMIC_DISPATCH(keep_active_in_step)(values, query.instant.step, *cut, ids);
     else
         ids.clear();
 }

@@ -45,10 +45,11 @@ CellChange ChangeSearch::searched(const Query& to) {
 
 /// Searches both steps where chunks differ. @return nothing if most of them do
 std::optional<CellChange> ChangeSearch::where_chunks_change(const Query& from, const Query& to) {
-    const StepView before = part_of_step(*file_, from.step), after = part_of_step(*file_, to.step);
-    if (staying_share(after, from.step, std::array{to.isovalue}) < kLeastStaying)
+    const StepView before = part_of_step(*file_, from.instant),
+                   after = part_of_step(*file_, to.instant);
+    if (staying_share(after, from.instant, std::array{to.isovalue}) < kLeastStaying)
         return std::nullopt;
-    const StayingCells staying(after, from.step, false);
+    const StayingCells staying(after, from.instant, false);
     CellSet gone, come;
     gone.query = from;
     come.query = to;

@@ -85,7 +85,7 @@ void ChunkCube::begin(const StepView& step, const std::array<std::uint32_t, 3>& 
     values_.steps = step.steps();
     values_.first = reinterpret_cast<const std::byte*>(memory_.data());
     values_.stride = memory_.size() * sizeof(std::uint64_t);
-    values_.first_step = step.at();
+    values_.first_step = step.at().step;
     blend_ = step.cube_blend();
     stored_ = size_of(step.store().info().type);
     std::array<std::uint32_t, 3> begin{}, end{};

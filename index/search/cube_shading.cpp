@@ -25,7 +25,7 @@ void shade_places(const ChunkCube& cube, const Query& query, std::span<const Pla
     const auto first = cube.first();
     const auto& n = values.grid.vertices;
     const std::size_t row = n[0], slice = row * n[1];
-    const T* const volume = values.step<T>(query.step).data();
+    const T* const volume = values.step<T>(query.instant.step).data();
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const std::uint32_t x = first[0] + cells[i] % kChunkEdge,
                             y = first[1] + cells[i] / kChunkEdge % kChunkEdge,
@@ -38,8 +38,8 @@ void shade_places(const ChunkCube& cube, const Query& query, std::span<const Pla
                 continue;
             }
         }
-        shaders.add_exact(planes[i], CellDifferences<T>(values, query.step, y, z), values.grid,
-                          {x, y, z});
+        shaders.add_exact(planes[i], CellDifferences<T>(values, query.instant.step, y, z),
+                          values.grid, {x, y, z});
     }
     shaders.finish();
 }

@@ -118,8 +118,8 @@ class BlendedCrossings {
 
   private:
     StepView view(std::uint32_t step) const {
-        return level_ == 0 && file_->referral() ? part_of_step(*file_, step)
-                                                : step_in_chunks(*file_, step, level_);
+        return level_ == 0 && file_->referral() ? part_of_step(*file_, Instant(step))
+                                                : step_in_chunks(*file_, Instant(step), level_);
     }
 
     /// Whether cells of a chunk of the layer may be active between the steps, by place.
@@ -134,8 +134,8 @@ class BlendedCrossings {
             may.assign(may.size(), false);
         if (!cut || !next_cut)
             return may;
-        const ChunkLayerPtr table = store.layer(now.at(), layer),
-                            next_table = store.layer(next.at(), layer);
+        const ChunkLayerPtr table = store.layer(now.at().step, layer),
+                            next_table = store.layer(next.at().step, layer);
         const auto is_below = [](const LevelMap::Cut& of, std::uint8_t low) {
             return low + (of.exact ? 1 : 0) <= of.threshold;
         };
@@ -207,8 +207,8 @@ class BlendedCrossings {
                      std::uint32_t layer, const std::vector<bool>& may, const StepView& step,
                      FirstCrossings& found) const {
         visit_value_type(now.type, [&]<class T>(std::type_identity<T>) {
-            const T* const a = now.step<T>(step.at()).data();
-            const T* const b = next.step<T>(step.at() + 1).data();
+            const T* const a = now.step<T>(step.at().step).data();
+            const T* const b = next.step<T>(step.at().step + 1).data();
             for (std::uint32_t place = 0; place < may.size(); ++place)
                 if (may[place]) {
                     const auto [x, y] = step.chunk_grid().at(place);
@@ -305,7 +305,7 @@ FirstCrossingsPtr first_crossings(const SeriesInfo& info, const Search& search, 
     for (auto step = static_cast<std::uint32_t>(info.steps()); step-- > 0;) {
         if (between && step + 1 < info.steps() && !between(step, *found))
             return nullptr;
-        const CellSetPtr set = search({step, isovalue}, stop);
+        const CellSetPtr set = search({Instant(step), isovalue}, stop);
         if (!set)
             return nullptr;
         for (const CellId id : set->ids) {

@@ -69,7 +69,7 @@ class IndexSearch {
         if (!tree_)
             tree_ = tree_of(*file_);
         const auto reused = static_cast<std::ptrdiff_t>(tree_->search_incremental(
-            cursor_, set.query.step, keys_.threshold(set.query.isovalue)));
+            cursor_, set.query.instant.step, keys_.threshold(set.query.isovalue)));
         const auto first = cursor_.cells.begin();
         set.candidates = cursor_.cells.size();
         candidates_.assign(first, first + reused);
@@ -123,8 +123,8 @@ SearchMethod cheapest_method(const IndexFile& file) {
 }
 
 StepView step_of_query(const IndexFile& file, Instant at, std::span<const double> isovalues) {
-    if (const std::size_t steps = file.info().steps(); at >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", std::uint32_t{at}, steps - 1));
+    if (const std::size_t steps = file.info().steps(); at.step >= steps)
+        throw Error(fmt::format("step {}: expected 0 to {}", at.step, steps - 1));
     return step_of(file, at, isovalues);
 }
 
@@ -142,7 +142,7 @@ Search search_in(std::shared_ptr<const IndexFile> file, std::optional<SearchMeth
     return [file, search = search_into(file, method, shading)](
                const Query& query, const std::stop_token& stop) -> CellSetPtr {
         auto set = std::make_shared<CellSet>();
-        const StepView step = step_of_query(*file, query.step, {&query.isovalue, 1});
+        const StepView step = step_of_query(*file, query.instant, {&query.isovalue, 1});
         return search(step, query.isovalue, stop, *set) ? set : nullptr;
     };
 }

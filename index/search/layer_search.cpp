@@ -341,7 +341,7 @@ bool LayerSearch::color_cells(const StepView& step, const CellSet& set, const Co
             index::color_cells(part.values, around_cells, set.query, part.ids, array.low,
                                array.high, out.subspan(part.before, part.ids.size()), stop);
             if (!corners.empty())
-                color_corners(around_cells, set.query.step, part.ids, array.low, array.high,
+                color_corners(around_cells, set.query.instant, part.ids, array.low, array.high,
                               corners.subspan(8 * part.before, 8 * part.ids.size()));
         },
         stop);
@@ -351,13 +351,13 @@ CellSet search_level(const std::shared_ptr<const IndexFile>& file, std::size_t l
                      const Query& query) {
     if (level >= file->detail_levels())
         throw Error(fmt::format("level {}: expected 0 to {}", level, file->detail_levels() - 1));
-    if (const std::size_t steps = file->info().steps(); query.step >= steps)
-        throw Error(fmt::format("step {}: expected 0 to {}", std::uint32_t{query.step}, steps - 1));
+    if (const std::size_t steps = file->info().steps(); query.instant.step >= steps)
+        throw Error(fmt::format("step {}: expected 0 to {}", query.instant.step, steps - 1));
     const bool by_bricks = file->plan().tiers.has(Tier::bricks);
     CellSet set;
     set.query = query;
     set.method = by_bricks ? SearchMethod::bricks : SearchMethod::scan;
-    const StepView step = step_in_chunks(*file, query.step, level);
+    const StepView step = step_in_chunks(*file, query.instant, level);
     if (std::isfinite(query.isovalue))
         LayerSearch(file).search(step, set, by_bricks, has_wide_ids(step.grid()), {});
     return set;

@@ -21,8 +21,8 @@ constexpr std::array<std::uint32_t, kChunksAround> StayingCells::kRegionsNeeding
 StayingCells::StayingCells(const StepView& step, Instant at, bool normals)
     : chunks_(&step.chunk_grid()), changed_(chunks_->count()), others_(chunks_->count()),
       around_(chunks_->count()) {
-    const std::uint32_t earlier = std::min<std::uint32_t>(step.at(), at),
-                        later = std::max<std::uint32_t>(step.at(), at);
+    const std::uint32_t earlier = std::min(step.at().step, at.step),
+                        later = std::max(step.at().step, at.step);
     if (earlier == later)
         return;
     const SidesNeeding& needing = normals ? kSidesNeedingWithNormals : kSidesNeeding;
@@ -46,14 +46,14 @@ StayingCells::StayingCells(const StepView& step, Instant at, bool normals)
 }
 
 double staying_share(const StepView& step, Instant at, std::span<const double> isovalues) {
-    const std::uint32_t earlier = std::min<std::uint32_t>(step.at(), at);
+    const std::uint32_t earlier = std::min(step.at().step, at.step);
     const ChunkStore& store = step.store();
     std::size_t all = 0, stay = 0;
     for (const double isovalue : isovalues) {
         const auto cut = step.cut(isovalue);
         for (std::uint32_t layer = 0; cut && layer < store.grid().layers(); ++layer) {
-            const ChunkLayerPtr table = store.layer(step.at(), layer);
-            const ChunkLayerPtr later = at > step.at() ? store.layer(at, layer) : table;
+            const ChunkLayerPtr table = store.layer(step.at().step, layer);
+            const ChunkLayerPtr later = at > step.at() ? store.layer(at.step, layer) : table;
             for (std::uint32_t place = 0; place < table->low.size(); ++place)
                 if (cut->may_hold(table->low[place], table->high[place])) {
                     ++all;

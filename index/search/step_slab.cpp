@@ -84,7 +84,7 @@ StepValues StepSlab::planes(std::uint32_t first, std::uint32_t end) const {
                       .type = step_->type(),
                       .scaling = step_->scaling(),
                       .steps = step_->steps(),
-                      .first_step = step_->at()};
+                      .first_step = step_->at().step};
     const std::uint64_t plane =
         std::uint64_t{step_->grid().vertices[0]} * step_->grid().vertices[1] * size_of(values.type);
     values.first = values_.get() + (first - first_plane_) * plane;

@@ -49,7 +49,7 @@ struct SurfaceMeshes::WorkSpace {
     /// @param wanted null, or gets the cells, with points @return false when stopped
     bool search_and_make(const Query& query, const MeshWishes& wishes, const std::stop_token& stop,
                          CellSet* wanted, const Make& make) {
-        const StepView step = step_of_query(*file, query.step, {&query.isovalue, 1});
+        const StepView step = step_of_query(*file, query.instant, {&query.isovalue, 1});
         std::optional<ColorSource> source;
         if (wishes.values) {
             if (const std::size_t count = ColorSource::count(*file); *wishes.values >= count)

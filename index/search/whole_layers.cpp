@@ -32,7 +32,7 @@ std::optional<WholeLayers::Range> WholeLayers::worth(const StepView& step, const
         range.first = std::min(range.first, layer);
         range.end = layer + 1;
         whole += step.store().fetches_all(places) ? 1 : 0;
-        staying += step.store().staying(step.at(), layer);
+        staying += step.store().staying(step.at().step, layer);
     }
     // Values that lie in other steps do not come in the order of the file.
     if (8 * staying > (range.end - range.first) * step.chunk_grid().chunks_of_layer())
@@ -57,7 +57,7 @@ WholeLayers::WholeLayers(const StepView& step, Range range, const LevelMap::Cut&
 }
 
 bool WholeLayers::for_each(const Work& work, const std::stop_token& stop) {
-    RecordStream stream(step_.store(), step_.at(), decoded_.first, decoded_.end, stop);
+    RecordStream stream(step_.store(), step_.at().step, decoded_.first, decoded_.end, stop);
     try {
         parallel_for(threads_, threads_,
                      [&](std::size_t, unsigned) {
@@ -124,14 +124,14 @@ void WholeLayers::decode(const RecordPiece& piece, StepSlab& slab) {
     for (std::uint32_t place = piece.first; place < piece.end; ++place) {
         chunk.size = store.grid().size(piece.layer, place);
         ChunkPtr staying;
-        if (store.decoder().lies_elsewhere(step_.at(), *piece.table, place)) {
-            staying = store.chunks(step_.at(), piece.layer, std::array{place}).front();
+        if (store.decoder().lies_elsewhere(step_.at().step, *piece.table, place)) {
+            staying = store.chunks(step_.at().step, piece.layer, std::array{place}).front();
             chunk.bricks = staying->bricks;
             chunk.values = staying->values;
         } else {
             const auto own = std::span(values).first(store.bytes_of(chunk.size));
-            store.decoder().chunk(step_.at(), piece.layer, place, piece.record(place), chunk.bricks,
-                                  own);
+            store.decoder().chunk(step_.at().step, piece.layer, place, piece.record(place),
+                                  chunk.bricks, own);
             chunk.values = own;
         }
         const bool may_hold =

@@ -94,7 +94,7 @@ std::uint16_t fine_color_coordinate(double value, double low, double high) {
 bool color_cells(const StepValues& volume, const StepValues& colors, const Query& query,
                  std::span<const CellId> cells, double low, double high,
                  std::span<std::uint16_t> out, const std::stop_token& stop) {
-    const CornerReader values(volume, query.step), color_values(colors, query.step);
+    const CornerReader values(volume, query.instant.step), color_values(colors, query.instant.step);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (i % kCellsPerLook == 0 && stop.stop_requested())
             return false;
@@ -107,7 +107,7 @@ bool color_cells(const StepValues& volume, const StepValues& colors, const Query
 
 void color_corners(const StepValues& colors, Instant at, std::span<const CellId> cells, double low,
                    double high, std::span<std::uint16_t> out) {
-    const CornerReader values(colors, at);
+    const CornerReader values(colors, at.step);
     for (std::size_t i = 0; i < cells.size(); ++i)
         std::ranges::transform(values.at(cells[i]), &out[8 * i], [&](double value) {
             return fine_color_coordinate(value, low, high);
@@ -121,7 +121,7 @@ std::vector<float> values_at(const StepValues& colors, Instant at,
     std::vector<float> values;
     values.reserve(vertices.size());
     visit_value_type(colors.type, [&]<class T>(std::type_identity<T>) {
-        const std::span<const T> stored = colors.step<T>(at);
+        const std::span<const T> stored = colors.step<T>(at.step);
         for (const MeshVertex& vertex : vertices) {
             const std::size_t lower =
                 vertex.x + next[1] * vertex.y + next[2] * std::size_t{vertex.z - first_plane};

@@ -36,7 +36,7 @@ CellPlane cell_plane(const StepValues& values, const Query& query, CellId cell) 
     const std::array<std::uint32_t, 3> at = values.grid.cell_of(cell);
     const double level = stored_value(values.scaling, query.isovalue);
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
-        const CellDifferences<T> differences(values, query.step, at[1], at[2]);
+        const CellDifferences<T> differences(values, query.instant.step, at[1], at[2]);
         const glm::dvec3 around = unit(differences(at[0]));
         const CellSlope slope = differences.slope(at[0], level);
         const double along = glm::dot(slope.own, unit(around * values.grid.even_size(at)));

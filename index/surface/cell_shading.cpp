@@ -56,7 +56,7 @@ bool shade_values(const StepValues& values, const Query& query, std::span<const 
     const auto [width, height, depth] = values.grid.cells();
     const std::size_t row_size = values.grid.vertices[0];
     const std::size_t slice_size = row_size * values.grid.vertices[1];
-    const T* const volume = values.step<T>(query.step).data();
+    const T* const volume = values.step<T>(query.instant.step).data();
     CellWalk walk(values.grid);
     RowBuffer rows(shaded_rows);
     // The current row:
@@ -93,7 +93,7 @@ bool shade_values(const StepValues& values, const Query& query, std::span<const 
                 continue;
             }
         if (!differences)
-            differences.emplace(values, query.step, y, z);
+            differences.emplace(values, query.instant.step, y, z);
         shaders.add_exact(points[i].plane, *differences, values.grid, {x, y, z});
     }
     rows.flush();

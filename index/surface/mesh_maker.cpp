@@ -44,7 +44,7 @@ void find_cases(const StepValues& values, const Query& query, std::uint64_t cut,
     const T least = from_ordinal<T>(static_cast<Ordinal<T>>(cut));
     const unsigned flipped = values.scaling.slope < 0 ? 0xff : 0;
     const std::size_t row = values.grid.vertices[0], slice = row * values.grid.vertices[1];
-    const T* const volume = values.step<T>(query.step).data();
+    const T* const volume = values.step<T>(query.instant.step).data();
     const std::size_t ahead = 2 * slice * sizeof(T);
     const T* of_row = volume;
     CellWalk walk(values.grid);

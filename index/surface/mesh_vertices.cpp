@@ -48,9 +48,10 @@ template <class T, class Real = RealFor<T>>
 class VertexPlacer {
   public:
     VertexPlacer(const StepValues& values, const Query& query, std::uint32_t first_plane)
-        : grid_(values.grid), counts_(values.grid.vertices), first_plane_(first_plane),
-          steps_{1, std::ptrdiff_t{counts_[0]}, std::ptrdiff_t{counts_[0]} * counts_[1]},
-          volume_(values.step<T>(query.step).data()),
+        : grid_(values.grid), counts_(values.grid.vertices),
+          first_plane_(first_plane), steps_{1, std::ptrdiff_t{counts_[0]},
+                                            std::ptrdiff_t{counts_[0]} * counts_[1]},
+          volume_(values.step<T>(query.instant.step).data()),
           level_(stored_value(values.scaling, query.isovalue)) {
         for (std::size_t axis = 0; axis < 3; ++axis)
             inner_[axis] = grid_.rectilinear() ? 0 : std::max(counts_[axis], 3u) - 3;

@@ -1,7 +1,9 @@
-// The physical time of a moment.
+// An instant for people, and its physical time.
 #include "index/volume/instant_text.h"
 
 #include "index/volume/time_unit.h"
+
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -13,6 +15,11 @@ double time_at(std::span<const double> times, Instant at) {
     return at.between() ? std::lerp(times[at.step], times[at.step + 1],
                                     static_cast<double>(at.fraction) / Instant::kFractions)
                         : times[at.step];
+}
+
+std::string number_text(Instant at) {
+    return at.between() ? fmt::format("{} + {}/{}", at.step, at.fraction, Instant::kFractions)
+                        : fmt::format("{}", at.step);
 }
 
 std::string instant_text(std::span<const double> times, Instant at, const std::string& unit) {

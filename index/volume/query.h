@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> kSearchMethodNames{"bricks", "tree", "
 /// Asks for the active cells: a cell is active if min < isovalue <= max over its 8 scaled vertex
 /// values and none of these is NaN. An isovalue that is NaN or infinite has no active cells.
 struct Query {
-    Instant step = {};
+    Instant instant = {};
     double isovalue = 0.0;
     bool operator==(const Query&) const = default;
 };
@@ -56,9 +56,9 @@ struct DetailQuery {
     bool operator==(const DetailQuery&) const = default;
 };
 
-/// The isosurfaces of 1 to kMostSurfaces isovalues at one step.
+/// The isosurfaces of 1 to kMostSurfaces isovalues at one instant.
 struct SurfacesQuery {
-    Instant step = {};
+    Instant instant = {};
     std::vector<double> isovalues; ///< a surface is identified by its place in this list
     CellColoring coloring = CellColoring::none;
     /// Most bytes for the meshes of all surfaces together. Either all surfaces have a mesh or none
@@ -68,7 +68,7 @@ struct SurfacesQuery {
     std::uint32_t array = 0;  ///< of the index, by number
     std::uint32_t colors = 0; ///< array to color by (ColorSource), by number: for coloring `value`
 
-    Query surface(std::size_t i) const { return {step, isovalues[i]}; }
+    Query surface(std::size_t i) const { return {instant, isovalues[i]}; }
     /// The same surfaces, however they are drawn and at any level of detail.
     SurfacesQuery of_cells() const {
         SurfacesQuery query = *this;

@@ -24,7 +24,7 @@ bool is_pending(const DeviceState& device) {
 }
 
 bool is_pending(const Commands& commands) {
-    return commands.array || commands.isovalue || commands.isosurfaces || commands.step ||
+    return commands.array || commands.isovalue || commands.isosurfaces || commands.instant ||
            commands.fraction || commands.playback || commands.room_from_physical;
 }
 

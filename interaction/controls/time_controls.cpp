@@ -39,18 +39,18 @@ PlaybackState chosen(const Reading& now, PlaybackState state, std::span<const do
 StepRange chosen_range(const Reading& now, const Settings& settings) {
     StepRange range = settings.play_range;
     if (now.pressed(Action::range_first))
-        range = begun_at(settings.step, range);
+        range = begun_at(settings.instant.step, range);
     if (now.pressed(Action::range_last))
-        range = ended_at(settings.step, range);
+        range = ended_at(settings.instant.step, range);
     if (now.pressed(WandButton::mark_range) || now.pressed(GamepadButton::down))
-        range = marked_at(settings.step, range);
+        range = marked_at(settings.instant.step, range);
     if (now.pressed(Action::range_all))
         range = {};
     return range;
 }
 
-/// The bookmarks with the moment in addition, or without it; says what has become of it.
-std::vector<Bookmark> toggled(const std::vector<Bookmark>& bookmarks, const Moment& at,
+/// The bookmarks with the instant in addition, or without it; says what has become of it.
+std::vector<Bookmark> toggled(const std::vector<Bookmark>& bookmarks, const Instant& at,
                               std::vector<std::string>& notes) {
     std::vector<Bookmark> now = toggled_bookmark(bookmarks, at);
     notes.push_back(
@@ -80,14 +80,14 @@ double push_rate(const Reading& now, bool blends) {
 
 } // namespace
 
-Moment TimeControls::moved(const Reading& now, const ControlContext& context, Seconds time,
-                           std::uint32_t steps) {
+Instant TimeControls::moved(const Reading& now, const ControlContext& context, Seconds time,
+                            std::uint32_t steps) {
     const Settings& settings = context.settings;
     PlaybackState by = settings.playback;
     if (now.key(Action::shift)) // finely, as it moves the isovalue
         by.every = 1;
-    const Moment from = settings.moment();
-    Moment to = from;
+    const Instant from = settings.shown_instant();
+    Instant to = from;
     const double stick = settings.blends() ? 0.0 : now.wand_rate(WandValuator::step);
     const int forward = forward_.presses(
         now.key(Action::step_forward) || now.pad(GamepadButton::right_bumper) || stick > kPushed,
@@ -96,16 +96,14 @@ Moment TimeControls::moved(const Reading& now, const ControlContext& context, Se
                                        now.pad(GamepadButton::left_bumper) || stick < -kPushed,
                                    time);
     for (int i = back; i < forward; ++i)
-        to = next_step(to.step, by, steps);
-    for (int i = forward; i < back; ++i) { // the step before a moment is the one that it follows
-        const bool between = to.fraction > 0 && to.step + 1 < steps; // the last step holds
-        to = between ? to.step : previous_step(to.step, by, steps);
-    }
+        to = Instant(next_step(to.step, by, steps));
+    for (int i = forward; i < back; ++i)
+        to = Instant(previous_step(to, by, steps));
     if (now.pressed(Action::first_step))
-        to = first_of(settings.play_range, steps);
+        to = Instant(first_of(settings.play_range, steps));
     if (now.pressed(Action::last_step))
-        to = last_of(settings.play_range, steps);
-    const Moment before = to;
+        to = Instant(last_of(settings.play_range, steps));
+    const Instant before = to;
     if (now.pressed(Action::next_time) || now.pressed(WandButton::next_time) ||
         now.pressed(GamepadButton::right))
         if (const auto next = next_bookmark(settings.bookmarks, before, settings.blends()))
@@ -118,8 +116,8 @@ Moment TimeControls::moved(const Reading& now, const ControlContext& context, Se
 }
 
 /// Pushed by the wand, time runs on as it plays, at a rate of its own, and stops at the ends.
-Moment TimeControls::pushed(const Reading& now, const ControlContext& context, const Moment& from,
-                            Seconds elapsed) {
+Instant TimeControls::pushed(const Reading& now, const ControlContext& context, const Instant& from,
+                             Seconds elapsed) {
     constexpr double kSeriesSeconds = 4.0;
     const std::vector<double>& times = *context.series.times;
     const Settings& settings = context.settings;
@@ -130,12 +128,12 @@ Moment TimeControls::pushed(const Reading& now, const ControlContext& context, c
     state.loop = false;
     state.speed = std::abs(rate) * kRoundSeconds / kSeriesSeconds;
     const auto steps = static_cast<std::uint32_t>(times.size());
-    const Moment end =
-        state.reverse ? first_of(settings.play_range, steps) : last_of(settings.play_range, steps);
+    const Instant end(state.reverse ? first_of(settings.play_range, steps)
+                                    : last_of(settings.play_range, steps));
     state.playing = state.playing && from != end; // it would start over
     const Playback::Result reached =
         pushed_.advance(times, from, state, elapsed, settings.play_range, blended(context));
-    return state.playing ? Moment(reached.step, reached.fraction) : from;
+    return state.playing ? reached.instant : from;
 }
 
 void TimeControls::update(const Reading& now, const ControlContext& context, Seconds time,
@@ -146,8 +144,8 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
     const Settings& settings = context.settings;
     PlaybackState state = chosen(now, settings.playback, times);
     const StepRange range = chosen_range(now, settings);
-    const Moment from = settings.moment();
-    Moment to = from;
+    const Instant from = settings.shown_instant();
+    Instant to = from;
     if (steps > 0)
         to = moved(now, context, time, steps);
     if (steps > 0 && to == from)
@@ -169,7 +167,7 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
         commands.play_range = range;
     if (now.pressed(Action::save_time) || now.pressed(WandButton::save_time) ||
         now.pressed(GamepadButton::up))
-        commands.bookmarks = toggled(settings.bookmarks, settings.moment(), notes);
+        commands.bookmarks = toggled(settings.bookmarks, settings.shown_instant(), notes);
 }
 
 } // namespace isochron::interaction

@@ -19,10 +19,10 @@ class TimeControls {
                 Commands& commands, std::vector<std::string>& notes);
 
   private:
-    Moment moved(const Reading& now, const ControlContext& context, Seconds time,
-                 std::uint32_t steps);
-    Moment pushed(const Reading& now, const ControlContext& context, const Moment& from,
-                  Seconds elapsed);
+    Instant moved(const Reading& now, const ControlContext& context, Seconds time,
+                  std::uint32_t steps);
+    Instant pushed(const Reading& now, const ControlContext& context, const Instant& from,
+                   Seconds elapsed);
 
     KeyRepeat forward_, back_;
     Playback playback_;

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,7 +23,9 @@ using nlohmann::json;
 
 /// A structure of fields. A recording must have all of them, except optional ones.
 template <class T>
-concept Part = requires(T& part) { each_field([](const Field&, auto&) {}, part); };
+concept Part = requires(T& part) {
+    each_field([](const Field&, auto&) {}, part);
+};
 
 // Declared before parts, since parts hold lists of parts.
 template <class T>
@@ -32,8 +36,7 @@ void from_json(const json& value, const Field& field, std::vector<T>& into);
 // Numbers, words and texts.
 
 template <class T>
-    requires std::integral<T> || std::floating_point<T>
-json to_json(T value) {
+requires std::integral<T> || std::floating_point<T> json to_json(T value) {
     return value;
 }
 json to_json(const std::string& text) {
@@ -44,6 +47,11 @@ json to_json(Enum value) {
     return name_of(value);
 }
 
+/// The fraction stands beside it, among the fields of commands.
+json to_json(Instant instant) {
+    return instant.step;
+}
+
 void from_json(const json& value, const Field& field, bool& into) {
     into = boolean(value, field.key);
 }
@@ -51,6 +59,9 @@ void from_json(const json& value, const Field& field, std::uint32_t& into) {
     constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     into = static_cast<std::uint32_t>(
         natural(value, field.key, static_cast<std::uint64_t>(std::min(field.high, kMost))));
+}
+void from_json(const json& value, const Field& field, Instant& into) {
+    from_json(value, field, into.step);
 }
 template <std::floating_point T>
 void from_json(const json& value, const Field& field, T& into) {
@@ -227,6 +238,8 @@ json commands_json(const Commands& commands) {
         }
     };
     each_field(write, commands);
+    if (commands.instant)
+        result["fraction"] = commands.instant->fraction;
     return result;
 }
 
@@ -249,6 +262,8 @@ Commands commands_from(const json& value, std::string_view where) {
     };
     each_field(read, commands);
     members.done(known);
+    if (commands.instant)
+        commands.instant->fraction = std::exchange(commands.fraction, std::nullopt).value_or(0);
     return commands;
 }
 

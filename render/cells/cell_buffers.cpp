@@ -32,11 +32,13 @@ std::size_t rounded_to_units(std::size_t bytes) {
 CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t staging_bytes)
     : gl_(&gl), grid_(grid), axes_(std::make_unique<AxisTable>(gl, grid)),
       ring_(gl, rounded_to_units(staging_bytes), passes_fences(gl) ? Fences::pass : Fences::never),
-      points_(ArrivingSet::points_array(gl)),
-      corners_{corner_values_array(gl), corner_gradients_array(gl)},
-      corner_colors_(corner_colors_array(gl)), arriving_colors_(corner_colors_array(gl)),
-      meshes_{KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)}, KeptMeshes{MeshBuffers(gl)},
-              KeptMeshes{MeshBuffers(gl)}},
+      points_(ArrivingSet::points_array(gl)), corners_{corner_values_array(gl),
+                                                       corner_gradients_array(gl)},
+      corner_colors_(corner_colors_array(gl)),
+      arriving_colors_(corner_colors_array(gl)), meshes_{KeptMeshes{MeshBuffers(gl)},
+                                                         KeptMeshes{MeshBuffers(gl)},
+                                                         KeptMeshes{MeshBuffers(gl)},
+                                                         KeptMeshes{MeshBuffers(gl)}},
       surroundings_(gl), arriving_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
@@ -125,8 +127,8 @@ bool CellBuffers::wants_volume() const {
 /// Drops what is being sent: the set, or without one the volume of the shown set.
 void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& why) {
     if (set && set != shown_) {
-        refused_ = {set, fmt::format("step {}: {}, so the last cells stay",
-                                     std::uint32_t{set->query.step}, why.what())};
+        refused_ = {set, fmt::format("step {}: {}, so the last cells stay", set->query.instant.step,
+                                     why.what())};
     } else {
         no_volume_version_ = version_;
     }
@@ -174,12 +176,12 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     std::string why;
     if (set->cells() > points_.limit())
         why = fmt::format("{} cells at step {}: this GL can draw at most {}, so the last ones stay",
-                          set->cells(), std::uint32_t{set->query.step}, points_.limit());
+                          set->cells(), set->query.instant.step, points_.limit());
     else if (!with_points && !set->coarse() && !make_room_for(set->blocks))
-        why = fmt::format("{} blocks of the volume at step {}: this GL holds at most {}, so the "
-                          "last cells stay",
-                          set->blocks.ids.size(), std::uint32_t{set->query.step},
-                          blocks_->values().limit());
+        why =
+            fmt::format("{} blocks of the volume at step {}: this GL holds at most {}, so the "
+                        "last cells stay",
+                        set->blocks.ids.size(), set->query.instant.step, blocks_->values().limit());
     if (!why.empty()) {
         refused_ = {std::move(set), std::move(why)};
         return false;

@@ -192,9 +192,7 @@ void run_bench_change(const ChangeArguments& arguments) {
     const auto context =
         stereo::make_context(stereo::ContextKind::egl, {.size = {16, 16}, .vsync = false});
     const render::Gl gl(context->loader());
-    const struct {
-        double stay, floor;
-    } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
+    const struct { double stay, floor; } shares[]{{0, 1.05}, {0.5, 0.7}, {0.9, 0.35}, {0.99, 0.35}};
     std::vector<double> stay;
     for (const auto& share : shares)
         for (unsigned i = 0; i < arguments.repeats; ++i)
@@ -237,8 +235,8 @@ void run_bench_change(const ChangeArguments& arguments) {
             std::vector<ChangeCase>& alike = cases.emplace_back();
             for (unsigned i = 0; i < arguments.repeats; ++i, ++step)
                 alike.push_back({fmt::format("{:.0f} % stay, {}", 100 * share.stay, how),
-                                 {.step = step, .isovalues = {0.0}},
-                                 {.step = step + 1, .isovalues = {0.0}},
+                                 {.instant = index::Instant(step), .isovalues = {0.0}},
+                                 {.instant = index::Instant(step + 1), .isovalues = {0.0}},
                                  share.floor});
         }
         if (changing == Changing::together) {
@@ -247,8 +245,8 @@ void run_bench_change(const ChangeArguments& arguments) {
             std::vector<ChangeCase>& alike = cases.emplace_back();
             for (unsigned i = 0; i < arguments.repeats; ++i)
                 alike.push_back({"isovalue moved by 0.5 %",
-                                 {.step = i, .isovalues = {0.0}},
-                                 {.step = i, .isovalues = {moved}},
+                                 {.instant = index::Instant(i), .isovalues = {0.0}},
+                                 {.instant = index::Instant(i), .isovalues = {moved}},
                                  0.8});
         }
         measure_cases(path, cases);

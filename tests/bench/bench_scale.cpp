@@ -50,7 +50,7 @@ struct ScaleArguments {
 
 /// Bytes that this process has read from disks.
 std::uint64_t bytes_from_disk() {
-    struct rusage usage{};
+    struct rusage usage {};
     ::getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_inblock) * 512;
 }
@@ -158,7 +158,7 @@ Cost cost_of_scan(Field& field, const Query& query, const std::vector<index::Cel
 
 Cost cost_of_vtk(Field& field, const Query& query) {
     const auto rival = flying_edges(field.values());
-    rival->contour({0, -1}, false); // loads the module; finds nothing
+    rival->contour({index::Instant(0), -1}, false); // loads the module; finds nothing
     forget(field.path());
     return {seconds_of([&] {
                 field.read_again();
@@ -187,7 +187,7 @@ void measure_field(const ScaleArguments& arguments, const std::string& name,
     }
     const auto cells = static_cast<double>(field.values().grid.cell_count());
     for (const double percent : arguments.active) {
-        const Query query{0, isovalue_with(field.values(), cells * percent / 100)};
+        const Query query{index::Instant(0), isovalue_with(field.values(), cells * percent / 100)};
         index::CellSetPtr found;
         // In turn, since memory that the system has not used for a while comes late.
         std::vector<double> our_seconds, scan_seconds;
@@ -239,7 +239,7 @@ void measure_warm(const ScaleArguments& arguments, const std::string& name,
     constexpr double kMib = 1 << 20;
     const double all = static_cast<double>(field.count()) / kMib;
     for (const double percent : arguments.active) {
-        const Query query{0, isovalue_with(field.values(), cells * percent / 100)};
+        const Query query{index::Instant(0), isovalue_with(field.values(), cells * percent / 100)};
         std::vector<index::CellId> ids, found;
         const auto by_bricks = [&](std::uint32_t) {
             found.clear();

@@ -65,10 +65,11 @@ void use_index(const std::shared_ptr<const index::IndexFile>& file) {
         return;
     const index::IndexStats& stats = file->stats();
     index::ChangeSearch changes(file);
-    index::Query before{0, stats.low};
+    index::Query before{index::Instant(0), stats.low};
     for (std::uint32_t step = 0; step < std::min(info.steps(), kMostSteps); ++step)
         for (const double part : {0.25, 0.6}) {
-            const index::Query query{step, stats.low + part * (stats.high - stats.low)};
+            const index::Query query{index::Instant(step),
+                                     stats.low + part * (stats.high - stats.low)};
             for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
                 const auto method = static_cast<index::SearchMethod>(i);
                 if (index::can_search(*file, method))
@@ -98,7 +99,7 @@ void use_colors(const std::shared_ptr<const index::IndexFile>& file) {
     const std::size_t colors = index::ColorSource::count(*file);
     for (std::uint32_t number = 0; number < std::min(colors, kMostColors); ++number)
         attempt([&] {
-            extract({.step = 0,
+            extract({.instant = {},
                      .isovalues = {middle},
                      .coloring = index::CellColoring::value,
                      .colors = number},

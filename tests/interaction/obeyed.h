@@ -13,6 +13,8 @@ inline void obey(const Commands& commands, Settings& settings) {
                 kept = *given;
         },
         commands, settings);
+    if (commands.fraction)
+        settings.instant.fraction = *commands.fraction;
     if (commands.isovalue)
         settings.set_isovalue(*commands.isovalue);
 }

@@ -40,8 +40,9 @@ TEST(Playback, StepsAreShownForTheirShareOfPhysicalTime) {
             std::uint32_t step = reverse ? std::uint32_t(times.size() - 1) : 0;
             constexpr int kFrames = 100'000; // one round of 10 s
             for (int i = 0; i < kFrames; ++i) {
-                step =
-                    playback.advance(times, step, playing(reverse), Seconds(10.0 / kFrames)).step;
+                step = playback
+                           .advance(times, Instant(step), playing(reverse), Seconds(10.0 / kFrames))
+                           .instant.step;
                 ++frames[step];
             }
             for (std::size_t i = 0; i < times.size(); ++i) {
@@ -71,8 +72,9 @@ TEST(Playback, TheStepIsTheLastOneNotLaterThanTheCursor) {
             for (std::uint32_t i = 0; i < times.size(); ++i)
                 if (times[i] <= cursor + 1e-9)
                     expected = i;
-            step =
-                playback.advance(times, step, playing(false, true, speed), Seconds(elapsed)).step;
+            step = playback
+                       .advance(times, Instant(step), playing(false, true, speed), Seconds(elapsed))
+                       .instant.step;
             const double margin = std::abs(times[expected] - cursor);
             if (margin > 1e-6) {
                 ASSERT_EQ(step, expected) << "frame " << frame;
@@ -88,7 +90,9 @@ TEST(Playback, SpeedScalesTheDurationOfARound) {
         std::uint32_t step = 0;
         double shown = 0; // until step 1 begins: a quarter of the round
         while (step == 0) {
-            step = playback.advance(times, step, playing(false, true, speed), Seconds(1e-3)).step;
+            step =
+                playback.advance(times, Instant(step), playing(false, true, speed), Seconds(1e-3))
+                    .instant.step;
             shown += 1e-3;
         }
         EXPECT_NEAR(shown, 2.5 / speed, 2e-3);
@@ -100,33 +104,34 @@ TEST(Playback, WithoutLoopItStopsAtTheEndAndStartsOver) {
     for (const bool reverse : {false, true}) {
         const std::uint32_t first = reverse ? 3 : 0, last = reverse ? 0 : 3;
         Playback playback;
-        Playback::Result now{first, true};
+        Playback::Result now{Instant(first), true};
         for (int frame = 0; frame < 1000 && now.playing; ++frame)
-            now = playback.advance(times, now.step, playing(reverse, false), Seconds(0.05));
+            now = playback.advance(times, now.instant, playing(reverse, false), Seconds(0.05));
         EXPECT_FALSE(now.playing);
-        EXPECT_EQ(now.step, last);
+        EXPECT_EQ(now.instant.step, last);
         PlaybackState paused{false, reverse, false, 1.0};
-        EXPECT_EQ(playback.advance(times, last, paused, Seconds(0.05)).step, last);
-        now = playback.advance(times, last, playing(reverse, false), Seconds(0.001));
+        EXPECT_EQ(playback.advance(times, Instant(last), paused, Seconds(0.05)).instant.step, last);
+        now = playback.advance(times, Instant(last), playing(reverse, false), Seconds(0.001));
         EXPECT_TRUE(now.playing);
-        EXPECT_EQ(now.step, first);
+        EXPECT_EQ(now.instant.step, first);
     }
 }
 
 TEST(Playback, FollowsAStepThatWasChosenElsewhere) {
     const std::vector<double> times{10, 20, 30, 40, 50};
     Playback playback;
-    playback.advance(times, 0, playing(), Seconds(0.5));
-    EXPECT_EQ(playback.advance(times, 3, playing(), Seconds(1.9)).step, 3u);
-    EXPECT_EQ(playback.advance(times, 3, playing(), Seconds(0.2)).step, 4u);
+    playback.advance(times, Instant(0), playing(), Seconds(0.5));
+    EXPECT_EQ(playback.advance(times, Instant(3), playing(), Seconds(1.9)).instant.step, 3u);
+    EXPECT_EQ(playback.advance(times, Instant(3), playing(), Seconds(0.2)).instant.step, 4u);
 }
 
 TEST(Playback, PausedTimeStandsStill) {
     const std::vector<double> times{0, 1, 2};
     Playback playback;
     for (int frame = 0; frame < 100; ++frame) {
-        const Playback::Result now = playback.advance(times, 1, PlaybackState{}, Seconds(1));
-        EXPECT_EQ(now.step, 1u);
+        const Playback::Result now =
+            playback.advance(times, Instant(1), PlaybackState{}, Seconds(1));
+        EXPECT_EQ(now.instant.step, 1u);
         EXPECT_FALSE(now.playing);
     }
 }
@@ -134,21 +139,22 @@ TEST(Playback, PausedTimeStandsStill) {
 TEST(Playback, ASeriesOfOneStepNeverPlays) {
     const std::vector<double> times{5};
     Playback playback;
-    const Playback::Result now = playback.advance(times, 0, playing(), Seconds(1));
-    EXPECT_EQ(now.step, 0u);
+    const Playback::Result now = playback.advance(times, Instant(0), playing(), Seconds(1));
+    EXPECT_EQ(now.instant.step, 0u);
     EXPECT_FALSE(now.playing);
     EXPECT_EQ(period(times), 0.0);
-    EXPECT_FALSE(playback.advance({}, 0, playing(), Seconds(1)).playing);
+    EXPECT_FALSE(playback.advance({}, Instant(0), playing(), Seconds(1)).playing);
 }
 
 TEST(Playback, TurningRoundWhilePlayingKeepsThePlaceInTime) {
     const std::vector<double> times{0, 1, 2, 3};
     Playback playback;
-    std::uint32_t step = playback.advance(times, 1, playing(), Seconds(2.0)).step; // 0.8 into it
+    std::uint32_t step =
+        playback.advance(times, Instant(1), playing(), Seconds(2.0)).instant.step; // 0.8 into it
     ASSERT_EQ(step, 1u);
-    step = playback.advance(times, step, playing(true), Seconds(1.9)).step;
+    step = playback.advance(times, Instant(step), playing(true), Seconds(1.9)).instant.step;
     EXPECT_EQ(step, 1u);
-    step = playback.advance(times, step, playing(true), Seconds(0.2)).step;
+    step = playback.advance(times, Instant(step), playing(true), Seconds(0.2)).instant.step;
     EXPECT_EQ(step, 0u);
 }
 
@@ -161,7 +167,8 @@ TEST(Playback, UnevenAndAwkwardTimesNeverStick) {
             std::uint32_t step = 0;
             std::set<std::uint32_t> seen;
             for (int frame = 0; frame < 1200; ++frame) {
-                step = playback.advance(times, step, playing(reverse), Seconds(1.0 / 60)).step;
+                step = playback.advance(times, Instant(step), playing(reverse), Seconds(1.0 / 60))
+                           .instant.step;
                 seen.insert(step);
             }
             EXPECT_TRUE(seen.contains(0));
@@ -179,17 +186,18 @@ TEST(Playback, BlendedTimePassesThroughTheMomentsBetweenTheSteps) {
             times.push_back(times.back() + uniform(random, 1, 2.9)); // no gaps
         for (const bool reverse : {false, true}) {
             Playback playback;
-            Moment at = reverse ? Moment(static_cast<std::uint32_t>(times.size() - 1)) : Moment();
+            Instant at =
+                reverse ? Instant(static_cast<std::uint32_t>(times.size() - 1)) : Instant();
             double before = times[at.step];
             const double per_frame = period(times) / 1000;
             for (int i = 0; i < 2500; ++i) { // more than two rounds
                 const auto now =
                     playback.advance(times, at, playing(reverse), Seconds(0.01), {}, &kNoGaps);
-                at = {now.step, now.fraction};
+                at = now.instant;
                 const double shown = at.fraction == 0
                                          ? times[at.step]
                                          : std::lerp(times[at.step], times[at.step + 1],
-                                                     at.fraction / double(kFractions));
+                                                     at.fraction / double(Instant::kFractions));
                 const double moved = (shown - before) * (reverse ? -1 : 1);
                 const bool held = shown == times.back() || before == times.back();
                 if (!held) { // else it stands for the last step, or goes around
@@ -205,11 +213,11 @@ TEST(Playback, GapsAreHeldAndSoAreStepsThatAreLeftOut) {
     const std::vector<double> times{0, 1, 2, 3, 13, 14, 15}; // ten where one is usual
     const StepGaps gaps({3, 4});
     Playback playback;
-    Moment at;
+    Instant at;
     std::set<std::uint32_t> blended_in;
     for (int i = 0; i < 1000; ++i) {
         const auto now = playback.advance(times, at, playing(), Seconds(0.01), {}, &gaps);
-        at = {now.step, now.fraction};
+        at = now.instant;
         if (at.fraction != 0)
             blended_in.insert(at.step);
     }
@@ -217,33 +225,35 @@ TEST(Playback, GapsAreHeldAndSoAreStepsThatAreLeftOut) {
     PlaybackState every_second = playing();
     every_second.every = 2;
     for (int i = 0; i < 1000; ++i)
-        EXPECT_EQ(playback.advance(times, 0, every_second, Seconds(0.01), {}, &gaps).fraction, 0u);
+        EXPECT_EQ(
+            playback.advance(times, Instant(0), every_second, Seconds(0.01), {}, &gaps).instant,
+            Instant(0));
 }
 
 TEST(Playback, BlendedTimeGoesOnFromAMomentThatWasChosenElsewhere) {
     const std::vector<double> times{0, 1, 2, 3};
     Playback playback;
-    const Moment chosen(1, kFractions / 4);
+    const Instant chosen(1, Instant::kFractions / 4);
     const auto rests = playback.advance(times, chosen, {}, Seconds(1), {}, &kNoGaps);
-    EXPECT_EQ(Moment(rests.step, rests.fraction), chosen);
+    EXPECT_EQ(rests.instant, chosen);
     const auto now = playback.advance(times, chosen, playing(), Seconds(0.5), {}, &kNoGaps);
-    EXPECT_EQ(Moment(now.step, now.fraction), Moment(1, kFractions / 4 + kFractions / 5));
+    EXPECT_EQ(now.instant, Instant(1, Instant::kFractions / 4 + Instant::kFractions / 5));
 }
 
 TEST(Playback, WithoutLoopBlendedTimeEndsAtTheEndsThemselves) {
     const std::vector<double> times{0, 1, 2, 3};
     for (const bool reverse : {false, true}) {
         Playback playback;
-        Moment at = reverse ? Moment(3) : Moment(0);
+        Instant at = reverse ? Instant(3) : Instant(0);
         bool plays = true;
         for (int i = 0; i < 2000 && plays; ++i) {
             const auto now =
                 playback.advance(times, at, playing(reverse, false), Seconds(0.01), {}, &kNoGaps);
-            at = {now.step, now.fraction};
+            at = now.instant;
             plays = now.playing;
         }
         EXPECT_FALSE(plays);
-        EXPECT_EQ(at, reverse ? Moment(0) : Moment(3));
+        EXPECT_EQ(at, reverse ? Instant(0) : Instant(3));
     }
 }
 

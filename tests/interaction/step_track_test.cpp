@@ -26,11 +26,11 @@ Steps shown(PlaybackState state, const StepRange& range, std::uint32_t from, std
     Steps steps{from};
     for (int frame = 0; frame < 100'000 && steps.size() < most && state.playing; ++frame) {
         const Playback::Result now =
-            playback.advance(times, steps.back(), state, Seconds(0.01), range);
+            playback.advance(times, Instant(steps.back()), state, Seconds(0.01), range);
         state.playing = now.playing;
         state.reverse = now.reverse;
-        if (now.step != steps.back())
-            steps.push_back(now.step);
+        if (now.instant.step != steps.back())
+            steps.push_back(now.instant.step);
     }
     return steps;
 }
@@ -77,8 +77,8 @@ TEST(StepTrack, ToAndFroEachStepLastsAsLongAsItDoesInTheData) {
         std::vector<int> frames(times.size(), 0);
         std::uint32_t step = 0;
         for (int i = 0; i < kFrames; ++i) {
-            const Playback::Result now = playback.advance(times, step, state, apart);
-            step = now.step;
+            const Playback::Result now = playback.advance(times, Instant(step), state, apart);
+            step = now.instant.step;
             state.reverse = now.reverse;
             ++frames[step];
         }
@@ -97,7 +97,7 @@ TEST(StepTrack, SpeedsCountStepsOrTheTimeOfTheData) {
         Playback playback;
         std::vector<int> frames(uneven.size(), 0);
         for (std::uint32_t step = 0, frame = 0; frame < 1000; ++frame) {
-            step = playback.advance(uneven, step, state, Seconds(0.01)).step;
+            step = playback.advance(uneven, Instant(step), state, Seconds(0.01)).instant.step;
             ++frames[step];
         }
         return frames;
@@ -124,8 +124,9 @@ TEST(StepTrack, ARateThatRunsThroughAllRoundsAtOnceStaysInTheSeries) {
                     .playing = true, .ping_pong = ping_pong, .unit = unit, .rate = rate};
                 std::uint32_t step = 4;
                 for (int frame = 0; frame < 100; ++frame) {
-                    const auto now = playback.advance(kTen, step, state, Seconds(0.016), {2, 6});
-                    step = now.step;
+                    const auto now =
+                        playback.advance(kTen, Instant(step), state, Seconds(0.016), {2, 6});
+                    step = now.instant.step;
                     state.reverse = now.reverse;
                     ASSERT_GE(step, 2u);
                     ASSERT_LE(step, 6u);
@@ -156,13 +157,15 @@ TEST(StepTrack, StepKeysLeaveOutStepsAndWrapWithLoop) {
     EXPECT_EQ(next_step(3, loops, 10), 7u);
     EXPECT_EQ(next_step(7, loops, 10), 0u);
     EXPECT_EQ(next_step(7, stops, 10), 9u);
-    EXPECT_EQ(previous_step(7, loops, 10), 3u);
-    EXPECT_EQ(previous_step(3, stops, 10), 0u);
-    EXPECT_EQ(previous_step(0, loops, 10), 8u);
+    EXPECT_EQ(previous_step(Instant(7), loops, 10), 3u);
+    EXPECT_EQ(previous_step(Instant(3), stops, 10), 0u);
+    EXPECT_EQ(previous_step(Instant(0), loops, 10), 8u);
     EXPECT_EQ(next_step(9, {}, 10), 0u);
-    EXPECT_EQ(previous_step(0, {}, 10), 9u);
+    EXPECT_EQ(previous_step(Instant(0), {}, 10), 9u);
     EXPECT_EQ(next_step(0, loops, 1), 0u);
-    EXPECT_EQ(previous_step(0, stops, 1), 0u);
+    EXPECT_EQ(previous_step(Instant(0), stops, 1), 0u);
+    EXPECT_EQ(previous_step({7, 1}, loops, 10), 7u) << "between two steps";
+    EXPECT_EQ(previous_step({9, 1}, {}, 10), 8u) << "the last step holds";
 }
 
 TEST(StepTrack, EndsOfARangeGiveWayToEachOther) {
@@ -180,27 +183,28 @@ TEST(StepTrack, EndsOfARangeGiveWayToEachOther) {
 }
 
 TEST(StepTrack, BookmarksAreVisitedInOrderAndAround) {
-    const std::vector<Bookmark> marks{{"late", 7}, {"early", 2}};
-    EXPECT_EQ(next_bookmark(marks, 0), 2u);
-    EXPECT_EQ(next_bookmark(marks, 2), 7u);
-    EXPECT_EQ(next_bookmark(marks, 8), 2u);
-    EXPECT_EQ(previous_bookmark(marks, 8), 7u);
-    EXPECT_EQ(previous_bookmark(marks, 7), 2u);
-    EXPECT_EQ(previous_bookmark(marks, 1), 7u);
-    EXPECT_EQ(next_bookmark({}, 1), std::nullopt);
-    EXPECT_EQ(previous_bookmark({}, 1), std::nullopt);
+    const std::vector<Bookmark> marks{{"late", Instant(7)}, {"early", Instant(2)}};
+    EXPECT_EQ(next_bookmark(marks, Instant(0)), Instant(2));
+    EXPECT_EQ(next_bookmark(marks, Instant(2)), Instant(7));
+    EXPECT_EQ(next_bookmark(marks, Instant(8)), Instant(2));
+    EXPECT_EQ(previous_bookmark(marks, Instant(8)), Instant(7));
+    EXPECT_EQ(previous_bookmark(marks, Instant(7)), Instant(2));
+    EXPECT_EQ(previous_bookmark(marks, Instant(1)), Instant(7));
+    EXPECT_EQ(next_bookmark({}, Instant(1)), std::nullopt);
+    EXPECT_EQ(previous_bookmark({}, Instant(1)), std::nullopt);
 }
 
 TEST(StepTrack, BookmarksBetweenStepsHaveTheirMoment) {
     const std::vector<Bookmark> marks =
-        toggled_bookmark(toggled_bookmark({}, Moment(3)), Moment(3, kFractions / 2));
+        toggled_bookmark(toggled_bookmark({}, Instant(3)), Instant(3, Instant::kFractions / 2));
     ASSERT_EQ(marks.size(), 2u);
     EXPECT_EQ(marks[1].name, "step 4.50");
-    EXPECT_EQ(next_bookmark(marks, 3), Moment(3, kFractions / 2));
-    EXPECT_EQ(next_bookmark(marks, Moment(3, kFractions / 2)), 3u) << "around";
-    EXPECT_EQ(previous_bookmark(marks, Moment(3, 7)), 3u);
-    EXPECT_EQ(toggled_bookmark(marks, Moment(3, kFractions / 2)).size(), 1u) << "it goes again";
-    EXPECT_EQ(next_bookmark({{{"a", 3, 9}, {"b", 5, 0}}}, 3, false), 5u)
+    EXPECT_EQ(next_bookmark(marks, Instant(3)), Instant(3, Instant::kFractions / 2));
+    EXPECT_EQ(next_bookmark(marks, Instant(3, Instant::kFractions / 2)), Instant(3)) << "around";
+    EXPECT_EQ(previous_bookmark(marks, Instant(3, 7)), Instant(3));
+    EXPECT_EQ(toggled_bookmark(marks, Instant(3, Instant::kFractions / 2)).size(), 1u)
+        << "it goes again";
+    EXPECT_EQ(next_bookmark({{{"a", {3, 9}}, {"b", Instant(5)}}}, Instant(3), false), Instant(5))
         << "where steps are held, all of step 3 is the same";
 }
 

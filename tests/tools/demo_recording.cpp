@@ -75,7 +75,7 @@ void make(const std::string& data, const std::string& out) {
     Session session(config, file, *context);
     ExplorerState start = session.state();
     start.set_isovalue(kIsovalue);
-    start.step = 10;
+    start.instant = index::Instant(10);
     session.set_state(start);
 
     RecordingHeader header;

@@ -28,24 +28,27 @@ constexpr float kNarrowTime = 460.0f; ///< below, what has a line in the menu is
 
 void play_buttons(const PanelModel& model, interaction::PlaybackState& playback,
                   Commands& commands) {
-    const std::uint32_t last = last_step(model), step = model.asked.step;
+    const std::uint32_t last = last_step(model);
+    const index::Instant now = model.asked.shown_instant();
+    interaction::PlaybackState by = playback;
+    by.every = 1;
     const interaction::StepRange& range = model.asked.play_range;
     const auto go_to = [&](std::uint32_t to) {
-        commands.step = to;
+        commands.instant.emplace(to);
         playback.playing = false;
     };
     if (icon_button("first", Icon::first, "first step (Ctrl + Left)"))
         go_to(first_of(range, last + 1));
     ImGui::SameLine(0.0f, 2.0f);
     if (icon_button("back", Icon::back, "one step back (Left)"))
-        go_to(step == 0 ? (playback.loop ? last : 0) : step - 1);
+        go_to(previous_step(now, by, last + 1));
     ImGui::SameLine(0.0f, 2.0f);
     if (icon_button("play", playback.playing ? Icon::pause : Icon::play, "play or pause (Space)",
                     playback.playing))
         playback.playing = !playback.playing;
     ImGui::SameLine(0.0f, 2.0f);
     if (icon_button("forward", Icon::forward, "one step forward (Right)"))
-        go_to(step == last ? (playback.loop ? 0 : last) : step + 1);
+        go_to(next_step(now.step, by, last + 1));
     ImGui::SameLine(0.0f, 2.0f);
     if (icon_button("last", Icon::last, "last step (Ctrl + Right)"))
         go_to(last_of(range, last + 1));
@@ -69,13 +72,13 @@ void menu_of_time(const PanelModel& model, interaction::PlaybackState& playback,
     if (ImGui::MenuItem("always show the newest step", "End", &follow)) {
         commands.follow = follow;
         if (follow)
-            commands.step = last_step(model);
+            commands.instant.emplace(last_step(model));
     }
     const interaction::StepRange range = model.asked.play_range;
     if (ImGui::MenuItem("begin playing at this step", "Ctrl + ,"))
-        commands.play_range = interaction::begun_at(model.asked.step, range);
+        commands.play_range = interaction::begun_at(model.asked.instant.step, range);
     if (ImGui::MenuItem("end playing at this step", "Ctrl + ."))
-        commands.play_range = interaction::ended_at(model.asked.step, range);
+        commands.play_range = interaction::ended_at(model.asked.instant.step, range);
     if (ImGui::MenuItem("play all steps", "Ctrl + Shift + .", false,
                         range != interaction::StepRange{}))
         commands.play_range = interaction::StepRange{};
@@ -158,27 +161,28 @@ void list_of_bookmarks(const PanelModel& model, interaction::PlaybackState& play
     auto marks = model.asked.bookmarks;
     std::vector<NamedRow> rows;
     for (const interaction::Bookmark& each : marks)
-        rows.push_back({each.name,
-                        each.step < model.info.steps() ? time_of(model, each.step) : std::string(),
-                        each.moment() == model.asked.moment()});
+        rows.push_back(
+            {each.name,
+             each.instant.step < model.info.steps() ? time_of(model, each.instant) : std::string(),
+             each.instant == model.asked.shown_instant()});
     const bool marked = std::ranges::any_of(rows, [](const NamedRow& each) { return each.here; });
     if (ImGui::MenuItem(marked ? "remove the bookmark of this time" : "bookmark this time",
                         "Ctrl + B"))
-        commands.bookmarks = interaction::toggled_bookmark(marks, model.asked.moment());
-    const auto go_to = [&](const std::optional<interaction::Moment>& at) {
+        commands.bookmarks = interaction::toggled_bookmark(marks, model.asked.shown_instant());
+    const auto go_to = [&](const std::optional<index::Instant>& at) {
         if (at)
             show(*at, commands);
         playback.playing = false;
     };
     if (ImGui::MenuItem("next bookmark", "Ctrl + N", false, !marks.empty()))
-        go_to(next_bookmark(marks, model.asked.moment(), model.asked.blends()));
+        go_to(next_bookmark(marks, model.asked.shown_instant(), model.asked.blends()));
     if (ImGui::MenuItem("previous bookmark", "Ctrl + Shift + N", false, !marks.empty()))
-        go_to(previous_bookmark(marks, model.asked.moment(), model.asked.blends()));
+        go_to(previous_bookmark(marks, model.asked.shown_instant(), model.asked.blends()));
     if (!marks.empty()) {
         ImGui::Separator();
         const NamedChange change = named_list(rows, "show this time");
         if (change.chosen)
-            go_to(marks[*change.chosen].moment());
+            go_to(marks[*change.chosen].instant);
         if (change.renamed)
             marks[change.renamed->first].name = change.renamed->second;
         if (change.removed)
@@ -193,7 +197,7 @@ void bookmark_buttons(const PanelModel& model, bool wide, interaction::PlaybackS
                       Commands& commands) {
     const auto& marks = model.asked.bookmarks;
     const auto leap = [&](const char* id, Icon icon, const char* words,
-                          const std::optional<interaction::Moment>& at) {
+                          const std::optional<index::Instant>& at) {
         ImGui::BeginDisabled(!at);
         if (icon_button(id, icon, words) && at) {
             show(*at, commands);
@@ -204,9 +208,9 @@ void bookmark_buttons(const PanelModel& model, bool wide, interaction::PlaybackS
     };
     if (wide) {
         leap("bookmark back", Icon::bookmark_back, "previous bookmark (Ctrl + Shift + N)",
-             previous_bookmark(marks, model.asked.moment(), model.asked.blends()));
+             previous_bookmark(marks, model.asked.shown_instant(), model.asked.blends()));
         leap("bookmark forward", Icon::bookmark_forward, "next bookmark (Ctrl + N)",
-             next_bookmark(marks, model.asked.moment(), model.asked.blends()));
+             next_bookmark(marks, model.asked.shown_instant(), model.asked.blends()));
     }
     if (icon_button("bookmarks", Icon::bookmark, "bookmarks: times to come back to (Ctrl + B)"))
         ImGui::OpenPopup("bookmarks");
@@ -216,15 +220,15 @@ void bookmark_buttons(const PanelModel& model, bool wide, interaction::PlaybackS
 /// The number of the step, and its time below.
 void step_field(const PanelModel& model, Commands& commands) {
     const auto last = static_cast<int>(last_step(model));
-    int number = static_cast<int>(model.asked.step) + 1; // people count from 1
+    int number = static_cast<int>(model.asked.instant.step) + 1; // people count from 1
     ImGui::SetNextItemWidth(kStepField);
-    const index::Instant at = model.asked.instant();
+    const index::Instant at = model.asked.shown_instant();
     const std::string held = held_text(model);
     const std::string format = at.between()    ? fmt::format("%d to {}", number + 1)
                                : !held.empty() ? fmt::format("gap: %d to {}", number + 1)
                                                : fmt::format("step %d of {}", last + 1);
     if (whole_number_field("##step", &number, 1, std::max(1, last + 1), format.c_str()))
-        commands.step = static_cast<std::uint32_t>(number - 1);
+        commands.instant.emplace(static_cast<std::uint32_t>(number - 1));
     tip(((held.empty() ? "" : held + "\n") + "step: drag, or click and type (Left, Right)")
             .c_str());
 }

@@ -2,7 +2,7 @@
 #include "app/panel/parts/time_track.h"
 
 #include "app/panel/parts/theme.h"
-#include "index/volume/time_unit.h"
+#include "index/volume/instant_text.h"
 #include "interaction/step_track.h"
 
 #include <fmt/format.h>
@@ -29,20 +29,20 @@ struct Track {
     float width() const { return (high.x - low.x) / static_cast<float>(steps); }
     float left_of(std::uint32_t step) const { return low.x + width() * static_cast<float>(step); }
     float middle_of(std::uint32_t step) const { return left_of(step) + width() / 2; }
-    float middle_of(const interaction::Moment& at) const {
+    float middle_of(index::Instant at) const {
         return middle_of(at.step) +
-               width() * static_cast<float>(at.fraction) / interaction::kFractions;
+               width() * static_cast<float>(at.fraction) / index::Instant::kFractions;
     }
-    /// The moment at a place. @param snap within so many pixels of a step it is the step
-    interaction::Moment moment_at(float x, float snap) const {
+    /// The instant at a place. @param snap within so many pixels of a step it is the step
+    index::Instant instant_at(float x, float snap) const {
         const float place = std::clamp((x - middle_of(std::uint32_t{0})) / width(), 0.0f,
                                        static_cast<float>(steps - 1));
         if (std::abs(place - std::round(place)) * width() <= snap)
-            return static_cast<std::uint32_t>(std::round(place));
+            return index::Instant(static_cast<std::uint32_t>(std::round(place)));
         const auto step = static_cast<std::uint32_t>(place);
         const auto fraction = static_cast<std::uint32_t>(
-            (place - static_cast<float>(step)) * static_cast<float>(interaction::kFractions));
-        return {step, std::min(fraction, interaction::kFractions - 1)};
+            (place - static_cast<float>(step)) * static_cast<float>(index::Instant::kFractions));
+        return {step, std::min(fraction, interaction::kMostFraction)};
     }
     std::uint32_t step_at(float x) const {
         const float at = std::floor((x - low.x) / width());
@@ -57,7 +57,7 @@ struct Track {
 void times_below(const Track& track, const PanelModel& model) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const auto width_of = [&](std::uint32_t step) {
-        return ImGui::CalcTextSize(time_of(model, step).c_str()).x;
+        return ImGui::CalcTextSize(time_of(model, index::Instant(step)).c_str()).x;
     };
     constexpr float kGap = 18.0f;
     const float widest = std::max(width_of(0), width_of(track.steps - 1));
@@ -71,7 +71,7 @@ void times_below(const Track& track, const PanelModel& model) {
         every *= 2;
     float taken = track.low.x - 1.0f;
     for (std::uint32_t step = 0; step < track.steps; step += every) {
-        const std::string text = time_of(model, step);
+        const std::string text = time_of(model, index::Instant(step));
         const float width = ImGui::CalcTextSize(text.c_str()).x, middle = track.middle_of(step);
         list.AddLine({middle, track.high.y}, {middle, track.high.y + 3.0f}, packed(Ink::dim));
         const float left = std::clamp(middle - width / 2, track.low.x,
@@ -133,7 +133,7 @@ void true_steps_on(const Track& track, const PanelModel& model) {
         every *= 2;
     for (std::uint32_t step = 0; step < track.steps; step += every)
         tick(step, track.high.y - kTick, Ink::dim);
-    const index::Instant now = model.asked.instant();
+    const index::Instant now = model.asked.shown_instant();
     for (std::uint32_t step = now.step; now.between() && step < now.step + 2; ++step)
         tick(step, track.low.y, Ink::text);
 }
@@ -165,11 +165,11 @@ void flags_on(const Track& track, const PanelModel& model) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float top = track.low.y - kLaneHeight;
     for (const Bookmark& mark : model.asked.bookmarks) {
-        if (mark.step >= track.steps)
+        if (mark.instant.step >= track.steps)
             continue;
-        const float x = track.middle_of(mark.moment());
+        const float x = track.middle_of(mark.instant);
         const ImU32 ink =
-            packed(mark.moment() == model.asked.moment() ? Ink::accent : Ink::warning);
+            packed(mark.instant == model.asked.shown_instant() ? Ink::accent : Ink::warning);
         list.AddLine({x, top}, {x, track.high.y}, ink, 1.5f);
         list.AddTriangleFilled({x, top}, {x + 8, top + 3.5f}, {x, top + 7}, ink);
     }
@@ -184,7 +184,7 @@ Taken taken_at(const Track& track, const PanelModel& model, float x) {
     Taken taken;
     float nearest = kReachOfFlag;
     for (std::size_t i = 0; i < model.asked.bookmarks.size(); ++i) {
-        const interaction::Moment at = model.asked.bookmarks[i].moment();
+        const index::Instant at = model.asked.bookmarks[i].instant;
         if (at.step >= track.steps)
             continue;
         // The flag hangs to the right of its pole.
@@ -218,7 +218,7 @@ void tip_of_lane(const Taken& taken, const Track& track, const PanelModel& model
     const StepRange& range = model.asked.play_range;
     if (taken.kind == Taken::flag) {
         const Bookmark& mark = model.asked.bookmarks[taken.bookmark];
-        ImGui::SetTooltip("%s: %s", mark.name.c_str(), time_of(model, mark.step).c_str());
+        ImGui::SetTooltip("%s: %s", mark.name.c_str(), time_of(model, mark.instant).c_str());
     } else if (taken.kind == Taken::begin) {
         ImGui::SetTooltip("playing begins at step %u: drag (Ctrl + ,)",
                           first_of(range, track.steps) + 1);
@@ -228,7 +228,7 @@ void tip_of_lane(const Taken& taken, const Track& track, const PanelModel& model
     }
 }
 
-void go_to(const interaction::Moment& at, const PanelModel& model, Commands& commands) {
+void go_to(index::Instant at, const PanelModel& model, Commands& commands) {
     show(at, commands);
     if (!model.asked.playback.playing)
         return;
@@ -245,7 +245,7 @@ void lane(const Track& track, const PanelModel& model, Commands& commands) {
     if (ImGui::IsItemActivated()) {
         *held = near.kind;
         if (near.kind == Taken::flag)
-            go_to(model.asked.bookmarks[near.bookmark].moment(), model, commands);
+            go_to(model.asked.bookmarks[near.bookmark].instant, model, commands);
     }
     if (ImGui::IsItemActive() && (*held == Taken::begin || *held == Taken::end)) {
         const StepRange range = dragged(static_cast<Taken::Kind>(*held), track.step_at(x), track,
@@ -259,8 +259,9 @@ void lane(const Track& track, const PanelModel& model, Commands& commands) {
 }
 
 void tip_of_track(const Track& track, const PanelModel& model, std::uint32_t pointed) {
-    std::string words = fmt::format("step {}: {}", pointed + 1, time_of(model, pointed));
-    const interaction::Moment at = track.moment_at(ImGui::GetIO().MousePos.x, 0.0f);
+    std::string words =
+        fmt::format("step {}: {}", pointed + 1, time_of(model, index::Instant(pointed)));
+    const index::Instant at = track.instant_at(ImGui::GetIO().MousePos.x, 0.0f);
     if (is_gap(model, at.step))
         words += "\n" + gap_text(at.step);
     ImGui::SetTooltip("%s", words.c_str());
@@ -272,10 +273,11 @@ void menu_of_step(std::uint32_t step, const PanelModel& model, Commands& command
         return;
     const auto& marks = model.asked.bookmarks;
     const bool marked =
-        std::ranges::find(marks, interaction::Moment(step), &Bookmark::moment) != marks.end();
-    ImGui::TextColored(color_of(Ink::dim), "step %u: %s", step + 1, time_of(model, step).c_str());
+        std::ranges::find(marks, index::Instant(step), &Bookmark::instant) != marks.end();
+    ImGui::TextColored(color_of(Ink::dim), "step %u: %s", step + 1,
+                       time_of(model, index::Instant(step)).c_str());
     if (ImGui::MenuItem(marked ? "remove the bookmark" : "bookmark this step"))
-        commands.bookmarks = interaction::toggled_bookmark(marks, step);
+        commands.bookmarks = interaction::toggled_bookmark(marks, index::Instant(step));
     const StepRange& range = model.asked.play_range;
     if (ImGui::MenuItem("begin playing here"))
         commands.play_range = interaction::begun_at(step, {std::nullopt, range.last});
@@ -288,38 +290,36 @@ void menu_of_step(std::uint32_t step, const PanelModel& model, Commands& command
 
 void handles_on(const Track& track, const PanelModel& model) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const auto handle = [&](const interaction::Moment& at, Ink ink, float thick) {
-        const float x = track.middle_of(at.step < track.steps ? at : track.steps - 1);
+    const auto handle = [&](index::Instant at, Ink ink, float thick) {
+        const float x = track.middle_of(at.within(track.steps));
         list.AddRectFilled({x - thick - 1, track.low.y - 2}, {x + thick + 1, track.high.y + 2},
                            packed(Ink::bar), 2.0f);
         list.AddRectFilled({x - thick, track.low.y - 1}, {x + thick, track.high.y + 1}, packed(ink),
                            2.0f);
     };
     const auto& shown = model.frame.shown;
-    const index::Instant now = model.asked.instant();
-    if (shown && shown->step != now)
-        handle({shown->step.step, shown->step.fraction}, Ink::dim, 1.0f);
-    handle({now.step, now.fraction}, Ink::accent, 2.5f);
+    const index::Instant now = model.asked.shown_instant();
+    if (shown && shown->instant != now)
+        handle(shown->instant, Ink::dim, 1.0f);
+    handle(now, Ink::accent, 2.5f);
 }
 
 } // namespace
 
-void show(const interaction::Moment& at, Commands& commands) {
-    commands.step = at.step;
-    if (at.fraction > 0)
-        commands.fraction = at.fraction;
+void show(index::Instant at, Commands& commands) {
+    commands.instant = at;
 }
 
 std::uint32_t last_step(const PanelModel& model) {
     return static_cast<std::uint32_t>(model.asked.known_steps(model.info.steps()) - 1);
 }
 
-std::string time_of(const PanelModel& model, std::uint32_t step) {
-    return index::time_text(model.info.times, step, model.info.time_unit);
+std::string time_of(const PanelModel& model, index::Instant at) {
+    return index::instant_text(model.info.times, at, model.info.time_unit);
 }
 
 std::string held_text(const PanelModel& model) {
-    const index::Instant now = model.asked.instant();
+    const index::Instant now = model.asked.shown_instant();
     if (now.between())
         return fmt::format("between steps {} and {}", now.step + 1, now.step + 2);
     return is_gap(model, now.step) ? gap_text(now.step) : "";
@@ -343,13 +343,11 @@ void time_track(const PanelModel& model, Commands& commands) {
     }
     if (ImGui::IsItemActive() && model.asked.blends()) {
         constexpr float kSnap = 2.0f; // pixels
-        const interaction::Moment at = track.moment_at(ImGui::GetIO().MousePos.x, kSnap);
-        if (at != model.asked.moment()) {
-            commands.step = at.step;
-            commands.fraction = at.fraction;
-        }
-    } else if (ImGui::IsItemActive() && pointed != model.asked.step) {
-        commands.step = pointed;
+        const index::Instant at = track.instant_at(ImGui::GetIO().MousePos.x, kSnap);
+        if (at != model.asked.shown_instant())
+            commands.instant = at;
+    } else if (ImGui::IsItemActive() && pointed != model.asked.instant.step) {
+        commands.instant.emplace(pointed);
     }
     if (ImGui::IsItemHovered())
         tip_of_track(track, model, pointed);

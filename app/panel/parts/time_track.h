@@ -20,11 +20,11 @@ inline constexpr float kLaneHeight = 12.0f, kTrackHeight = 16.0f;
 void time_track(const PanelModel& model, interaction::Commands& commands);
 
 /// Commands that show a moment.
-void show(const interaction::Moment& at, interaction::Commands& commands);
+void show(index::Instant at, interaction::Commands& commands);
 /// The number of the last step that the session knows.
 std::uint32_t last_step(const PanelModel& model);
 /// The time of a step, in words.
-std::string time_of(const PanelModel& model, std::uint32_t step);
+std::string time_of(const PanelModel& model, index::Instant at);
 /// `between steps 12 and 13`, or, where the step before a gap is shown, `held: a gap between steps 12
 /// and 13`; at any other step, and where steps are held, empty.
 std::string held_text(const PanelModel& model);

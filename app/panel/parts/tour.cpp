@@ -30,7 +30,9 @@ constexpr std::array<TourStep, Tour::kSteps> kTour{{
     {"Time",
      "The bar at the bottom is time. Press Space to play, Left and Right for single steps, or "
      "click on the track.",
-     [](const ExplorerState& before, const ExplorerState& now) { return before.step != now.step; }},
+     [](const ExplorerState& before, const ExplorerState& now) {
+         return before.instant != now.instant;
+     }},
     {"Turn",
      "Drag in the picture with the left button to turn the data, with the middle one, or Shift and "
      "the left, to move them; the wheel scales them. The cube at the upper right shows how they "

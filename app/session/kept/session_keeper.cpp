@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 bool only_looks_differ(const interaction::Commands& start, interaction::Commands now) {
     const auto seen = [&](auto... member) { ((now.*member = start.*member), ...); };
     using Changes = interaction::SettingChanges;
-    seen(&Changes::steps, &Changes::step, &Changes::fraction, &Changes::follow, &Changes::playback,
+    seen(&Changes::steps, &Changes::instant, &Changes::follow, &Changes::playback,
          &Changes::room_from_physical, &Changes::orthographic, &Changes::quality, &Changes::stereo,
          &Changes::eye_separation, &Changes::panel, &Changes::room_panel, &Changes::exporting,
          &Changes::leaving);

@@ -22,7 +22,7 @@ struct Member {
 
 index::Extract extraction_that_fails_at(const std::set<std::uint32_t>& steps) {
     return [steps](const index::SurfacesQuery& query, const std::stop_token&) {
-        if (steps.contains(query.step))
+        if (steps.contains(query.instant.step))
             throw std::runtime_error("no such step");
         auto extraction = std::make_shared<index::Extraction>();
         extraction->query = query;
@@ -61,7 +61,8 @@ class Members {
                     member.cells.staged();
             }
             member.shown = member.cells.to_show();
-            shown.insert(member.shown ? std::optional(member.shown->query.step) : std::nullopt);
+            shown.insert(member.shown ? std::optional(member.shown->query.instant.step)
+                                      : std::nullopt);
         }
         EXPECT_EQ(shown.size(), 1u) << "all show the same";
         return *shown.begin();

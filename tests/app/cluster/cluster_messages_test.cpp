@@ -28,7 +28,7 @@ FrameOrder rich_order(std::mt19937& random) {
         head,
         {.name = "wand", .pose = {}, .pose_valid = false, .valuators = {}, .pose_lost = true}};
     order.commands.isovalue = any(random);
-    order.commands.step = random() % 1000;
+    order.commands.instant = index::Instant(random() % 1000);
     order.commands.room_from_physical = interaction::Similarity{};
     order.commands.room_from_physical->translation = {any(random), any(random), any(random)};
     order.commands.playback = interaction::PlaybackState{true, true, false, 0.1 + 1.0 / 3};

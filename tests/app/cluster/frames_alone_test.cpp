@@ -10,12 +10,12 @@ namespace {
 
 index::SurfacesQuery query_of_step(std::uint32_t step) {
     index::SurfacesQuery query;
-    query.step = step;
+    query.instant = index::Instant(step);
     return query;
 }
 
 index::ExtractionPtr found_unless_last(const index::SurfacesQuery& query, const std::stop_token&) {
-    if (query.step == 9)
+    if (query.instant == index::Instant(9))
         throw std::runtime_error("step 9 cannot be read");
     auto extraction = std::make_shared<index::Extraction>();
     extraction->query = query;

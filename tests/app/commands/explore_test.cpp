@@ -5,6 +5,7 @@
 #include "tests/support/eventually.h"
 
 #include "app/config/shipped_configs.h"
+#include "app/explore/explore_start.h"
 #include "app/session/kept/recording_file.h"
 #include "index/file/index_file.h"
 #include "stereo/image_file.h"
@@ -45,6 +46,16 @@ TEST_F(ExploreTest, MakesAnIndexOfFilesOfValuesAndKeepsIt) {
         std::count_if(begin(kept), end(kept),
                       [](const auto& entry) { return entry.path().extension() == ".isochron"; }),
         1);
+}
+
+TEST(ExploreStart, AStepThatIsAskedForIsNotBetweenStepsWhereTheSessionWas) {
+    ExplorerState resumed;
+    resumed.between = interaction::BetweenSteps::blend;
+    resumed.instant = {3, 30'000};
+    ExploreOptions options;
+    EXPECT_EQ(start_from(resumed, options, 10).shown_instant(), resumed.instant);
+    options.step = 5;
+    EXPECT_EQ(start_from(resumed, options, 10).shown_instant(), index::Instant(5));
 }
 
 TEST_F(ExploreTest, OfSeveralArraysItShowsOneAndHasTheOthers) {
@@ -331,7 +342,7 @@ TEST_F(ExploreTest, ResumesAfterTheDataHaveGrown) {
     ASSERT_EQ(explored({"--resume", "--record", file("resumed.jsonl")}), 0);
     const auto start = read_recording(file("resumed.jsonl")).header.start;
     EXPECT_EQ(start.quality, interaction::QualityMode::quality);
-    EXPECT_EQ(start.step, 1u);
+    EXPECT_EQ(start.instant, index::Instant(1));
 }
 
 } // namespace

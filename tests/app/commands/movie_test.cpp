@@ -243,7 +243,7 @@ TEST_F(MovieTest, OfAnIndexBlendsStepsOrHoldsThemAsTheIndexAdvises) {
              file = folder_.path() / name / fmt::format("frame_{:05}.png", moments.size()),
              std::filesystem::exists(file);) {
             const PictureNote note = note_from(note_text_in(file));
-            moments.emplace_back(*note.state.step, note.state.fraction.value_or(0));
+            moments.push_back(*note.state.instant);
         }
         std::filesystem::remove_all(folder_.path() / name);
         return moments;

@@ -47,7 +47,7 @@ class ReproduceTest : public testing::Test {
             if (i == 0)
                 frame.commands = more;
             if (i < 3)
-                frame.commands.step = static_cast<std::uint32_t>(i);
+                frame.commands.instant = index::Instant(static_cast<std::uint32_t>(i));
             if (i == 2 || i == 11)
                 frame.commands.stamps = {"now"};
             writer.append(frame);
@@ -118,7 +118,7 @@ TEST_F(ReproduceTest, WhatToolsHaveMadeIsTheSame) {
     interaction::Commands made;
     made.clip = interaction::ClipPlane{true, {16, 16, 16}, {0, 0, 1}};
     made.ruler = interaction::Ruler{{{4, 16, 16}, {28, 16, 16}}};
-    made.mark = interaction::Mark{interaction::MarkedPoint{{10, 12, 16}, 0, 8.0}};
+    made.mark = interaction::Mark{interaction::MarkedPoint{{10, 12, 16}, {}, 8.0}};
     made.isosurfaces = {{8.0, {1, 0.5f, 0.2f}, 1.0f}, {12.0, {0.2f, 0.5f, 1}, 0.4f}};
     made.coloring = interaction::Coloring{interaction::ColorBy::first_crossing, "lagoon", {}};
     made.grid = true;

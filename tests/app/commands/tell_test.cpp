@@ -65,7 +65,8 @@ TEST_F(TellTest, WhatIsToldIsShownRecordedAndUndoneLikeAnyInput) {
     std::ifstream lines(file("walk.jsonl"));
     const auto recording = interaction::read_recording(lines, "walk.jsonl");
     EXPECT_TRUE(std::ranges::any_of(recording.frames, [](const auto& frame) {
-        return frame.commands.undo && frame.from_panel.undo && frame.commands.step == 0u;
+        return frame.commands.undo && frame.from_panel.undo &&
+               frame.commands.instant == index::Instant(0);
     }));
     EXPECT_EQ(Program({"replay", file("walk.jsonl"), "--from-devices"}).exit_status(), 0);
     EXPECT_EQ(tell({"state"}).status, 1) << "nobody listens any more";

@@ -83,7 +83,7 @@ class ControlServerTest : public testing::Test {
     static ControlRequest step(std::uint32_t number) {
         ControlRequest request;
         request.verb = ControlVerb::commands;
-        request.commands.step = number;
+        request.commands.instant = index::Instant(number);
         return request;
     }
     static ControlRequest verb(ControlVerb verb) {

@@ -1,8 +1,8 @@
 // The control socket and clients that do harm: floods, nonsense, deafness, too many of them.
 #include "tests/app/control/control_fixture.h"
 
-#include <fstream>
 #include <fcntl.h>
+#include <fstream>
 #include <poll.h>
 #include <unistd.h>
 
@@ -156,7 +156,7 @@ TEST_F(ControlServerTest, AFloodOfCommandsIsOneOfEachKindInAFrame) {
     }));
     const std::string all = answers.get();
     EXPECT_EQ(std::ranges::count(all, '\n'), kMany) << "each is answered";
-    EXPECT_EQ(state_->step, (kMany - 1) % 3) << "the last one counts";
+    EXPECT_EQ(state_->instant, index::Instant((kMany - 1) % 3)) << "the last one counts";
     EXPECT_LE(taken_.size(), frames_);
 }
 

@@ -30,7 +30,7 @@ TEST(ControlRequest, ComesBackAsItWasWritten) {
     all[0].token = "secret";
     all[1].verb = ControlVerb::state;
     all[2].verb = ControlVerb::commands;
-    all[2].commands.step = 7;
+    all[2].commands.instant = index::Instant(7);
     all[2].commands.stamps = {"here"};
     all[3].verb = ControlVerb::subscribe;
     all[3].to = {true, false, true, false};

@@ -13,7 +13,7 @@ using nlohmann::json;
 TEST_F(ControlServerTest, IsASocketThatItsUserAloneMayOpenAndIsGoneAtTheEnd) {
     listen();
     const auto path = default_control_path();
-    struct stat socket{};
+    struct stat socket {};
     ASSERT_EQ(stat(path.c_str(), &socket), 0);
     EXPECT_EQ(socket.st_mode & 0777, 0600u);
     EXPECT_THROW(ControlServer(control_address(""), desk_, {}), interaction::Error)
@@ -24,9 +24,7 @@ TEST_F(ControlServerTest, IsASocketThatItsUserAloneMayOpenAndIsGoneAtTheEnd) {
 
 TEST_F(ControlServerTest, ReplacesASocketThatWasLeftBehindAndNothingElse) {
     ControlAddress address = control_address("");
-    {
-        const ControlSocket left = listen_at(address);
-    }
+    { const ControlSocket left = listen_at(address); }
     ASSERT_TRUE(std::filesystem::exists(address.path)) << "nobody has removed it";
     EXPECT_NO_THROW(listen());
     folder_.write("run42.isochron", "data");
@@ -41,7 +39,7 @@ TEST_F(ControlServerTest, AnswersACommandWithTheFrameThatObeysIt) {
     ControlClient client(server_->address());
     const auto answer = json::parse(ask(client, step(2)).line);
     EXPECT_EQ(answer.at("frame"), obeyed_in_);
-    EXPECT_EQ(state_->step, 2u);
+    EXPECT_EQ(state_->instant, index::Instant(2));
     const auto state = json::parse(ask(client, verb(ControlVerb::state)).line);
     EXPECT_EQ(state.at("state").at("step"), 2);
 }
@@ -125,7 +123,7 @@ TEST_F(ControlServerTest, EventsTellWhatChangesAndNoMoreOftenThanAsked) {
 TEST_F(ControlServerTest, LoopbackAsksForATokenThatOnlyTheUserCanRead) {
     listen("127.0.0.1:0");
     const auto token = control_token_file(server_->address().port);
-    struct stat file{};
+    struct stat file {};
     ASSERT_EQ(stat(token.c_str(), &file), 0);
     EXPECT_EQ(file.st_mode & 0777, 0600u);
     EXPECT_NE(answer_to("{\"verb\":\"state\"}\n{\"verb\":\"state\"}\n").find("token is wrong"),

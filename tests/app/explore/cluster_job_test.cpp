@@ -44,8 +44,8 @@ class ClusterJobTest : public testing::Test {
             if (i < 8)
                 frame.input.devices.front().pose->position.x = 0.02f * static_cast<float>(i);
             if (i < 6) {
-                frame.commands.step = static_cast<std::uint32_t>(i);
-                frame.commands.fraction = static_cast<std::uint32_t>(10'000 * i);
+                frame.commands.instant = {static_cast<std::uint32_t>(i),
+                                          static_cast<std::uint32_t>(10'000 * i)};
             }
             if (i % 5 == 0)
                 frame.commands.stamps = {"stamp"};
@@ -77,7 +77,7 @@ class ClusterJobTest : public testing::Test {
         for (int i = 0; i < 8; ++i) {
             interaction::RecordedFrame frame;
             frame.input = head_at_rest(1.0 + i);
-            frame.commands.step = static_cast<std::uint32_t>(i);
+            frame.commands.instant = index::Instant(static_cast<std::uint32_t>(i));
             frame.commands.stamps = {"stamp"};
             if (i == 1)
                 frame.commands.coloring = colored_by("nearness");

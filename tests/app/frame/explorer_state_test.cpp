@@ -71,12 +71,30 @@ TEST(ExplorerState, RefusesTimesThatTheSeriesLacks) {
         EXPECT_TRUE(refused([&](Commands& commands) { commands.play_range = range; }));
     for (const StepRange& range : {StepRange{4, {}}, StepRange{2, 2}, StepRange{}})
         EXPECT_FALSE(refused([&](Commands& commands) { commands.play_range = range; }));
-    EXPECT_TRUE(refused([](Commands& commands) { commands.bookmarks = {{"late", 5}}; }));
-    EXPECT_FALSE(refused([](Commands& commands) { commands.bookmarks = {{"last", 4}}; }));
+    EXPECT_TRUE(refused([](Commands& commands) {
+        commands.bookmarks = {{"late", index::Instant(5)}};
+    }));
+    EXPECT_FALSE(refused([](Commands& commands) {
+        commands.bookmarks = {{"last", index::Instant(4)}};
+    }));
     for (const auto& playback :
          {interaction::PlaybackState{.every = 0}, interaction::PlaybackState{.every = 1001},
           interaction::PlaybackState{.rate = 0}})
         EXPECT_TRUE(refused([&](Commands& commands) { commands.playback = playback; }));
+}
+
+TEST(ExplorerState, AFractionAloneIsOfTheStepThatIsShown) {
+    ExplorerState state;
+    state.instant = {2, 5};
+    Commands commands;
+    commands.fraction = 77;
+    EXPECT_TRUE(state.apply(commands, 5));
+    EXPECT_EQ(state.instant, index::Instant(2, 77));
+    commands.fraction = index::Instant::kFractions;
+    EXPECT_FALSE(state.apply(commands, 5));
+    EXPECT_EQ(state.instant, index::Instant(2, 77));
+    EXPECT_EQ(state.refusals(commands, 5),
+              std::vector<std::string>{"fraction is 65536, expected 0 to 65535"});
 }
 
 TEST(ExplorerState, WhatEarlierVersionsKeptIsDrawnWithoutOcclusion) {
@@ -93,7 +111,7 @@ TEST(ExplorerState, WhatEarlierVersionsKeptIsDrawnWithoutOcclusion) {
     EXPECT_EQ(state.look, (interaction::Look{.occlusion = 0.0f}));
     // What a user wrote in place of a whole state changes what it names.
     Commands some;
-    some.step = 0;
+    some.instant = index::Instant(0);
     state = {};
     EXPECT_TRUE(state.resume(some, 1));
     EXPECT_EQ(state.look, interaction::Look{});

@@ -155,12 +155,12 @@ TEST(History, WhatPlaysIsNotUndoneStepByStep) {
     explorer.obey(play, 0);
     for (std::uint32_t step = 1; step < kSteps; ++step) {
         Commands next;
-        next.step = step;
+        next.instant = index::Instant(step);
         explorer.obey(next, step);
     }
     ASSERT_TRUE(explorer.undo(10));
     EXPECT_FALSE(explorer.state.playback.playing);
-    EXPECT_EQ(explorer.state.step, 0u);
+    EXPECT_EQ(explorer.state.instant, index::Instant(0));
     EXPECT_FALSE(explorer.history.undo());
 }
 

@@ -94,7 +94,7 @@ TEST(SphereSeries, HasThePublishedNumberOfActiveCells) {
     double sum = 0.0;
     for (std::uint32_t step = 0; step < 55; ++step) {
         std::vector<index::CellId> cells;
-        index::scan(sphere.values(), {.step = step, .isovalue = 112.5}, cells);
+        index::scan(sphere.values(), {.instant = index::Instant(step), .isovalue = 112.5}, cells);
         EXPECT_NEAR(static_cast<double>(cells.size()), 3730.0, 40.0) << "step " << step;
         sum += static_cast<double>(cells.size());
     }

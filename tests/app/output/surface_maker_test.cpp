@@ -69,7 +69,7 @@ class SurfaceMakerTest : public testing::Test {
 TEST_F(SurfaceMakerTest, WhatIsShownIsWrittenUnderAFreeName) {
     fs::create_directory(folder_.path() / "out");
     folder_.write("out/isochron_surface_0001.ply", "someone else's");
-    state_.step = 2;
+    state_.instant = index::Instant(2);
     EXPECT_THAT(outcome(), HasSubstr("isochron_surface_0002.ply: "));
     EXPECT_EQ(told_.back(), ExportWork{}) << "the panel is told that it has ended";
     EXPECT_THAT(files(), ElementsAre("isochron_surface_0001.ply", "isochron_surface_0002.ply"));
@@ -162,7 +162,7 @@ PlyColors ply_colors(const std::string& ply) {
 TEST_F(SurfaceMakerTest, VerticesHaveTheTimeOfFirstCrossing) {
     state_.coloring.by = interaction::ColorBy::first_crossing;
     state_.isosurfaces.resize(1);
-    state_.step = 2;
+    state_.instant = index::Instant(2);
     EXPECT_THAT(outcome(), HasSubstr("isochron_surface_0001.ply: "));
     const PlyColors ply = ply_colors(folder_.read("out/isochron_surface_0001.ply"));
     const std::set<float> values(ply.values.begin(), ply.values.end());
@@ -184,15 +184,14 @@ TEST_F(SurfaceMakerTest, BetweenStepsFirstCrossingsAreThoseOfThePicture) {
     const auto& times = file_->info().times;
     int number = 0;
     for (const std::uint32_t fraction : {0u, 20'000u}) { // a step shows crossings of blends, too
-        state_.step = 2;
-        state_.fraction = fraction;
+        state_.instant = {2, fraction};
         state_.exporting = {true, 0};
         outcome();
         const PlyColors ply =
             ply_colors(folder_.read(fmt::format("out/isochron_surface_{:04}.ply", ++number)));
 
         index::SurfacesQuery shown = state_.surfaces();
-        EXPECT_EQ(shown.step, index::Instant(2, fraction));
+        EXPECT_EQ(shown.instant, index::Instant(2, fraction));
         shown.mesh_room = std::uint64_t{1} << 30;
         const index::ExtractionPtr picture =
             index::extract_from(file_, std::nullopt, index::Shading::cells)(shown, {});

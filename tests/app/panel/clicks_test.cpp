@@ -48,8 +48,9 @@ TEST_F(Clicks, OneLeadsToTheNextStepASecondSurfaceAndAPicture) {
     frame();
     const PanelPlaces places = layer_.places();
     const float middle = (places.time.low.y + places.time.high.y) / 2;
-    EXPECT_TRUE(one_click({0, middle}, {300, middle},
-                          [](const Commands& commands) { return commands.step == 1u; }));
+    EXPECT_TRUE(one_click({0, middle}, {300, middle}, [](const Commands& commands) {
+        return commands.instant == index::Instant(1);
+    }));
     EXPECT_TRUE(one_click({23, 420}, {23, 380}, [](const Commands& commands) {
         return commands.isosurfaces && commands.isosurfaces->size() == 2;
     }));
@@ -94,7 +95,7 @@ TEST_F(Clicks, TheEndsOfTheRangeAreDraggedAboveTheTrack) {
     ASSERT_TRUE(commands.play_range->last);
     EXPECT_GT(*commands.play_range->last, 500u);
     EXPECT_LT(*commands.play_range->last, 1990u);
-    EXPECT_FALSE(commands.step) << "the step stays";
+    EXPECT_FALSE(commands.instant) << "the step stays";
     asked_.play_range = *commands.play_range;
     point({1275, lane});
     commands = frame();
@@ -103,11 +104,11 @@ TEST_F(Clicks, TheEndsOfTheRangeAreDraggedAboveTheTrack) {
 }
 
 TEST_F(Clicks, AFlagLeadsToItsBookmark) {
-    asked_.bookmarks = {{"early", 3}, {"late", 1999}};
+    asked_.bookmarks = {{"early", index::Instant(3)}, {"late", index::Instant(1999)}};
     asked_.playback.playing = true;
     frame();
     const Commands commands = click({1267, layer_.places().time.low.y + 8});
-    EXPECT_EQ(commands.step, 1999u);
+    EXPECT_EQ(commands.instant, index::Instant(1999));
     ASSERT_TRUE(commands.playback);
     EXPECT_FALSE(commands.playback->playing);
     EXPECT_FALSE(commands.play_range) << "although the range ends there";
@@ -115,11 +116,21 @@ TEST_F(Clicks, AFlagLeadsToItsBookmark) {
 
 TEST_F(Clicks, AFlagBetweenTwoStepsLeadsBetweenThem) {
     asked_.between = interaction::BetweenSteps::blend;
-    asked_.bookmarks = {{"between", 1998, interaction::kFractions / 2}};
+    asked_.bookmarks = {{"between", {1998, index::Instant::kFractions / 2}}};
     frame();
     const Commands commands = click({1267, layer_.places().time.low.y + 8});
-    EXPECT_EQ(commands.step, 1998u);
-    EXPECT_EQ(commands.fraction, interaction::kFractions / 2);
+    EXPECT_EQ(commands.instant, asked_.bookmarks.front().instant);
+}
+
+TEST_F(Clicks, BackFromBetweenTwoStepsLeadsToTheEarlierOne) {
+    asked_.between = interaction::BetweenSteps::blend;
+    asked_.instant = {7, index::Instant::kFractions / 2};
+    frame();
+    const PanelPlaces places = layer_.places();
+    const float middle = (places.time.low.y + places.time.high.y) / 2;
+    EXPECT_TRUE(one_click({0, middle}, {300, middle}, [](const Commands& commands) {
+        return commands.instant == index::Instant(7);
+    }));
 }
 
 TEST_F(Clicks, SurfacesAreExportedInAFormatThatIsChosen) {

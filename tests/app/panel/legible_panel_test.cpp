@@ -55,7 +55,7 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
             stats_.histogram.push_back(1 + 7 * bin * (256 - bin));
         asked_.panel = true;
         asked_.set_isovalue(9.21);
-        report_.shown = index::SurfacesQuery{0, {9.21}};
+        report_.shown = index::SurfacesQuery{index::Instant(0), {9.21}};
         report_.footprint = render::Footprint::surface;
         report_.final = true;
     }
@@ -148,7 +148,7 @@ class LegiblePanelOverAPicture : public LegiblePanel {};
 
 TEST_P(LegiblePanel, AsItOpens) {
     expect_legible_sections("at first");
-    asked_.step = 63;
+    asked_.instant = index::Instant(63);
     info_.time_unit = "hours since 2009-09-09 17:00";
     expect_legible("with dates");
 }
@@ -156,9 +156,9 @@ TEST_P(LegiblePanel, AsItOpens) {
 TEST_P(LegiblePanel, WhereStepsAreBlendedAndAGapIsHeld) {
     asked_.between = interaction::BetweenSteps::blend;
     gaps_ = {11, 12, 40};
-    asked_.step = 11;
+    asked_.instant = index::Instant(11);
     expect_legible_sections("with a gap");
-    asked_.fraction = interaction::kFractions / 3;
+    asked_.instant.fraction = index::Instant::kFractions / 3;
     expect_legible("between steps");
 }
 
@@ -183,7 +183,7 @@ TEST_P(LegiblePanel, WithWhatToolsHaveMade) {
     asked_.tools.mouse = asked_.tools.wand = interaction::ToolKind::clip;
     asked_.clip.shown = true;
     asked_.ruler.places = {{1, 2, 3}};
-    asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, 0, 12.25};
+    asked_.mark.point = interaction::MarkedPoint{{1.5, 2.5, 3.5}, {}, 12.25};
     expect_legible_sections("with tools");
 }
 
@@ -231,7 +231,7 @@ TEST_P(LegiblePanel, WithItsPages) {
 
 /// Whatever button opens a menu, in the bars above and below.
 TEST_P(LegiblePanel, WithTheMenusOfItsBars) {
-    asked_.bookmarks = {{"first maximum", 3}, {"later", 40}};
+    asked_.bookmarks = {{"first maximum", index::Instant(3)}, {"later", index::Instant(40)}};
     asked_.pictures.width = 1920;
     asked_.pictures.height = 1080;
     asked_.play_range = {3, 50};

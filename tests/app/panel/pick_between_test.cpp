@@ -16,8 +16,7 @@ TEST_P(PickBetweenSteps, AMarkKeepsTheMoment) {
     settle(session, {}, std::nullopt);
     interaction::Commands commands;
     commands.between = interaction::BetweenSteps::blend;
-    commands.step = 0;
-    commands.fraction = 24576;
+    commands.instant = {0, 24576};
     session.frame(input(), commands, Waiting::for_cells);
     session.frame(input(), {}, Waiting::for_cells);
     const auto frame = [&](std::uint64_t buttons, double seconds) {
@@ -41,8 +40,7 @@ TEST_P(PickBetweenSteps, AMarkKeepsTheMoment) {
     const interaction::Commands picked = frame(bit(interaction::WandButton::pick), 2);
     const auto mark = session.state().mark.point;
     ASSERT_TRUE(mark);
-    EXPECT_EQ(mark->step, 0u);
-    EXPECT_EQ(mark->fraction, 24576u);
+    EXPECT_EQ(mark->instant, index::Instant(0, 24576));
     EXPECT_EQ(picked.mark, session.state().mark) << "so it is recorded";
 }
 

@@ -72,33 +72,30 @@ TEST_F(RoomKeysTest, WhatIsCanceledChangesNothing) {
 TEST_F(RoomKeysTest, ARayDragsTimeBetweenTheSteps) {
     info_.times = {0, 1, 2, 3};
     const auto moments = [&] {
-        std::vector<interaction::Moment> seen;
+        std::vector<index::Instant> seen;
         for (float y = kRoom.y - 60.0f; y < kRoom.y && seen.empty(); y += 4) {
             ray({{60.0f, y}}, false);
             for (float x = 60; x <= 330; x += 5) {
                 const Commands commands = ray({{x, y}}, true);
                 if (commands.isosurfaces || commands.playback)
                     break; // something else lies there
-                if (commands.step)
-                    seen.emplace_back(*commands.step, commands.fraction.value_or(0));
-                asked_.step = commands.step.value_or(asked_.step);
-                asked_.fraction = commands.step ? commands.fraction.value_or(0) : asked_.fraction;
+                if (commands.instant)
+                    seen.push_back(*commands.instant);
+                asked_.instant = commands.instant.value_or(asked_.instant);
             }
             ray({{60.0f, y}}, false);
         }
         return seen;
     };
-    const auto between = [](const interaction::Moment& at) { return at.fraction > 0; };
+    const auto between = [](index::Instant at) { return at.between(); };
     asked_.between = interaction::BetweenSteps::blend;
     const auto blended = moments();
     EXPECT_GT(std::ranges::count_if(blended, between), 20);
     EXPECT_TRUE(std::ranges::any_of(blended, [&](const auto& at) { return !between(at); }))
         << "near a step it is the step itself";
-    EXPECT_TRUE(std::ranges::is_sorted(blended, {}, [](const interaction::Moment& at) {
-        return at.step * std::uint64_t{interaction::kFractions} + at.fraction;
-    }));
+    EXPECT_TRUE(std::ranges::is_sorted(blended));
     asked_.between = interaction::BetweenSteps::hold;
-    asked_.step = asked_.fraction = 0;
+    asked_.instant = {};
     const auto held = moments();
     EXPECT_GE(held.size(), 2u);
     EXPECT_TRUE(std::ranges::none_of(held, between));

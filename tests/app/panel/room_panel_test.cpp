@@ -333,7 +333,7 @@ TEST_P(PickTest, MarksThePointOfTheSurfaceThatTheRayMeets) {
     const glm::dvec3 expected = center_ + radius * glm::normalize(hand - center_);
     EXPECT_LT(glm::distance(mark->position, expected), 0.05) << "the sphere is trilinear";
     EXPECT_EQ(mark->value, session_->state().isovalue());
-    EXPECT_EQ(mark->step, 0u);
+    EXPECT_EQ(mark->instant, index::Instant(0));
     const auto& frames = wand.recording().frames;
     EXPECT_TRUE(frames[1].from_panel.mark) << "recorded with what no device alone explains";
     EXPECT_EQ(frames[1].commands.haptics.size(), 1u);

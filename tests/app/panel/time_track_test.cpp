@@ -10,14 +10,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <vector>
 
 namespace isochron::app {
 namespace {
 
+using index::Instant;
 using interaction::BetweenSteps;
-using interaction::kFractions;
 
 class TimeTrack : public LayerTest {
   protected:
@@ -72,8 +73,7 @@ TEST_F(TimeTrack, HasATickAtEachTrueStepWhereStepsAreBlended) {
     for (std::size_t i = 1; i < all.size(); ++i)
         EXPECT_NEAR(all[i] - all[i - 1], apart, 1.0f);
     EXPECT_THAT(ticks(kTrackHeight), testing::IsEmpty()) << "a step itself is shown";
-    asked_.step = 7;
-    asked_.fraction = kFractions / 2;
+    asked_.instant = {7, Instant::kFractions / 2};
     EXPECT_THAT(ticks(kTrackHeight), testing::ElementsAre(all[7], all[8]))
         << "the two that are blended";
     asked_.quality = interaction::QualityMode::paper; // always holds
@@ -89,10 +89,21 @@ TEST_F(TimeTrack, HasFewerTicksWhereStepsLieClose) {
         EXPECT_GE(some[i] - some[i - 1], 3.0f);
 }
 
+TEST_F(TimeTrack, AFlagBetweenTwoStepsSaysItsOwnTime) {
+    std::iota(info_.times.begin(), info_.times.end(), 0.0);
+    info_.time_unit = "s";
+    asked_.between = BetweenSteps::blend;
+    const std::vector<float> all = ticks();
+    ASSERT_EQ(all.size(), info_.times.size());
+    asked_.bookmarks = {{"turn", {7, Instant::kFractions / 2}}};
+    point({(all[7] + all[8]) / 2 + 3, layer_.places().time.low.y + 8});
+    EXPECT_TRUE(says("turn: 7.5 s"));
+}
+
 TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
     const std::string held = "held: a gap between steps 12 and 13";
     gaps_ = {11};
-    asked_.step = 11;
+    asked_.instant = index::Instant(11);
     EXPECT_FALSE(says(held)) << "all steps are held";
     EXPECT_TRUE(says("step 12 of 20"));
     asked_.between = BetweenSteps::blend;
@@ -109,11 +120,10 @@ TEST_F(TimeTrack, IsOpenAtGapsAndTheyAreSaidWhileTheyAreHeld) {
     };
     EXPECT_TRUE(is_open(11));
     EXPECT_FALSE(is_open(10));
-    asked_.fraction = 5;
+    asked_.instant.fraction = 5;
     EXPECT_FALSE(says(held)) << "somebody has asked for the moment";
     EXPECT_TRUE(says("between steps 12 and 13"));
-    asked_.step = 10;
-    asked_.fraction = 0;
+    asked_.instant = {10, 0};
     EXPECT_FALSE(says(held));
 }
 

@@ -68,7 +68,7 @@ TEST_F(TourTest, CanBeLeftAtAnyStepAndTakenAgainFromTheHelp) {
 
 TEST_F(TourTest, GoesOnWithTheSessionBeforeOnlyIfTheUserSaysSo) {
     std::vector<OfferedSession> earlier(1);
-    earlier.front().commands.step = 7;
+    earlier.front().commands.instant.emplace(7);
     layer_.pages().offer_earlier(earlier);
     EXPECT_TRUE(shows("Start anew"));
     EXPECT_EQ(click_on("Continue where you left off").step, 7u);
@@ -80,7 +80,7 @@ TEST_F(TourTest, GoesOnWithTheSessionBeforeOnlyIfTheUserSaysSo) {
 
 TEST_F(TourTest, GoesOnWithAnySessionOfTheList) {
     std::vector<OfferedSession> earlier{{"on Friday", {}}, {"on Thursday", {}}};
-    earlier.back().commands.step = 3;
+    earlier.back().commands.instant.emplace(3);
     layer_.pages().offer_earlier(earlier);
     click_on("on Friday");
     EXPECT_EQ(click_on("on Thursday").step, 3u);

@@ -21,8 +21,8 @@ class TypedNumbers : public LayerTest {
         const auto see = [&](const Commands& commands) {
             if (commands.isovalue)
                 asked_.set_isovalue(*(last.isovalue = commands.isovalue));
-            if (commands.step)
-                asked_.step = *(last.step = commands.step);
+            if (commands.instant)
+                asked_.instant = *(last.instant = commands.instant);
         };
         for (const char character : text)
             see(frame({interaction::TextEvent{static_cast<char32_t>(character)}}));
@@ -41,7 +41,7 @@ TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessThey
         const Commands commands = typed_at(at, "42");
         if (commands.isovalue == 42.0 && !isovalue)
             isovalue = at;
-        if (commands.step == 41u && !step)
+        if (commands.instant == index::Instant(41) && !step)
             step = at;
     };
     const PanelPlaces places = layer_.places();

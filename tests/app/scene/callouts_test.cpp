@@ -58,8 +58,8 @@ TEST(Callouts, OfAPlaceBetweenStepsSayBetweenWhich) {
     index::SeriesInfo info;
     info.times = {0, 2, 4};
     info.time_unit = "s";
-    const interaction::MarkedPoint at_step{{1, 2, 3}, 1, 9.25}, between{{1, 2, 3}, 1, 9.25, 32768},
-        last{{1, 2, 3}, 2, 9.25, 32768};
+    const interaction::MarkedPoint at_step{{1, 2, 3}, index::Instant(1), 9.25},
+        between{{1, 2, 3}, {1, 32768}, 9.25}, last{{1, 2, 3}, {2, 32768}, 9.25};
     EXPECT_EQ(mark_lines(at_step, info).back(), "at 2 s");
     EXPECT_EQ(mark_lines(between, info).back(), "at 3 s, between steps 2 and 3");
     EXPECT_EQ(mark_text(between, info), "1, 2, 3: 9.25 at 3 s, between steps 2 and 3");

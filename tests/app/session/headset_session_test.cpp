@@ -194,11 +194,10 @@ TEST_F(HeadsetSession, ShowsAMomentBetweenStepsToBothEyesAsAStepWithItsValues) {
             file_ = index::IndexFile::open(folder_.path() / "blend.isochron");
         else
             file_ = index::IndexFile::open(folder_.path() / "sphere.isochron");
-        commands.step = as_step ? 6 : at.step;
-        commands.fraction = as_step ? 0 : at.fraction;
+        commands.instant = as_step ? index::Instant(6) : at;
         start();
         settle(commands);
-        EXPECT_EQ(session_->log().frames().back().shown->step, as_step ? index::Instant(6) : at);
+        EXPECT_EQ(session_->log().frames().back().shown->instant, as_step ? index::Instant(6) : at);
         for (const std::size_t eye : {0, 1})
             seen[as_step][eye] = headset().frames.back().views.at(eye).picture.rgba;
     }
@@ -218,7 +217,7 @@ TEST_F(HeadsetSession, ShowsAMomentBetweenStepsToBothEyesAsAStepWithItsValues) {
         client.begin_frame(now_);
         const interaction::InputState input = client.poll(now_);
         session_->frame(input, session_->commands_from(input), Waiting::for_cells);
-        shown.push_back(session_->log().frames().back().shown->step);
+        shown.push_back(session_->log().frames().back().shown->instant);
     }
     EXPECT_GT(std::ranges::count_if(shown, &index::Instant::between), 15);
     EXPECT_TRUE(std::ranges::adjacent_find(shown) == shown.end());

@@ -317,7 +317,8 @@ TEST_F(IdleLoop, TimePlaysOnFromWhenItWasAskedForAndNotFromWhenTheWaitBegan) {
     }});
     rate = session_->log().frames_per_second(120);
     EXPECT_TRUE(session_->state().playback.playing);
-    EXPECT_EQ(session_->state().step, 0u) << "of " << steps << ", a second or more apart";
+    EXPECT_EQ(session_->state().instant, index::Instant(0))
+        << "of " << steps << ", a second or more apart";
     EXPECT_EQ(missed, 0u);
     EXPECT_NEAR(rate, 1 / kFrame.count(), 1);
 }
@@ -416,7 +417,7 @@ TEST_F(IdleLoop, NewStepsWakeIt) {
         wake.take();
         --next_; // it may have been an earlier call, which came late
     }});
-    EXPECT_EQ(session_->state().step, 8u);
+    EXPECT_EQ(session_->state().instant, index::Instant(8));
     EXPECT_EQ(last().shown, last().asked);
 }
 

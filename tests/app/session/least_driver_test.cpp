@@ -34,7 +34,7 @@ class LeastDriver : public GoldenPictures {
         for (Image& picture : pictures) {
             EXPECT_EQ(settle(session, commands), footprint);
             picture = session.outputs().display().read_window();
-            *commands.step += 1;
+            commands.instant->step += 1;
         }
         return pictures;
     }

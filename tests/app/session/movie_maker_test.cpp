@@ -138,7 +138,7 @@ TEST_F(MovieMakerTest, TheSeriesAtAViewIsAMovieWithEveryStepInIt) {
     Session session(config, file, *context);
     interaction::Commands commands;
     commands.isovalue = 8;
-    commands.step = 3;
+    commands.instant = index::Instant(3);
     commands.panel = true;
     session.frame(head_at_rest(1), commands, Waiting::for_cells);
     interaction::RecordingHeader header;
@@ -147,7 +147,7 @@ TEST_F(MovieMakerTest, TheSeriesAtAViewIsAMovieWithEveryStepInIt) {
     const auto series = series_seen(header, session.note(), session.times(), 30);
     ASSERT_EQ(series.frames.size(), 7u) << "six steps, and the end of the last";
     for (std::uint32_t i = 0; i < 6; ++i) {
-        EXPECT_EQ(series.frames[i].commands.step, i);
+        EXPECT_EQ(series.frames[i].commands.instant, index::Instant(i));
         EXPECT_EQ(*series.frames[i].input.find("head"), *head_at_rest(1).find("head"));
         EXPECT_NEAR(series.frames[i].input.time.count(), i * 10.0 / 6, 1e-4);
     }
@@ -183,7 +183,8 @@ TEST(SeriesSeen, EveryStepHasItsFrameHoweverFastTheSeriesPlays) {
         const auto series = series_seen({}, view, {times, {}}, 25);
         ASSERT_EQ(series.frames.size(), times.size() + 1);
         for (std::size_t i = 0; i < times.size(); ++i) {
-            EXPECT_EQ(series.frames[i].commands.step, reverse ? times.size() - 1 - i : i);
+            EXPECT_EQ(series.frames[i].commands.instant,
+                      index::Instant(reverse ? times.size() - 1 - i : i));
             if (i > 0)
                 EXPECT_GE((series.frames[i].input.time - series.frames[i - 1].input.time).count(),
                           1.0 / 25);
@@ -191,7 +192,7 @@ TEST(SeriesSeen, EveryStepHasItsFrameHoweverFastTheSeriesPlays) {
     }
 }
 
-TEST(SeriesSeen, FramesOfBlendedStepsAreMoments) {
+TEST(SeriesSeen, FramesOfBlendedStepsAreInstants) {
     PictureNote view;
     view.state.between = interaction::BetweenSteps::blend;
     const std::vector<double> times{0, 1, 2, 3};
@@ -203,8 +204,7 @@ TEST(SeriesSeen, FramesOfBlendedStepsAreMoments) {
         double before = reverse ? 3 : 0;
         for (std::size_t i = 1; i + 1 < series.frames.size(); ++i) {
             const interaction::Commands& commands = series.frames[i].commands;
-            const double now =
-                *commands.step + *commands.fraction / double(interaction::kFractions);
+            const double now = double(commands.instant->number()) / index::Instant::kFractions;
             EXPECT_NEAR((now - before) * (reverse ? -1 : 1), 3 / (seconds * 25), 1e-4);
             before = now;
         }
@@ -221,9 +221,10 @@ TEST(SeriesSeen, AGapIsHeld) {
     std::size_t held = 0;
     for (const auto& frame :
          series_seen({}, view, {times, interaction::StepGaps({1})}, 25).frames) {
-        if (frame.commands.fraction.value_or(0) > 0)
-            blended.insert(*frame.commands.step);
-        held += frame.commands.step == 1u;
+        const index::Instant now = frame.commands.instant.value_or(index::Instant());
+        if (now.between())
+            blended.insert(now.step);
+        held += now == index::Instant(1);
     }
     EXPECT_EQ(blended, (std::set<std::uint32_t>{0, 2}));
     EXPECT_NEAR(static_cast<double>(held), 10.0 / 4 / 0.1 * 25, 1) << "as long as it lasts";

@@ -187,7 +187,7 @@ TEST_P(Parts, AreGivenUpInTheFrameThatChangesSomething) {
             commands.look.emplace().background = interaction::Background::light;
         },
         [](Commands& commands, double&) { commands.stereo = "top_bottom"; },
-        [](Commands& commands, double&) { commands.step = 1; }};
+        [](Commands& commands, double&) { commands.instant = index::Instant(1); }};
     for (const auto& change : changes) {
         SCOPED_TRACE(&change - changes);
         Config config = partial();
@@ -202,8 +202,8 @@ TEST_P(Parts, AreGivenUpInTheFrameThatChangesSomething) {
         FrameReport report = frame(session, commands, head);
         EXPECT_FALSE(report.in_parts);
         EXPECT_NE(report.footprint, Footprint::surface);
-        EXPECT_TRUE(report.redrawn || commands.step) << "the cells of another step come later";
-        if (!commands.step) {
+        EXPECT_TRUE(report.redrawn || commands.instant) << "the cells of another step come later";
+        if (!commands.instant) {
             // At rest a load of other programs that ends may be the time to try splats. A moving
             // picture of a replay has quads.
             Session fresh = at_once(config, report.footprint);

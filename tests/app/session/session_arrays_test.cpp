@@ -69,7 +69,7 @@ TEST_P(SessionArrays, APictureIsThatOfAnIndexWithThatArrayAlone) {
     Session session(without_titles(), both_, *context_);
     const render::Image sphere = picture(session, {}, 0);
     Commands to_near = session.way_to_array(1);
-    to_near.step = 2;
+    to_near.instant = index::Instant(2);
     const render::Image near_here = picture(session, to_near, 1);
     EXPECT_FALSE(same(near_here, sphere));
     Commands colored;
@@ -78,7 +78,7 @@ TEST_P(SessionArrays, APictureIsThatOfAnIndexWithThatArrayAlone) {
     EXPECT_FALSE(same(colors_here, near_here));
     Commands plain;
     plain.coloring = interaction::Coloring{};
-    plain.step = 0;
+    plain.instant = index::Instant(0);
     plain = [&, way = session.way_to_array(0)]() mutable {
         interaction::merge(way, plain);
         return way;
@@ -87,7 +87,7 @@ TEST_P(SessionArrays, APictureIsThatOfAnIndexWithThatArrayAlone) {
 
     Session alone(without_titles(), near_, *context_);
     Commands step;
-    step.step = 2;
+    step.instant = index::Instant(2);
     EXPECT_TRUE(same(picture(alone, step, 1), near_here));
     EXPECT_TRUE(same(picture(alone, colored, 2), colors_here));
 }

@@ -69,7 +69,7 @@ class SessionColors : public SessionTest {
         Commands commands;
         commands.coloring = interaction::Coloring{.by = by, .map = "polar", .range = {}};
         commands.isovalue = 9.0;
-        commands.step = step;
+        commands.instant = index::Instant(step);
         return commands;
     }
     /// The left eye's picture of the next frame.
@@ -114,11 +114,11 @@ TEST_P(SessionColors, BetweenPercentilesFollowTheShownSurface) {
     EXPECT_GT(ends.red, 30u);
     EXPECT_LT(ends.blue_x, ends.red_x - 5);
     // A step later the sphere is a voxel further on, and so is the range.
-    commands.step = 3;
+    commands.instant = index::Instant(3);
     EXPECT_GT(ends_in(picture(session, commands)).blue, 30u);
     // A range that is given comes first.
     commands.coloring->range = {0, 31};
-    commands.step = 2;
+    commands.instant = index::Instant(2);
     EXPECT_EQ(picture(session, commands).rgba, all.rgba);
 }
 

@@ -71,7 +71,7 @@ class SteeredSession : public SessionQuality {
     static Commands at(double isovalue, std::optional<std::uint32_t> step = std::nullopt) {
         Commands commands;
         commands.isovalue = isovalue;
-        commands.step = step;
+        commands.instant = index::Instant(step);
         return commands;
     }
     /// Frames of a head that moves, a quarter of a second from each other, until this holds.
@@ -105,7 +105,7 @@ TEST_P(SteeredSession, APictureShowsWhatWasToldBeforeAtFinalQuality) {
         const json note = picture(*client_);
         const auto given = pixels_;
         EXPECT_EQ(note.at("footprint"), "surface");
-        EXPECT_EQ(note.at("state").at("step"), session_->state().step);
+        EXPECT_EQ(note.at("state").at("step"), session_->state().instant.step);
         EXPECT_EQ(note.at("state").at("isosurfaces")[0].at("isovalue"),
                   session_->state().isovalue());
         for (int i = 0; i < kRate; ++i)
@@ -166,13 +166,13 @@ TEST_P(SteeredSession, APictureOfEndlessMotionAnswersOnlyWhoHasWaitedForSoLong) 
 TEST_P(SteeredSession, AnEarlierFailureIsNoReasonToShowLess) {
     test_support::Gate gate;
     begin([&, real = index::extract_from(file_)](const auto& query, std::stop_token stop) {
-        if (query.step == 1)
+        if (query.instant == index::Instant(1))
             throw std::runtime_error("damaged");
-        if (query.step == 2)
+        if (query.instant == index::Instant(2))
             gate.pass(stop);
         return real(query, std::move(stop));
     });
-    const auto first = session_->state().step;
+    const auto first = session_->state().instant.step;
     tell(*client_, at(6, 1));
     EXPECT_EQ(picture(*client_).at("state").at("step"), first) << "these cells do not come";
     wait();

@@ -166,11 +166,11 @@ TEST_P(SessionQuality, TheVolumeOfCellsInMotionFollowsWhenThePictureComesToRest)
     config.rendering.upload_kilobytes_per_frame = 16; // less than a set's
     Session session(config, file_, *context_);
     start(session);
-    const std::uint32_t before = session.log().frames().back().shown->step;
+    const index::Instant before = session.log().frames().back().shown->instant;
     const auto first = session.log().frames().size();
     Commands commands;
-    commands.step = before + 1;
-    ASSERT_TRUE(eventually([&] { return walk(session, 1, commands).shown->step != before; }));
+    commands.instant = index::Instant(before.step + 1);
+    ASSERT_TRUE(eventually([&] { return walk(session, 1, commands).shown->instant != before; }));
     walk(session, 5);
     const auto& frames = session.log().frames();
     std::uint64_t in_motion = 0;
@@ -209,7 +209,7 @@ TEST_P(SessionQuality, MeshesAreMadeWhereTheyAreDrawnAndWithinTheirBudget) {
         EXPECT_TRUE(mesh_bytes(session) > 0 || !drawn) << "they may also come at rest";
         Commands fast;
         fast.quality = interaction::QualityMode::fast;
-        fast.step = 2;
+        fast.instant = index::Instant(2);
         const std::uint64_t before = mesh_bytes(session);
         walk(session, 40, fast);
         EXPECT_EQ(mesh_bytes(session), before) << "quads need none";
@@ -308,7 +308,7 @@ TEST_P(SessionQuality, TimeThatPlaysIsNotFinalAndACaptureOfItComesAllTheSame) {
     play.playback = interaction::PlaybackState{true, false, true, 1.0};
     for (int frame = 0; frame < 11 * kRate; ++frame, ++frame_) {
         Commands commands = frame == 0 ? play : Commands{};
-        commands.step = static_cast<std::uint32_t>(frame / 6 % 6);
+        commands.instant = index::Instant(static_cast<std::uint32_t>(frame / 6 % 6));
         const auto report = session.frame(head_at_rest(now().count()), commands, Waiting::never);
         ASSERT_FALSE(report.final);
         if (frame == 5 * kRate) {
@@ -323,7 +323,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     std::promise<void> release;
     const std::shared_future<void> released = release.get_future().share();
     const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
-        if (query.step == 1)
+        if (query.instant == index::Instant(1))
             released.wait();
         return real(query, stop);
     };
@@ -331,7 +331,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     session.outputs().set_screenshots(folder_.path());
     start(session);
     Commands to_step_1;
-    to_step_1.step = 1;
+    to_step_1.instant = index::Instant(1);
     to_step_1.screenshot = true;
     const std::size_t first = session.log().frames().size();
     rest(session, static_cast<int>(2 * kRate), to_step_1);
@@ -340,7 +340,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     const FrameReport report = rest_until(session, [](const FrameReport& frame) {
         return frame.footprint == render::kBestFootprint;
     }); // of the cells that are there
-    EXPECT_EQ(report.shown->step, 0u);
+    EXPECT_EQ(report.shown->instant, index::Instant(0));
     EXPECT_FALSE(captured(session)) << "these are not the cells that were asked for";
     EXPECT_EQ(session.log().missed(), 0u);
     EXPECT_TRUE(std::ranges::all_of(
@@ -349,7 +349,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     release.set_value();
     session.frame(head_at_rest(now().count()), {}, Waiting::for_cells);
     ++frame_;
-    EXPECT_EQ(rest(session, 1).shown->step, 1u);
+    EXPECT_EQ(rest(session, 1).shown->instant, index::Instant(1));
     rest_until(session, [&](const FrameReport&) { return captured(session); });
 }
 

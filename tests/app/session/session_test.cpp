@@ -37,10 +37,10 @@ TEST_P(SessionTest, ShowsTheCellsThatWereAskedFor) {
     Session session(small_config(), file_, *context_);
     Commands commands;
     commands.isovalue = 8.0;
-    commands.step = 3;
+    commands.instant = index::Instant(3);
     const FrameReport report = session.frame(head_at_rest(0), commands, Waiting::for_cells);
     ASSERT_TRUE(report.shown.has_value());
-    EXPECT_EQ(*report.shown, (index::SurfacesQuery{3, {8.0}}));
+    EXPECT_EQ(*report.shown, (index::SurfacesQuery{index::Instant(3), {8.0}}));
     EXPECT_GT(report.cells, 500u);
     EXPECT_GT(drawn_pixels(session.outputs().display().read_window()), 1000u);
 }
@@ -49,13 +49,13 @@ TEST_P(SessionTest, ReportsTheReusedCellsOfTheShownSet) {
     const index::Extract real = index::extract_from(file_);
     const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
         auto found = std::make_shared<index::Extraction>(*real(query, stop));
-        found->surfaces.front().reused = 100 + query.step;
+        found->surfaces.front().reused = 100 + query.instant.step;
         return found;
     };
     Session session(small_config(), file_, *context_, extract);
     Commands commands;
     for (const std::uint32_t step : {2u, 3u}) {
-        commands.step = step;
+        commands.instant = index::Instant(step);
         EXPECT_EQ(session.frame(head_at_rest(step), commands, Waiting::for_cells).reused,
                   100 + step);
     }
@@ -67,24 +67,26 @@ TEST_P(SessionTest, GoesOnWithAnIndexThatGrows) {
         Commands commands;
         commands.isovalue = 8.0;
         commands.steps = steps;
-        commands.step = step;
+        commands.instant = index::Instant(step);
         return commands;
     };
     session.frame(head_at_rest(0), asked(6, 5), Waiting::for_cells);
-    EXPECT_EQ(session.frame(head_at_rest(1), asked(8, 7), Waiting::for_cells).shown->step, 5u)
+    EXPECT_EQ(session.frame(head_at_rest(1), asked(8, 7), Waiting::for_cells).shown->instant,
+              index::Instant(5))
         << "there are no more";
     build_sphere(folder_.path(), 8);
     // Another process of the cluster has told so.
     const FrameReport told = session.frame(head_at_rest(2), asked(8, 7), Waiting::for_cells);
-    EXPECT_EQ(told.shown->step, 7u);
+    EXPECT_EQ(told.shown->instant, index::Instant(7));
     EXPECT_GT(told.cells, 100u);
     session.grow(build_sphere(folder_.path(), 9));
     Commands late;
-    late.step = 8;
-    EXPECT_EQ(session.frame(head_at_rest(3), late, Waiting::for_cells).shown->step, 7u)
+    late.instant = index::Instant(8);
+    EXPECT_EQ(session.frame(head_at_rest(3), late, Waiting::for_cells).shown->instant,
+              index::Instant(7))
         << "a step counts when the commands tell of it";
     const FrameReport grown = session.frame(head_at_rest(4), asked(9, 8), Waiting::for_cells);
-    EXPECT_EQ(grown.shown->step, 8u);
+    EXPECT_EQ(grown.shown->instant, index::Instant(8));
     EXPECT_EQ(session.state().steps, 9u);
 }
 
@@ -109,7 +111,7 @@ TEST_P(SessionTest, FramesGoOnWhileAnExtractionHangs) {
     }
     release.set_value();
     EXPECT_EQ(session.frame(head_at_rest(1), {}, Waiting::for_cells).shown,
-              (index::SurfacesQuery{0, {9.0}}));
+              (index::SurfacesQuery{index::Instant(0), {9.0}}));
 }
 
 // Were a frame to wait for the worker, the test would not come to an end.
@@ -118,7 +120,7 @@ TEST_P(SessionTest, AnExtractionThatTakesLongLeavesTheFramesAsTheyAre) {
     test_support::Gate gate;
     std::latch entered(1);
     const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
-        if (query.step == 1) {
+        if (query.instant == index::Instant(1)) {
             entered.count_down();
             gate.pass();
         }
@@ -133,17 +135,18 @@ TEST_P(SessionTest, AnExtractionThatTakesLongLeavesTheFramesAsTheyAre) {
         input.devices[0].pose->position.x = 0.01f * static_cast<float>(number % 20);
         return session.frame(input, std::exchange(commands, {}), Waiting::never);
     };
-    commands.step = 1;
+    commands.instant = index::Instant(1);
     frame();
     entered.wait();
     for (int i = 0; i < 600; ++i) {
         const FrameReport report = frame();
-        EXPECT_EQ(report.shown->step, 0u);
+        EXPECT_EQ(report.shown->instant, index::Instant(0));
         EXPECT_TRUE(report.redrawn);
         EXPECT_EQ(report.wait, Milliseconds(0));
     }
     gate.open();
-    EXPECT_TRUE(test_support::eventually([&] { return frame().shown->step == 1; }));
+    EXPECT_TRUE(
+        test_support::eventually([&] { return frame().shown->instant == index::Instant(1); }));
 }
 
 TEST_P(SessionTest, FramesGoOnWhileAReadStalls) {
@@ -168,17 +171,17 @@ TEST_P(SessionTest, FramesGoOnWhileAReadStalls) {
 TEST_P(SessionTest, AFailingExtractionLeavesThePictureAndSaysWhy) {
     const index::Extract real = index::extract_from(file_);
     const index::Extract extract = [&](const index::SurfacesQuery& query, std::stop_token stop) {
-        if (query.step == 2)
+        if (query.instant == index::Instant(2))
             throw std::runtime_error("step 2 cannot be read");
         return real(query, stop);
     };
     Session session(small_config(), file_, *context_, extract);
     const auto cells = session.frame(head_at_rest(0), {}, Waiting::for_cells).cells;
     Commands to_step_2;
-    to_step_2.step = 2;
+    to_step_2.instant = index::Instant(2);
     const FrameReport report = session.frame(head_at_rest(0.1), to_step_2, Waiting::for_cells);
     EXPECT_EQ(report.cells, cells);
-    EXPECT_EQ(report.shown->step, 0u);
+    EXPECT_EQ(report.shown->instant, index::Instant(0));
     EXPECT_EQ(session.failure(), "step 2 cannot be read");
 }
 

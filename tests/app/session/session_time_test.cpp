@@ -37,7 +37,7 @@ class SessionTime : public SessionTest {
             interaction::merge(frame.commands, told);
             const auto shown =
                 session_.frame(frame.input, frame.commands, Waiting::for_cells).shown;
-            shown_.push_back(session_.state().step);
+            shown_.push_back(session_.state().instant.step);
             recording_.frames.push_back(std::move(frame));
             return shown;
         }
@@ -87,7 +87,7 @@ TEST_P(SessionTime, AReplayShowsTheSameSteps) {
     play(player);
     EXPECT_EQ(session.state().play_range, (interaction::StepRange{1, 4}));
     EXPECT_THAT(session.state().bookmarks,
-                testing::ElementsAre(interaction::Bookmark{"step 5", 4}));
+                testing::ElementsAre(interaction::Bookmark{"step 5", index::Instant(4)}));
     std::vector<std::uint32_t> late(player.shown().end() - 60, player.shown().end());
     late.erase(std::unique(late.begin(), late.end()), late.end());
     EXPECT_THAT(late, testing::Contains(1u));
@@ -101,7 +101,7 @@ TEST_P(SessionTime, AReplayShowsTheSameSteps) {
     const auto different = replay_fixed_step(again, player.recording(),
                                              {.from_devices = true, .stereo = {}, .quality = {}},
                                              [&](std::size_t, const interaction::RecordedFrame&) {
-                                                 replayed.push_back(again.state().step);
+                                                 replayed.push_back(again.state().instant.step);
                                              });
     EXPECT_THAT(different, testing::IsEmpty());
     EXPECT_EQ(replayed, player.shown());
@@ -120,7 +120,7 @@ TEST_P(SessionTime, AGapIsHeldWhileTimePlaysAndShownToWhoeverAsksForIt) {
     std::set<std::uint32_t> blended, seen;
     for (int i = 0; i < 110; ++i) { // a round takes 10 s
         player.frame();
-        const index::Instant shown = session.log().frames().back().shown->step;
+        const index::Instant shown = session.log().frames().back().shown->instant;
         seen.insert(shown.step);
         if (shown.between())
             blended.insert(shown.step);
@@ -129,9 +129,8 @@ TEST_P(SessionTime, AGapIsHeldWhileTimePlaysAndShownToWhoeverAsksForIt) {
     EXPECT_THAT(blended, testing::ElementsAre(0, 1, 3, 4));
     player.tap(Key::space, false);
     Commands there;
-    there.step = 2;
-    there.fraction = 20'000;
-    EXPECT_EQ(session.frame(head_at_rest(100), there, Waiting::for_cells).shown->step,
+    there.instant = {2, 20'000};
+    EXPECT_EQ(session.frame(head_at_rest(100), there, Waiting::for_cells).shown->instant,
               index::Instant(2, 20'000));
 }
 
@@ -140,14 +139,13 @@ TEST_P(SessionTime, BlendsOnlyBetweenStepsThatAreThere) {
     Session session(small_config(), file_, *context_);
     Player player(session);
     player.tap(static_cast<Key>('T')); // blends
-    const auto at = [&](const Commands& commands) { return player.frame({}, commands)->step; };
+    const auto at = [&](const Commands& commands) { return player.frame({}, commands)->instant; };
     Commands last;
     last.follow = true;
     last.steps = 6;
-    last.step = 5;
-    last.fraction = 30'000;
+    last.instant = {5, 30'000};
     EXPECT_EQ(at(last), index::Instant(5)) << "the last step holds";
-    EXPECT_EQ(session.state().instant(), index::Instant(5));
+    EXPECT_EQ(session.state().shown_instant(), index::Instant(5));
     player.tap(Key::left, false); // back to step 4, and plays to the end of what is there
     player.tap(Key::space, false);
     std::vector<index::Instant> played;
@@ -161,7 +159,7 @@ TEST_P(SessionTime, BlendsOnlyBetweenStepsThatAreThere) {
         played, [](index::Instant one) { return one.between() && one.step == 5; }));
 
     // The next step arrives while the end is shown.
-    while (session.state().step != 5)
+    while (session.state().instant != index::Instant(5))
         at({});
     session.grow(build_sphere(folder_.path(), 7));
     EXPECT_EQ(at({}), index::Instant(5)) << "a step counts when the commands tell of it";
@@ -169,10 +167,9 @@ TEST_P(SessionTime, BlendsOnlyBetweenStepsThatAreThere) {
     more.steps = 7;
     at(more);
     EXPECT_TRUE(at({}).between());
-    EXPECT_EQ(session.state().step, 5u);
+    EXPECT_EQ(session.state().instant, index::Instant(5));
     Commands asked;
-    asked.step = 5;
-    asked.fraction = 30'000;
+    asked.instant = {5, 30'000};
     player.tap(Key::space, false);
     EXPECT_EQ(at(asked), index::Instant(5, 30'000));
 }
@@ -221,15 +218,14 @@ TEST_P(SessionTime, NothingJumpsAtAStepAndAMomentThatIsAStepIsItsPicture) {
         commands.between = between;
         commands.bounding_box = false;
         commands.isovalue = 8.0;
-        commands.step = at.step;
-        commands.fraction = at.fraction;
+        commands.instant = at;
         for (int i = 0; i < 40; ++i) {
             session.frame(head_at_rest(now += 0.1), commands, Waiting::for_cells);
             commands = {};
             if (session.log().frames().back().final)
                 break;
         }
-        EXPECT_EQ(session.log().frames().back().shown->step, at);
+        EXPECT_EQ(session.log().frames().back().shown->instant, at);
         return session.outputs().display().read_eye(stereo::Eye::left);
     };
     constexpr std::uint32_t kEach = index::Instant::kFractions / 16; // at a tenth of the speed
@@ -267,7 +263,7 @@ TEST_P(SessionTime, MomentsBetweenStepsAreShownRecordedReplayedAndUndone) {
     std::vector<index::Instant> shown;
     for (int i = 0; i < 40; ++i) {
         player.frame();
-        shown.push_back(session.log().frames().back().shown->step);
+        shown.push_back(session.log().frames().back().shown->instant);
     }
     EXPECT_GT(std::ranges::count_if(shown, &index::Instant::between), 20);
     for (std::size_t i = 1; i < shown.size(); ++i)
@@ -279,7 +275,7 @@ TEST_P(SessionTime, MomentsBetweenStepsAreShownRecordedReplayedAndUndone) {
     const auto different = replay_fixed_step(
         again, player.recording(), {.from_devices = true, .stereo = {}, .quality = {}},
         [&](std::size_t, const interaction::RecordedFrame&) {
-            replayed.push_back(again.log().frames().back().shown->step);
+            replayed.push_back(again.log().frames().back().shown->instant);
         });
     EXPECT_THAT(different, testing::IsEmpty());
     EXPECT_TRUE(std::equal(shown.begin(), shown.end(),
@@ -288,25 +284,23 @@ TEST_P(SessionTime, MomentsBetweenStepsAreShownRecordedReplayedAndUndone) {
 
     player.tap(Key::space, false); // stops
     Commands there;
-    there.step = 4;
-    there.fraction = 555;
+    there.instant = {4, 555};
     Commands next;
-    next.step = 2;
+    next.instant = index::Instant(2);
     session.frame(head_at_rest(100), there, Waiting::for_cells);
     session.frame(head_at_rest(101), next, Waiting::for_cells);
-    EXPECT_EQ(session.state().instant(), index::Instant(2));
+    EXPECT_EQ(session.state().shown_instant(), index::Instant(2));
     const ExplorerState now = session.state();
     ExplorerState before = now;
-    before.step = 4;
-    before.fraction = 555;
+    before.instant = {4, 555};
     ExplorerState undone = now;
     undone.apply(now.commands_to(before), 6);
-    EXPECT_EQ(undone.instant(), index::Instant(4, 555));
+    EXPECT_EQ(undone.shown_instant(), index::Instant(4, 555));
     undone.quality = interaction::QualityMode::paper;
-    EXPECT_EQ(undone.instant(), index::Instant(4));
+    EXPECT_EQ(undone.shown_instant(), index::Instant(4));
     undone.quality = interaction::QualityMode::automatic;
     undone.steps = 5; // the last one that the session knows holds
-    EXPECT_EQ(undone.instant(), index::Instant(4));
+    EXPECT_EQ(undone.shown_instant(), index::Instant(4));
 }
 
 } // namespace

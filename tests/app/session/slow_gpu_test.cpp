@@ -87,7 +87,7 @@ class SlowGpu : public SessionTest {
         for (std::uint32_t step = 0; step < std::min<std::size_t>(file_->info().steps(), 4u);
              ++step) {
             interaction::Commands to;
-            to.step = step;
+            to.instant = index::Instant(step);
             const std::uint64_t before = between.staged;
             // What follows a set that is shown already, such as its volume, has come after these.
             int frames = 0, left = 30;
@@ -98,7 +98,7 @@ class SlowGpu : public SessionTest {
                                   frames == 1 ? to : interaction::Commands{}, Waiting::never);
                 walk.sets += report.uploaded.sets;
                 const bool sent = report.uploaded.id_bytes + report.uploaded.block_bytes > 0;
-                if (!report.shown || report.shown->step != step || sent)
+                if (!report.shown || report.shown->instant != index::Instant(step) || sent)
                     left = 30;
                 else
                     --left;

@@ -153,10 +153,10 @@ TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {
             expect_shown(commands);
         }
         commands.coloring.emplace().by = interaction::ColorBy::first_crossing;
-        commands.step = 2; // a new set, with its colors
+        commands.instant = index::Instant(2); // a new set, with its colors
         expect_shown(commands);
         commands.coloring->bands = 5;
-        commands.step = 3;
+        commands.instant = index::Instant(3);
         expect_shown(commands);
         return counted ? test_support::compilations() - warm : 0;
     };

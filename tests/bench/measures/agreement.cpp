@@ -138,7 +138,7 @@ std::vector<AgreementRow> measure_agreement(const std::shared_ptr<const index::I
     render::CellPass plane(gl), voxel(gl, {.shape = render::CellShape::voxel});
     std::vector<AgreementRow> rows;
     for (const double isovalue : options.isovalues) {
-        const auto set = extract({options.step, {isovalue}}, {});
+        const auto set = extract({index::Instant(options.step), {isovalue}}, {});
         render::CellBuffers cells(gl, file->info().grid);
         while (cells.shown() != set || !cells.has_volume())
             cells.upload(set, std::numeric_limits<std::size_t>::max());

@@ -17,9 +17,8 @@
 namespace isochron::bench {
 
 template <class AnyRow, class Field>
-void each_field(AnyRow& row, Field&& field)
-    requires std::is_same_v<std::remove_const_t<AnyRow>, ArtifactRow>
-{
+void each_field(AnyRow& row,
+                Field&& field) requires std::is_same_v<std::remove_const_t<AnyRow>, ArtifactRow> {
     field("data", row.data);
     field("footprint", row.footprint);
     field("l", row.l);
@@ -103,7 +102,7 @@ ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree
     std::vector<index::CellId> active, found;
     index::scan(values, query, active);
     const index::KeyMap keys(values.type, values.scaling);
-    tree.search(query.step, keys.threshold(query.isovalue), found);
+    tree.search(query.instant.step, keys.threshold(query.isovalue), found);
     ArtifactSets sets{shaded(values, query, active), nullptr, shaded(values, query, found)};
 
     auto kept = std::make_shared<CellSet>(*sets.exact);
@@ -163,7 +162,7 @@ std::vector<ArtifactRow> ArtifactBench::measure(const std::string& data,
     for (std::uint32_t step = 0; step < steps; step += every) {
         progress(fmt::format("{} L {} MV {}", data, options.lattice, options.max_variation),
                  static_cast<double>(step) / steps);
-        const ArtifactSets sets = artifact_sets(values, tree, {step, isovalue});
+        const ArtifactSets sets = artifact_sets(values, tree, {index::Instant(step), isovalue});
         const double active = static_cast<double>(sets.exact->ids.size());
         const double found = static_cast<double>(sets.false_positives->ids.size());
         for (std::size_t i = 0; i < rows.size(); ++i) {

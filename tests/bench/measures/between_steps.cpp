@@ -39,7 +39,7 @@ std::vector<index::CellId> cells_of(const index::StepValues& like,
     one.stride = memory.size() * 8;
     one.first_step = 0;
     std::vector<index::CellId> cells;
-    index::scan(one, {0, isovalue}, cells);
+    index::scan(one, {index::Instant(0), isovalue}, cells);
     std::ranges::sort(cells);
     return cells;
 }
@@ -123,7 +123,7 @@ BetweenTimes time_between(const std::shared_ptr<const index::IndexFile>& file, d
         return watch.seconds();
     };
     BetweenTimes times;
-    const auto draw = [&](Instant at) { extract({.step = at, .isovalues = {isovalue}}, {}); };
+    const auto draw = [&](Instant at) { extract({.instant = at, .isovalues = {isovalue}}, {}); };
     const index::SearchInto search = index::search_into(file, std::nullopt, index::Shading::cells);
     index::CellSet set;
     const auto find = [&](const index::StepView& step) {
@@ -134,19 +134,19 @@ BetweenTimes time_between(const std::shared_ptr<const index::IndexFile>& file, d
         for (const std::uint32_t step : {0u, 1u}) {
             draw(step);
             draw(Instant(0, 20'000 + step));
-            find(index::step_in_chunks(*file, step));
+            find(index::step_in_chunks(*file, index::Instant(step)));
         }
     std::mt19937 random(1);
     std::vector<double> moment, step, chunks, rival, drawn_moment, drawn_step, elapsed,
         rival_elapsed;
     for (unsigned i = 0; i < repeats; ++i) {
         const Instant at = some_moment(random), other = some_moment(random);
-        step.push_back(timed([&] { find(index::step_of_query(*file, i % 2)); }));
+        step.push_back(timed([&] { find(index::step_of_query(*file, index::Instant(i % 2))); }));
         const auto begun = std::chrono::steady_clock::now();
         moment.push_back(timed([&] { find(index::step_of_query(*file, at, {&isovalue, 1})); }));
         const auto ended = std::chrono::steady_clock::now();
         elapsed.push_back(std::chrono::duration<double>(ended - begun).count());
-        chunks.push_back(timed([&] { find(index::step_in_chunks(*file, i % 2)); }));
+        chunks.push_back(timed([&] { find(index::step_in_chunks(*file, index::Instant(i % 2))); }));
         drawn_step.push_back(timed([&] { draw(i % 2); }));
         drawn_moment.push_back(timed([&] { draw(other); }));
         if (i >= 7)

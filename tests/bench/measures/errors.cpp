@@ -17,7 +17,7 @@ ErrorCount count_errors(const index::StepValues& values, const Structure& struct
     for (std::uint32_t step = 0; step < values.steps; ++step) {
         progress(static_cast<double>(step) / static_cast<double>(values.steps));
         for (const double isovalue : isovalues) {
-            const index::Query query{step, isovalue};
+            const index::Query query{index::Instant(step), isovalue};
             active.clear();
             index::scan(values, query, active);
             structure.ids(query, found);

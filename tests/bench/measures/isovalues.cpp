@@ -37,8 +37,10 @@ double mean_active(const index::StepValues& values, double isovalue) {
     std::vector<index::CellId> found;
     for (std::size_t i = 0; i < steps; ++i) {
         found.clear();
-        index::scan(values, {static_cast<std::uint32_t>(i * values.steps / steps), isovalue},
-                    found);
+        index::scan(
+            values,
+            {index::Instant(static_cast<std::uint32_t>(i * values.steps / steps)), isovalue},
+            found);
         sum += static_cast<double>(found.size());
     }
     return sum / static_cast<double>(steps);

@@ -36,7 +36,7 @@ struct Surface {
 
     Surface(const StepValues& values, double isovalue) : active(values.steps) {
         for (std::uint32_t step = 0; step < values.steps; ++step) {
-            index::scan(values, {step, isovalue}, active[step]);
+            index::scan(values, {index::Instant(step), isovalue}, active[step]);
             mean_active += static_cast<double>(active[step].size());
         }
         mean_active /= static_cast<double>(values.steps);
@@ -62,14 +62,14 @@ std::vector<Operation> comparisons(const StepValues& values, double isovalue, co
     std::vector<Operation> all;
     all.push_back([&values, isovalue, out = Ids()](std::uint32_t step) mutable {
         out.clear();
-        index::scan(values, {step, isovalue}, out);
+        index::scan(values, {index::Instant(step), isovalue}, out);
     });
     all.push_back([&tbon, isovalue, out = Ids()](std::uint32_t step) mutable {
-        tbon.ids({step, isovalue}, out);
+        tbon.ids({index::Instant(step), isovalue}, out);
     });
     for (const bool normals : {false, true})
         all.push_back([&peer, isovalue, normals](std::uint32_t step) {
-            peer.contour({step, isovalue}, normals);
+            peer.contour({index::Instant(step), isovalue}, normals);
         });
     all.push_back([&surface, copy = Ids()](std::uint32_t step) mutable {
         const Ids& active = surface.active[step];
@@ -101,8 +101,9 @@ void time_searches(const StepValues& values, const Structure& structure,
         return step + 1 < steps ? step + 1 : step - 1;
     };
     std::vector<Operation> operations = compared;
-    operations.push_back(
-        [&, out = Ids()](std::uint32_t step) mutable { structure.ids({step, isovalue}, out); });
+    operations.push_back([&, out = Ids()](std::uint32_t step) mutable {
+        structure.ids({index::Instant(step), isovalue}, out);
+    });
     operations.push_back([&](std::uint32_t step) {
         CellSet set;
         set.query = {step, isovalue};
@@ -116,7 +117,7 @@ void time_searches(const StepValues& values, const Structure& structure,
         follow = operations.size();
         operations.push_back([&](std::uint32_t step) { // there and back, so that it can be repeated
             structure.follow({neighbor(step), isovalue});
-            structure.follow({step, isovalue});
+            structure.follow({index::Instant(step), isovalue});
         });
     }
 
@@ -136,10 +137,10 @@ double sweep_seconds(const StepValues& values, const Structure& structure, doubl
     return time_sweep(
         [&, out = Ids()](std::uint32_t step) mutable {
             if (structure.follow) {
-                structure.follow({step, isovalue});
+                structure.follow({index::Instant(step), isovalue});
                 return;
             }
-            structure.ids({step, isovalue}, out);
+            structure.ids({index::Instant(step), isovalue}, out);
         },
         static_cast<std::uint32_t>(values.steps), rounds);
 }

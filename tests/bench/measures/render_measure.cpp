@@ -161,14 +161,16 @@ class Bench {
     }
 
     void measure_step(Footprint footprint, std::uint32_t step, Times& times) {
-        const index::Query query{step, options_.isovalue};
+        const index::Query query{index::Instant(step), options_.isovalue};
         const render::SendVolume volume = volume_for(footprint);
         gl_.Finish();
         index::ExtractionPtr set;
         times.whole.time([&] {
             times.extract.time([&] {
-                set = extract_(
-                    {.step = step, .isovalues = {options_.isovalue}, .mesh_room = mesh_room_}, {});
+                set = extract_({.instant = index::Instant(step),
+                                .isovalues = {options_.isovalue},
+                                .mesh_room = mesh_room_},
+                               {});
             });
             times.upload.time([&] {
                 while (cells_.shown() != set)
@@ -257,7 +259,9 @@ class Bench {
                 options_.isovalue * (1.0 + kDragged * std::sin(2.0 * std::numbers::pi * turn));
             Frames frame, still;
             frame.time([&] {
-                extractor.request({{.step = step, .isovalues = {isovalue}, .mesh_room = mesh_room},
+                extractor.request({{.instant = index::Instant(step),
+                                    .isovalues = {isovalue},
+                                    .mesh_room = mesh_room},
                                    index::StepsAhead{(step + 1) % steps}});
                 cells_.upload(extractor.newest(), kUploadBytes, volume);
                 draw(pass_, footprint);

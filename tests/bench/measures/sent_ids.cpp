@@ -15,7 +15,7 @@ std::optional<double> sent_ids_percent(const render::Gl& gl,
     const index::Extract extract = index::extract_from(file);
     render::UploadCount first;
     for (std::uint32_t step = 0; step < file->info().steps(); ++step) {
-        const index::ExtractionPtr set = extract({step, {isovalue}}, {});
+        const index::ExtractionPtr set = extract({index::Instant(step), {isovalue}}, {});
         while (cells.shown() != set)
             cells.upload(set, std::numeric_limits<std::size_t>::max());
         if (step == 0)

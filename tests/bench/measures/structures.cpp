@@ -139,10 +139,10 @@ Recipe thi_of(const FilePtr& file, const CommonEntriesPtr& common) {
         structure.entries = own->tree.entries();
         structure.ids = [own, threshold](const Query& query, Ids& out) {
             out.clear();
-            own->tree.search(query.step, threshold(query), out);
+            own->tree.search(query.instant.step, threshold(query), out);
         };
         structure.follow = [own, threshold](const Query& query) {
-            own->tree.search_incremental(own->cursor, query.step, threshold(query));
+            own->tree.search_incremental(own->cursor, query.instant.step, threshold(query));
             return own->cursor.cells.size();
         };
         structure.normal_error = [file, own](double isovalue) {
@@ -175,7 +175,7 @@ Recipe variant_of(const FilePtr& file, const NamedVariant& variant,
         structure.entries = tree->entries();
         structure.ids = [tree, keys](const Query& query, Ids& out) {
             out.clear();
-            tree->search(query.step, keys.threshold(query.isovalue), out);
+            tree->search(query.instant.step, keys.threshold(query.isovalue), out);
         };
         return structure;
     };

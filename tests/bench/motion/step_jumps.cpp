@@ -44,8 +44,7 @@ class Pictures {
         commands.between = interaction::BetweenSteps::blend;
         commands.bounding_box = false;
         commands.isovalue = isovalue_;
-        commands.step = at.step;
-        commands.fraction = at.fraction;
+        commands.instant = at;
         for (int i = 0; i < kMostFrames; ++i) {
             interaction::InputState input;
             input.time = interaction::Seconds(now_ += 0.1);
@@ -56,7 +55,7 @@ class Pictures {
             const app::FrameReport& frame =
                 session_.frame(input, commands, app::Waiting::for_cells);
             commands = {};
-            if (frame.final && frame.shown && frame.shown->step == at)
+            if (frame.final && frame.shown && frame.shown->instant == at)
                 return session_.outputs().display().read_eye(stereo::Eye::center);
         }
         throw index::Error(fmt::format("step {} + {}: no final picture after {} frames", at.step,

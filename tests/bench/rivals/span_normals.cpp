@@ -22,7 +22,7 @@ std::vector<SpanCells> span_cells(const index::StepValues& values, const index::
                                   const index::Query& query) {
     const index::KeyMap keys(values.type, values.scaling);
     index::ThiTree::Cursor cursor; // says at which depth each cell was found
-    tree.search_incremental(cursor, query.step, keys.threshold(query.isovalue));
+    tree.search_incremental(cursor, query.instant.step, keys.threshold(query.isovalue));
     std::vector<SpanCells> spans;
     TimeNode node = TimeNode::root(tree.steps());
     std::size_t begin = 0;
@@ -34,7 +34,7 @@ std::vector<SpanCells> span_cells(const index::StepValues& values, const index::
         index::keep_active(values, query, span.cells);
         begin = end;
         if (!node.is_leaf())
-            node = node.towards(query.step);
+            node = node.towards(query.instant.step);
     }
     return spans;
 }
@@ -43,7 +43,7 @@ NormalError normal_error(const index::StepValues& values, const index::ThiTree& 
                          double isovalue) {
     std::vector<double> angles;
     for (std::uint32_t step = 0; step < values.steps; ++step)
-        for (const SpanCells& span : span_cells(values, tree, {step, isovalue}))
+        for (const SpanCells& span : span_cells(values, tree, {index::Instant(step), isovalue}))
             for (const CellId cell : span.cells) {
                 const glm::dvec3 now = index::cell_normal(values, step, cell),
                                  stored = index::cell_normal(values, span.middle, cell);

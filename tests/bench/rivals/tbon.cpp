@@ -90,8 +90,8 @@ void Tbon::search(const index::Query& query, std::vector<CellId>& out) const {
     if (!cut)
         return;
     index::visit_value_type(values_.type, [&]<class T>(std::type_identity<T>) {
-        search_step<T>(query.step, index::from_ordinal<T>(static_cast<index::Ordinal<T>>(*cut)),
-                       out);
+        search_step<T>(query.instant.step,
+                       index::from_ordinal<T>(static_cast<index::Ordinal<T>>(*cut)), out);
     });
 }
 

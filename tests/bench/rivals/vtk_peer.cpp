@@ -31,7 +31,7 @@ class VtkFlyingEdges : public FlyingEdges {
 
     Surface contour(const index::Query& query, bool normals) override {
         vtkFlyingEdges3D& edges = filter(normals);
-        edges.SetInputData(steps_[query.step]);
+        edges.SetInputData(steps_[query.instant.step]);
         edges.SetValue(0, (query.isovalue - scaling_.intercept) / scaling_.slope);
         edges.Modified(); // so that a repeated query is computed again
         edges.Update();
@@ -47,7 +47,7 @@ class VtkFlyingEdges : public FlyingEdges {
         vtkPolyData& surface = *with_normals_->GetOutput();
         Geometry result;
         const auto vec3 = [](const double* v) { return glm::vec3(v[0], v[1], v[2]); };
-        const auto* spacing = steps_[query.step]->GetSpacing();
+        const auto* spacing = steps_[query.instant.step]->GetSpacing();
         for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i) {
             result.points.push_back(vec3(surface.GetPoint(i)) / vec3(spacing));
             result.normals.push_back(vec3(surface.GetPointData()->GetNormals()->GetTuple(i)));

@@ -71,7 +71,7 @@ class VtkSceneInContext : public VtkScene {
     }
 
     void draw(const index::Query& query) override {
-        edges_->SetInputData(steps_[query.step]);
+        edges_->SetInputData(steps_[query.instant.step]);
         edges_->SetValue(0, (query.isovalue - scaling_.intercept) / scaling_.slope);
         edges_->Modified(); // so that a repeated query is computed again
         window_->Render();

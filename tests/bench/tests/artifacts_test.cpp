@@ -48,7 +48,7 @@ TEST(Artifacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
     const index::StepValues& values = field.view();
     const auto bytes = index::build_thi_tree(values, {.lattice = 16, .max_variation = 3});
     const index::ThiTree tree(bytes);
-    const Query query{5, 112.5};
+    const Query query{index::Instant(5), 112.5};
     const ArtifactSets sets = artifact_sets(values, tree, query);
 
     std::vector<index::CellId> active;

@@ -29,7 +29,7 @@ double mean_active(const index::StepValues& values, double isovalue) {
     double sum = 0;
     for (std::uint32_t step = 0; step < values.steps; ++step) {
         Ids found;
-        index::scan(values, {step, isovalue}, found);
+        index::scan(values, {index::Instant(step), isovalue}, found);
         sum += static_cast<double>(found.size());
     }
     return sum / static_cast<double>(values.steps);
@@ -79,8 +79,8 @@ TEST(Structures, AreExactWhereTheyDoNotSayThatTheyReturnCandidates) {
             continue;
         for (const std::uint32_t step : {0u, 1u, 5u, 2u}) {
             Ids found;
-            structure.ids({step, 60}, found);
-            EXPECT_EQ(structure.follow({step, 60}), found.size());
+            structure.ids({index::Instant(step), 60}, found);
+            EXPECT_EQ(structure.follow({index::Instant(step), 60}), found.size());
         }
     }
     EXPECT_THAT(names, ElementsAre("scan", "tbon", "bricks", "thi", "thi-node-lattices",

@@ -34,7 +34,7 @@ class BenchRender : public testing::Test {
             build_file(data, folder_.path() / "sphere.isochron", [](std::string_view, double) {});
         context_ = stereo::make_context(stereo::ContextKind::egl, {.size = {16, 16}});
         gl_ = std::make_unique<render::Gl>(context_->loader());
-        set_ = index::extract_from(file_)({0, {112.5}}, {});
+        set_ = index::extract_from(file_)({index::Instant(0), {112.5}}, {});
     }
     test_support::TestFolder folder_;
     std::shared_ptr<const index::IndexFile> file_;
@@ -104,7 +104,7 @@ TEST_F(BenchRender, VtkDrawsTheSameSurfaceInTheSameContext) {
     for (const int eyes : {1, 2}) {
         const BenchCamera camera = bench_camera(file_->info(), 256, eyes);
         const auto scene = vtk_scene(file_->values(), camera.poses, 256, 2);
-        scene->draw({0, 112.5});
+        scene->draw({index::Instant(0), 112.5});
         render::RenderTarget target(*gl_, {256 * eyes, 256});
         render::CellPass pass(*gl_);
         const render::CellBuffers cells = shown();

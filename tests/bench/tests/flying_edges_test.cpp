@@ -29,8 +29,9 @@ TEST(FlyingEdges, ContoursTheActiveCellsOfEveryStepAndType) {
         const auto edges = flying_edges(field.view());
         for (const double isovalue : {100.0, 112.5, 180.0, 300.0})
             for (const std::uint32_t step : {2u, 0u, 1u}) {
-                const std::size_t cells = active_cells(field.view(), {step, isovalue});
-                const auto surface = edges->contour({step, isovalue}, false);
+                const std::size_t cells =
+                    active_cells(field.view(), {index::Instant(step), isovalue});
+                const auto surface = edges->contour({index::Instant(step), isovalue}, false);
                 // A surface in a cell has one to five triangles; a closed one has V - F / 2 = 2.
                 EXPECT_GE(surface.triangles, cells);
                 EXPECT_LE(surface.triangles, 5 * cells);
@@ -45,8 +46,8 @@ TEST(FlyingEdges, ContoursTheActiveCellsOfEveryStepAndType) {
 TEST(FlyingEdges, ComputesNormalsOnlyWhenAsked) {
     const TestField field({40, 38, 41}, 1, ValueType::u8, index::moving_sphere);
     const auto edges = flying_edges(field.view());
-    EXPECT_EQ(edges->contour({0, 112.5}, false).normals, 0u);
-    const auto surface = edges->contour({0, 112.5}, true);
+    EXPECT_EQ(edges->contour({index::Instant(0), 112.5}, false).normals, 0u);
+    const auto surface = edges->contour({index::Instant(0), 112.5}, true);
     EXPECT_EQ(surface.normals, surface.vertices);
     EXPECT_GT(surface.normals, 1000u);
 }
@@ -54,10 +55,10 @@ TEST(FlyingEdges, ComputesNormalsOnlyWhenAsked) {
 TEST(FlyingEdges, ComparesTheIsovalueAfterScaling) {
     const TestField field({40, 38, 41}, 1, ValueType::i16, index::moving_sphere, {-2, 10});
     const auto edges = flying_edges(field.view());
-    const std::size_t cells = active_cells(field.view(), {0, 10 - 2 * 112.5});
+    const std::size_t cells = active_cells(field.view(), {index::Instant(0), 10 - 2 * 112.5});
     EXPECT_GT(cells, 1000u);
-    EXPECT_GE(edges->contour({0, 10 - 2 * 112.5}, false).triangles, cells);
-    EXPECT_LE(edges->contour({0, 10 - 2 * 112.5}, false).triangles, 5 * cells);
+    EXPECT_GE(edges->contour({index::Instant(0), 10 - 2 * 112.5}, false).triangles, cells);
+    EXPECT_LE(edges->contour({index::Instant(0), 10 - 2 * 112.5}, false).triangles, 5 * cells);
 }
 
 } // namespace

@@ -99,7 +99,7 @@ index::CellMesh mesh_of(const index::StepValues& values, const index::Query& que
 /// @param isovalue that no value comes near to
 void expect_same(const index::StepValues& values, double isovalue) {
     SCOPED_TRACE(isovalue);
-    const index::Query query{0, isovalue};
+    const index::Query query{index::Instant(0), isovalue};
     const auto rival = flying_edges(values)->geometry(query);
     const index::CellMesh mesh = mesh_of(values, query);
     std::map<Edge, glm::dvec3> theirs;

@@ -142,7 +142,7 @@ app::FrameReport report(double time, double asked, std::optional<double> shown) 
     report.time = interaction::Seconds(time);
     report.asked = {0, {asked}};
     if (shown)
-        report.shown = index::SurfacesQuery{0, {*shown}};
+        report.shown = index::SurfacesQuery{index::Instant(0), {*shown}};
     return report;
 }
 

@@ -48,7 +48,7 @@ void expect_published_candidates(const StepValues& values, const ThiOptions& opt
                 std::sort(expected.begin(), expected.end());
                 std::sort(found.begin(), found.end());
                 ASSERT_EQ(found, expected) << "step " << step << ", isovalue " << isovalue;
-                index::keep_active(values, {step, isovalue}, found);
+                index::keep_active(values, {index::Instant(step), isovalue}, found);
                 ASSERT_EQ(found, oracle.active(isovalue));
             }
         }

@@ -72,7 +72,7 @@ std::vector<CellPoint> slowly(const std::shared_ptr<const IndexFile>& file, cons
     for (const unsigned level : std::set<unsigned>(levels.begin(), levels.end())) {
         CellSet set;
         set.query = query;
-        EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, query.step, level), set, true,
+        EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, query.instant, level), set, true,
                                              true, {}));
         EXPECT_EQ(set.ids, search_level(file, level, query).ids);
         if (level > 0)
@@ -123,7 +123,7 @@ TEST_F(DetailSearchTest, MixedLevelsAreTheirDefinitionForEveryWishAndBudget) {
             const auto isovalues = quantiles(sorted_values(field.view()), 3);
             const std::size_t all = BruteForce(field.view(), 1).active(isovalues[1]).size();
             for (int i = 0; i < 4; ++i) {
-                SurfacesQuery query{1, {isovalues[1], isovalues[2]}};
+                SurfacesQuery query{Instant(1), {isovalues[1], isovalues[2]}};
                 query.detail.most_cells = 1 + (all >> (2 * i));
                 if (i > 0)
                     for (std::size_t r = 0; r < regions.size(); ++r)
@@ -177,7 +177,7 @@ TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
                           });
     const auto file = indexed(field);
     const DetailRegions regions(file->info().grid);
-    const auto all = static_cast<double>(extract_from(file)({0, {0.2}}, {})->cells());
+    const auto all = static_cast<double>(extract_from(file)({Instant(0), {0.2}}, {})->cells());
     const std::vector<std::uint32_t> outwards = regions.from_the_middle();
     ASSERT_EQ(std::set<std::uint32_t>(outwards.begin(), outwards.end()).size(), regions.size());
     std::vector<std::int8_t> sideways; // the left part wants to be finer by half a level
@@ -186,7 +186,7 @@ TEST_F(DetailSearchTest, RegionsGiveWayOneAfterTheOtherSoThatTheBudgetIsUsed) {
     int mixed = 0;
     for (const double part : {1.1, 2.0, 3.6, 8.0})
         for (const auto& wished : {std::vector<std::int8_t>(), sideways}) {
-            SurfacesQuery query{0, {0.2}};
+            SurfacesQuery query{Instant(0), {0.2}};
             query.detail.most_cells = static_cast<std::uint64_t>(all / part);
             query.detail.wished = wished;
             const ExtractionPtr found = extract_from(file)(query, {});
@@ -219,7 +219,7 @@ TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {
     const TestField field({97, 65, 41}, 1, ValueType::f32, turbulence(random_));
     for (const std::uint64_t cache : {std::uint64_t{1}, std::uint64_t{1} << 30}) {
         const auto file = indexed(field, cache);
-        SurfacesQuery query{0, {0.1}};
+        SurfacesQuery query{Instant(0), {0.1}};
         const ExtractionPtr wanted = extract_from(file)(query, {});
         query.detail.most_cells = 3 * wanted->cells();
         const ExtractionPtr found = extract_from(file)(query, {});
@@ -234,9 +234,9 @@ TEST_F(DetailSearchTest, AllCellsAreThoseOfTheVolumeWhereTheyFit) {
 TEST_F(DetailSearchTest, FirstCrossingsAreThoseOfTheCellsOwnLevel) {
     const TestField field({70, 67, 45}, 4, ValueType::f32, turbulence(random_));
     const auto file = indexed(field);
-    SurfacesQuery query{2, {0.05}};
+    SurfacesQuery query{Instant(2), {0.05}};
     query.coloring = CellColoring::first_crossing;
-    const ExtractionPtr whole = extract_from(file)({2, {0.05}}, {});
+    const ExtractionPtr whole = extract_from(file)({Instant(2), {0.05}}, {});
     query.detail.most_cells = whole->cells() / 2;
     for (std::size_t r = 0; r < DetailRegions(file->info().grid).size(); ++r)
         query.detail.wished.push_back(
@@ -246,7 +246,7 @@ TEST_F(DetailSearchTest, FirstCrossingsAreThoseOfTheCellsOwnLevel) {
     std::map<unsigned, std::vector<std::set<CellId>>> active; // by level and step
     for (unsigned level = 0; level < file->detail_levels(); ++level)
         for (std::uint32_t step = 0; step < 4; ++step) {
-            const CellSet set = search_level(file, level, {step, 0.05});
+            const CellSet set = search_level(file, level, {Instant(step), 0.05});
             active[level].emplace_back(set.ids.begin(), set.ids.end());
         }
     const auto& points = mixed->surfaces[0].points;
@@ -283,7 +283,7 @@ TEST_F(DetailSearchTest, ARayHitsMixedLevelsWhereItHitsTheSurfaceToAVoxelOfThem)
     build_index(series, folder_.path() / "b", {.tiers = TierSet().with(Tier::bricks)});
     const auto file = IndexFile::open(folder_.path() / "b", 1);
     const Extract extract = extract_from(file);
-    SurfacesQuery query{0, {0.0}};
+    SurfacesQuery query{Instant(0), {0.0}};
     const ExtractionPtr whole = extract(query, {});
     query.detail.most_cells = whole->cells() / 3;
     for (std::size_t r = 0; r < DetailRegions(values.grid).size(); ++r)

@@ -45,8 +45,8 @@ class LostCellsTest : public testing::Test {
         const DetailRegions regions(file_->info().grid);
         LayerSearch search(file_);
         CellSet found;
-        EXPECT_TRUE(
-            LostCells(*file_, regions, 0, search, most).find({0, 0.0}, drawn, levels, found, {}));
+        EXPECT_TRUE(LostCells(*file_, regions, 0, search, most)
+                        .find({Instant(0), 0.0}, drawn, levels, found, {}));
         return found;
     }
 
@@ -56,7 +56,7 @@ class LostCellsTest : public testing::Test {
 };
 
 TEST_F(LostCellsTest, SpecksAndTubesThatNoLevelHasAreDrawnAsLargeAsTheyAre) {
-    SurfacesQuery query{0, {0.0}};
+    SurfacesQuery query{Instant(0), {0.0}};
     query.detail.most_cells = 3000;
     query.detail.wished.assign(DetailRegions(field_.view().grid).size(),
                                2 * DetailQuery::kPartsOfLevel);
@@ -87,13 +87,14 @@ TEST_F(LostCellsTest, OfTooManyChunksThoseWithNothingDrawnAreReadOrSomeOfThem) {
     const std::vector<std::uint8_t> levels(regions.size(), 2);
     CellSet coarse;
     coarse.query = {0, 0.0};
-    ASSERT_TRUE(LayerSearch(file_).search(step_in_chunks(*file_, 0, 2), coarse, true, true, {}));
+    ASSERT_TRUE(
+        LayerSearch(file_).search(step_in_chunks(*file_, Instant(0), 2), coarse, true, true, {}));
     ASSERT_FALSE(coarse.points.empty());
     for (CellPoint& p : coarse.points)
         for (std::uint16_t* at : {&p.x, &p.y, &p.z})
             *at = static_cast<std::uint16_t>((2 * *at + 1) << 2);
 
-    const auto all = lost_slowly(file_, {0, 0.0}, coarse.points, levels);
+    const auto all = lost_slowly(file_, {Instant(0), 0.0}, coarse.points, levels);
     const auto held = slow_drawn(file_->info().grid, coarse.points, 2);
     std::vector<CellPoint> alone;
     std::set<SlowPlace> chunks;

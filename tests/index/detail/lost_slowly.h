@@ -54,7 +54,8 @@ inline std::vector<CellPoint> lost_slowly(const std::shared_ptr<const IndexFile>
     const DetailRegions regions(file->info().grid);
     CellSet all;
     all.query = query;
-    EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, query.step), all, true, true, {}));
+    EXPECT_TRUE(
+        LayerSearch(file).search(step_in_chunks(*file, query.instant), all, true, true, {}));
     std::map<unsigned, std::set<SlowPlace>> drawn_at;
     for (const unsigned level : levels)
         if (!drawn_at.contains(level))

@@ -19,10 +19,10 @@ namespace {
 void write_cells_beside_mesh(const std::shared_ptr<const IndexFile>& file, const SurfaceWish& wish,
                              std::uint32_t number, const std::filesystem::path& name) {
     CellSet cells;
-    const auto mesh =
-        SurfaceMeshes(file).make_packed({number, wish.isovalue}, {.normals = true}, {}, &cells);
+    const auto mesh = SurfaceMeshes(file).make_packed({Instant(number), wish.isovalue},
+                                                      {.normals = true}, {}, &cells);
     ASSERT_GT(mesh->triangles.size(), 1000u);
-    ExportedStep step{.step = number, .grid = &file->info().grid, .surfaces = {}};
+    ExportedStep step{.instant = Instant(number), .grid = &file->info().grid, .surfaces = {}};
     step.surfaces.push_back(
         {.name = wish.name, .cells = &cells, .isovalue = wish.isovalue, .color_of = nullptr});
     ExportPlan plan;

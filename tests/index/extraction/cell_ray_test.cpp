@@ -129,7 +129,7 @@ class CellRayTest : public testing::Test {
     void expect_hits(const StepValues& values, const std::vector<double>& isovalues,
                      double tolerance, double grazing) {
         const std::uint32_t step = 1;
-        const ExtractionPtr shown = extracted(values, {step, isovalues});
+        const ExtractionPtr shown = extracted(values, {Instant(step), isovalues});
         ASSERT_TRUE(shown);
         const Oracle oracle(values, step);
         int hits = 0, misses = 0, different = 0;
@@ -194,7 +194,7 @@ TEST_F(CellRayTest, GoesAlongAxesAndOnCellBordersAndStartsInside) {
     const TestField field({12, 6, 6}, 1, ValueType::f32,
                           [](double x, double, double, double) { return x; });
     const StepValues values = field.view();
-    const ExtractionPtr shown = extracted(values, {0, {5.25}});
+    const ExtractionPtr shown = extracted(values, {Instant(0), {5.25}});
     for (const double y : {0.0, 2.0, 2.5, 5.0})
         for (const double from : {-3.0, 0.0, 4.0, 5.2}) {
             const auto hit = first_hit(*shown, values.grid, {{from, y, 3.0}, {2.0, 0.0, 0.0}});
@@ -213,7 +213,7 @@ TEST_F(CellRayTest, LooksOnlyAtTheSurfacesThatCount) {
     const TestField field({12, 6, 6}, 1, ValueType::f32,
                           [](double x, double, double, double) { return x; });
     const StepValues values = field.view();
-    const ExtractionPtr shown = extracted(values, {0, {3.5, 7.5, NAN}});
+    const ExtractionPtr shown = extracted(values, {Instant(0), {3.5, 7.5, NAN}});
     const Ray ray{{0.0, 2.0, 3.0}, {1.0, 0.0, 0.0}};
     EXPECT_EQ(first_hit(*shown, values.grid, ray)->surface, 0u);
     EXPECT_EQ(first_hit(*shown, values.grid, ray, 0b110)->surface, 1u);

@@ -55,7 +55,7 @@ TEST(Extraction, HasTheCellsOfEverySurfaceAndExactlyTheBlocksTheyNeed) {
         const auto isovalues = quantiles(sorted_values(values), 9);
         for (const std::size_t surfaces : {1, 3, 8})
             for (std::uint32_t step = 0; step < 3; ++step) {
-                SurfacesQuery query{step, {}};
+                SurfacesQuery query{Instant(step), {}};
                 while (query.isovalues.size() < surfaces)
                     query.isovalues.push_back(isovalues[random() % isovalues.size()]);
                 const ExtractionPtr found = extract(query, {});
@@ -92,7 +92,7 @@ class ColoredExtraction : public testing::Test {
             std::vector<std::vector<CellId>> active;
             for (std::uint32_t step = 0; step < kSteps; ++step)
                 active.push_back(BruteForce(volume_.view(), step).active(isovalue));
-            for (const CellId id : active[query.step]) {
+            for (const CellId id : active[query.instant.step]) {
                 std::size_t first = 0;
                 while (!std::ranges::binary_search(active[first], id))
                     ++first;
@@ -105,7 +105,8 @@ class ColoredExtraction : public testing::Test {
         const auto sorted = sorted_values(colors_.view());
         std::vector<std::uint16_t> colors;
         for (std::size_t i = 0; i < query.isovalues.size(); ++i) {
-            const auto cells = BruteForce(volume_.view(), query.step).active(query.isovalues[i]);
+            const auto cells =
+                BruteForce(volume_.view(), query.instant.step).active(query.isovalues[i]);
             std::vector<std::uint16_t> part(cells.size());
             color_cells(volume_.view(), colors_.view(), query.surface(i), cells, sorted.front(),
                         sorted.back(), part);
@@ -126,7 +127,7 @@ class ColoredExtraction : public testing::Test {
 TEST_F(ColoredExtraction, HasTheColorsOfBruteForceForEverySurface) {
     const Extract extract = extract_from(file_);
     for (int round = 0; round < 40; ++round) {
-        SurfacesQuery query{std::uint32_t(random_() % kSteps), {}};
+        SurfacesQuery query{Instant(std::uint32_t(random_() % kSteps)), {}};
         for (auto n = 1 + random_() % 3; n > 0; --n) // one of them has no cells
             query.isovalues.push_back(std::array{-0.2, 0.0, 0.1, 0.4, 9.0}[random_() % 5]);
         query.coloring = CellColoring(random_() % 3);
@@ -148,7 +149,7 @@ TEST_F(ColoredExtraction, AChangeOfColoringIsANewQueryAlsoForThePrefetch) {
     for (const CellColoring coloring :
          {CellColoring::none, CellColoring::value, CellColoring::first_crossing}) {
         for (const std::uint32_t step : {0u, 1u}) {
-            const SurfacesQuery query{step, {0.1}, coloring};
+            const SurfacesQuery query{Instant(step), {0.1}, coloring};
             extractor.request({.query = query, .ahead = StepsAhead{step + 1}});
             extractor.wait();
             EXPECT_EQ(extractor.newest()->query, query);
@@ -158,7 +159,7 @@ TEST_F(ColoredExtraction, AChangeOfColoringIsANewQueryAlsoForThePrefetch) {
 
 TEST_F(ColoredExtraction, AStoppedSweepGivesNothingAndTheNextIsWhole) {
     const Extract extract = extract_from(file_);
-    const SurfacesQuery query{1, {0.0, 0.4}, CellColoring::first_crossing};
+    const SurfacesQuery query{Instant(1), {0.0, 0.4}, CellColoring::first_crossing};
     std::stop_source stop;
     stop.request_stop();
     EXPECT_EQ(extract(query, stop.get_token()), nullptr);
@@ -170,7 +171,7 @@ TEST(Extraction, WithoutASecondArrayThereAreNoValuesToColorBy) {
     const TestField field({9, 9, 9}, 1, ValueType::u8, moving_sphere);
     const Extract extract = extract_from(indexed(folder, field.view()));
     const double middle = quantiles(sorted_values(field.view()), 3)[1];
-    const auto found = extract({0, {middle}, CellColoring::value}, {});
+    const auto found = extract({Instant(0), {middle}, CellColoring::value}, {});
     ASSERT_GT(found->cells(), 0u);
     EXPECT_TRUE(found->colors.empty());
 }
@@ -180,7 +181,7 @@ TEST(Extraction, BlocksHoldTheVolumeByteForByteAndZerosBeyondIt) {
     std::mt19937 random(test_seed());
     const TestField field({19, 11, 10}, 2, ValueType::i16, scaled(white_noise(random), 900, 10));
     const StepValues values = field.view();
-    const ExtractionPtr found = extract_from(indexed(folder, values))({1, {10.0}}, {});
+    const ExtractionPtr found = extract_from(indexed(folder, values))({Instant(1), {10.0}}, {});
     const BlockTiling tiling(values.grid);
     ASSERT_EQ(found->blocks.held, ValueType::i16);
     ASSERT_EQ(found->blocks.ids.size(), tiling.count());
@@ -204,8 +205,9 @@ TEST(Extraction, DigestsTellBlocksThatChangeFromThoseThatDoNot) {
             return x + y + z + (x >= 16 && t > 0 ? 0.25 : 0.0); // changes once, in one half
         });
     const Extract extract = extract_from(indexed(folder, field.view()));
-    const auto first = extract({0, {30.0}}, {}), second = extract({1, {30.0}}, {}),
-               third = extract({2, {30.0}}, {}), other = extract({2, {34.0}}, {});
+    const auto first = extract({Instant(0), {30.0}}, {}),
+               second = extract({Instant(1), {30.0}}, {}),
+               third = extract({Instant(2), {30.0}}, {}), other = extract({Instant(2), {34.0}}, {});
     std::size_t same = 0, changed = 0;
     for (std::size_t i = 0; i < second->blocks.ids.size(); ++i) {
         const auto at = std::ranges::find(first->blocks.ids, second->blocks.ids[i]);
@@ -234,7 +236,8 @@ TEST(Extraction, MeshesOfAllSurfacesComeWithinTheirRoomOrNot) {
     const auto file = indexed(folder, field.view());
     const Extract extract = extract_from(file, std::nullopt, Shading::cells);
     const auto asked = [&](std::uint64_t room) {
-        return extract({.step = 0, .isovalues = {30.0, 60.0, 1e9}, .mesh_room = room}, {});
+        return extract({.instant = Instant(0), .isovalues = {30.0, 60.0, 1e9}, .mesh_room = room},
+                       {});
     };
     EXPECT_FALSE(asked(0)->surfaces[0].mesh) << "nobody has asked";
     const auto all = asked(std::uint64_t{1} << 30);
@@ -256,7 +259,7 @@ TEST(Extraction, WithoutActiveCellsThereIsNothingToSend) {
     const TestFolder folder;
     const TestField field({9, 9, 9}, 1, ValueType::u8, moving_sphere);
     const Extract extract = extract_from(indexed(folder, field.view()));
-    const auto found = extract({0, {1e9, std::nan("")}}, {});
+    const auto found = extract({Instant(0), {1e9, std::nan("")}}, {});
     ASSERT_TRUE(found);
     EXPECT_EQ(found->cells(), 0u);
     EXPECT_TRUE(found->blocks.ids.empty());
@@ -269,8 +272,8 @@ TEST(Extraction, AStoppedOneGivesNothingAndTheNextIsWhole) {
     const Extract extract = extract_from(indexed(folder, field.view()));
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_EQ(extract({1, {100.0, 150.0}}, stop.get_token()), nullptr);
-    const auto found = extract({1, {100.0, 150.0}}, {});
+    EXPECT_EQ(extract({Instant(1), {100.0, 150.0}}, stop.get_token()), nullptr);
+    const auto found = extract({Instant(1), {100.0, 150.0}}, {});
     const auto blocks = needed(field.view().grid, found->surfaces);
     EXPECT_EQ(found->blocks.ids, (std::vector<BlockId>(blocks.begin(), blocks.end())));
 }
@@ -279,9 +282,9 @@ TEST(Extraction, WhatCannotBeAskedIsAnError) {
     const TestFolder folder;
     const TestField field({9, 9, 9}, 2, ValueType::u8, moving_sphere);
     const Extract extract = extract_from(indexed(folder, field.view()));
-    EXPECT_THROW(extract({2, {1.0}}, {}), Error);
-    EXPECT_THROW(extract({0, {}}, {}), Error);
-    EXPECT_THROW(extract({0, std::vector<double>(kMostSurfaces + 1, 1.0)}, {}), Error);
+    EXPECT_THROW(extract({Instant(2), {1.0}}, {}), Error);
+    EXPECT_THROW(extract({Instant(0), {}}, {}), Error);
+    EXPECT_THROW(extract({Instant(0), std::vector<double>(kMostSurfaces + 1, 1.0)}, {}), Error);
 }
 
 /// A worker that extracts while others look: what is published does not change any more.
@@ -300,7 +303,7 @@ TEST(Extraction, IsMadeByTheWorkerAndReadByOthers) {
             extractor.wait();
     }
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 5u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(5));
 }
 
 } // namespace

@@ -26,13 +26,13 @@ TEST(Extractor, WakesWhenASearchHasEndedOneWayOrTheOther) {
     Extractor extractor(
         [extract = held.extract()](const SurfacesQuery& query, std::stop_token stop) {
             ExtractionPtr made = extract(query, std::move(stop));
-            if (query.step == 2)
+            if (query.instant == Instant(2))
                 throw Error("unreadable");
             return made;
         });
     extractor.set_wake([&woken] { woken.release(); });
     for (const std::uint32_t step : {1u, 2u}) {
-        extractor.request({{step, {0.5}}, {}});
+        extractor.request({{Instant(step), {0.5}}, {}});
         held.let_go();
         woken.acquire(); // the test's limit ends a hang
         EXPECT_FALSE(extractor.busy()) << "there is something to take by then";
@@ -49,7 +49,7 @@ TEST(Extractor, AnswersWhatIsAsked) {
     extractor.request({.query = {7, {1.5}}, .ahead = {}});
     extractor.wait();
     ASSERT_NE(extractor.newest(), nullptr);
-    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{7, {1.5}}));
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(7), {1.5}}));
     EXPECT_FALSE(extractor.failure());
 }
 
@@ -93,7 +93,7 @@ TEST(Extractor, TheLatestRequestWins) {
         extractor.request({.query = {step, {1.0}}, .ahead = {}});
     held.let_go(2);
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 5u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(5));
     for (std::uint32_t step = 1; step <= 4; ++step)
         EXPECT_EQ(held.calls(step), 0) << "a request that was replaced in time is never searched";
 }
@@ -111,11 +111,11 @@ TEST(Extractor, AfterAnAbandonedSearchTheNextIsFinishedAndShown) {
     held.let_go();
     held.wait_until_started(); // step 2; step 1 is shown meanwhile
     ASSERT_NE(extractor.newest(), nullptr);
-    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(1));
     EXPECT_TRUE(extractor.busy());
     held.let_go();
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 2u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(2));
 }
 
 TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
@@ -127,11 +127,11 @@ TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
     held.wait_until_started(); // the prefetch
     extractor.request({.query = {4, {1.0}}, .ahead = {}});
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 4u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(4));
     EXPECT_EQ(held.calls(4), 1);
     extractor.request({.query = {3, {1.0}}, .ahead = {}});
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 3u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(3));
     EXPECT_EQ(held.calls(3), 1) << "stepping back is answered from the recent sets too";
 }
 
@@ -146,7 +146,7 @@ TEST(Extractor, ARunningPrefetchOfTheRequestedStepGoesOn) {
     EXPECT_TRUE(extractor.busy());
     held.let_go();
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 4u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(4));
     EXPECT_EQ(held.calls(4), 1);
 }
 
@@ -160,7 +160,7 @@ TEST(Extractor, APrefetchGivesWayToARequest) {
     extractor.request({.query = {9, {2.0}}, .ahead = {}});
     held.let_go(2);
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{9, {2.0}}));
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(9), {2.0}}));
 }
 
 bool comes_to_hand(const Extractor& extractor, std::uint32_t step) {
@@ -182,15 +182,15 @@ TEST(Extractor, WhatIsAtHandIsNotReplacedByAnOlderSearch) {
     extractor.request({.query = {3, {1.0}}, .ahead = {}});
     held.wait_until_started();
     extractor.request({.query = {1, {1.0}}, .ahead = {}});
-    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(1));
     held.let_go();
     ASSERT_TRUE(comes_to_hand(extractor, 3));
-    EXPECT_EQ(extractor.newest()->query.step, 1u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(1));
     extractor.request({.query = {4, {1.0}}, .ahead = {}});
     held.wait_until_started();
     held.let_go();
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query.step, 4u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(4));
 }
 
 TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
@@ -242,11 +242,11 @@ TEST(Extractor, AskingAgainForWhatIsAskedDoesNothing) {
 
 TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
     Extractor extractor([](const SurfacesQuery& query, std::stop_token) -> ExtractionPtr {
-        if (query.step == 1)
+        if (query.instant == Instant(1))
             throw std::runtime_error("step 1 cannot be read");
-        if (query.step == 2)
+        if (query.instant == Instant(2))
             throw 42;
-        if (query.step == 3)
+        if (query.instant == Instant(3))
             return nullptr;
         return empty_extraction(query);
     });
@@ -256,7 +256,7 @@ TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
         extractor.request({.query = {step, {1.0}}, .ahead = {}});
         extractor.wait();
         EXPECT_TRUE(extractor.failure());
-        EXPECT_EQ(extractor.newest()->query.step, 0u) << "the last picture stays";
+        EXPECT_EQ(extractor.newest()->query.instant, Instant(0)) << "the last picture stays";
         if (step == 1) {
             EXPECT_EQ(*extractor.failure(), "step 1 cannot be read");
         }
@@ -264,14 +264,14 @@ TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
     extractor.request({.query = {4, {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_FALSE(extractor.failure());
-    EXPECT_EQ(extractor.newest()->query.step, 4u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(4));
 }
 
 TEST(Extractor, AFailedPrefetchIsSilentUntilItsStepIsAsked) {
     std::promise<void> prefetched;
     std::atomic<int> tries = 0;
     Extractor extractor([&](const SurfacesQuery& query, std::stop_token) -> ExtractionPtr {
-        if (query.step == 0)
+        if (query.instant == Instant(0))
             return empty_extraction(query);
         if (++tries == 1) {
             prefetched.set_value();
@@ -304,7 +304,7 @@ TEST(Extractor, NoCallWaitsForASearchThatIgnoresItsStop) {
     }
     held.let_go(10);
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{999 % 7, {999.0}}));
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(999 % 7), {999.0}}));
 }
 
 TEST(Extractor, DestructionStopsTheSearchAndJoins) {
@@ -335,9 +335,9 @@ TEST(Extractor, RandomRequestsFromOneThreadAndReadersOnOthersEndWithTheLastAnswe
             for (CellId id = 0; id < 2000; ++id) {
                 if (id % 100 == 0 && stop.stop_requested())
                     return nullptr;
-                ids.push_back(id * query.step);
+                ids.push_back(id * query.instant.step);
             }
-            if (query.step == 13)
+            if (query.instant == Instant(13))
                 throw std::runtime_error("13");
             return extraction;
         });
@@ -347,7 +347,7 @@ TEST(Extractor, RandomRequestsFromOneThreadAndReadersOnOthersEndWithTheLastAnswe
             if (const ExtractionPtr newest = extractor.newest()) {
                 const auto& ids = newest->surfaces.front().ids;
                 ASSERT_EQ(ids.size(), 2000u);
-                ASSERT_EQ(ids.back(), 1999u * newest->query.step);
+                ASSERT_EQ(ids.back(), 1999u * newest->query.instant.step);
             }
             (void)extractor.busy();
             (void)extractor.failure();
@@ -365,7 +365,7 @@ TEST(Extractor, RandomRequestsFromOneThreadAndReadersOnOthersEndWithTheLastAnswe
     }
     extractor.request({.query = {5, {99.0}}, .ahead = StepsAhead{6}});
     extractor.wait();
-    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{5, {99.0}}));
+    EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(5), {99.0}}));
     EXPECT_FALSE(extractor.failure());
     done = true;
     reader_a.join();

@@ -33,7 +33,7 @@ class HeldExtraction {
         return [this](const SurfacesQuery& query, const std::stop_token& stop) -> ExtractionPtr {
             {
                 const std::scoped_lock lock(mutex_);
-                ++calls_[query.step];
+                ++calls_[query.instant.step];
                 worker_ = ::gettid();
             }
             called_.notify_all();

@@ -95,14 +95,14 @@ class Walk {
   public:
     Walk(std::mt19937& random, const StepValues& values)
         : random_(random), isovalues_(quantiles(sorted_values(values), 9)),
-          steps_(static_cast<std::uint32_t>(values.steps)), query_{0, {isovalues_[4]}} {}
+          steps_(static_cast<std::uint32_t>(values.steps)), query_{{}, {isovalues_[4]}} {}
 
     const SurfacesQuery& next() {
-        const std::uint32_t step = query_.step;
+        const std::uint32_t step = query_.instant.step;
         switch (chance(10)) {
-        case 0: query_.step = chance(steps_); break; // a jump
+        case 0: query_.instant = Instant(chance(steps_)); break; // a jump
         case 1:
-        case 2: query_.step = (step + steps_ - 1) % steps_; break;
+        case 2: query_.instant = Instant((step + steps_ - 1) % steps_); break;
         case 3: query_.isovalues[chance(query_.isovalues.size())] = isovalues_[chance(9)]; break;
         case 4:
             if (query_.isovalues.size() < 3)
@@ -110,7 +110,7 @@ class Walk {
             else
                 query_.isovalues.pop_back();
             break;
-        default: query_.step = (step + 1) % steps_;
+        default: query_.instant = Instant((step + 1) % steps_);
         }
         return query_;
     }
@@ -242,7 +242,7 @@ TEST(KeptExtraction, DecodesAStepAsAWholeWhereItsIsovalueIsDragged) {
     const auto isovalues = quantiles(sorted_values(values), 41);
     int as_a_whole = 0;
     for (std::size_t i = 0; i < 24; ++i) {
-        const SurfacesQuery query{0, {isovalues[8 + i]}};
+        const SurfacesQuery query{Instant(0), {isovalues[8 + i]}};
         const ExtractionPtr found = extract(query, {});
         as_a_whole += file->chunks().missing_bytes(0) == 0;
         ASSERT_NO_FATAL_FAILURE(expect_same(*found, *anew(query, {}))) << i;
@@ -266,7 +266,7 @@ TEST(KeptExtraction, GoesOnWhereAnIndexGrows) {
         indexed(folder, values);
         const auto newest = std::make_shared<NewestIndex>(IndexFile::open(path));
         const Extract extract = extract_from_newest(newest, Shading::cells);
-        extract({1, {isovalue}}, {});
+        extract({Instant(1), {isovalue}}, {});
         std::uint64_t reused = 0;
         for (values.steps = 3; values.steps <= kSteps; ++values.steps) {
             const std::shared_ptr<const IndexFile> held = IndexFile::open(path);
@@ -274,7 +274,8 @@ TEST(KeptExtraction, GoesOnWhereAnIndexGrows) {
             GrowingFile file(path, true);
             append_index(*all, *held, file, path, {}, {}, *alone());
             newest->set(IndexFile::open(path));
-            const SurfacesQuery query{static_cast<std::uint32_t>(values.steps - 1), {isovalue}};
+            const SurfacesQuery query{Instant(static_cast<std::uint32_t>(values.steps - 1)),
+                                      {isovalue}};
             const ExtractionPtr found = extract(query, {});
             ASSERT_NO_FATAL_FAILURE(expect_same(
                 *found, *extract_from(newest->get(), std::nullopt, Shading::cells)(query, {})));

@@ -21,7 +21,8 @@ TEST(Extraction, MeshesAreSimplifiedOnceTheQueryIsAnsweredWhereAskedFor) {
     const TestField field({40, 40, 40}, 3, ValueType::f32, moving_sphere);
     const auto file = indexed(folder, field.view());
     Extractor extractor(extract_from(file, std::nullopt, Shading::cells), 1 << 30);
-    const SurfacesQuery query{.step = 0, .isovalues = {30.0, 1e9}, .mesh_room = 1 << 30};
+    const SurfacesQuery query{
+        .instant = Instant(0), .isovalues = {30.0, 1e9}, .mesh_room = 1 << 30};
     extractor.request({.query = query, .ahead = {}});
     extractor.wait();
     const ExtractionPtr set = extractor.newest();
@@ -46,7 +47,7 @@ TEST(Extraction, ThatCameWithoutMeshesGetsThoseOfAllLevelsThatFit) {
     const TestFolder folder;
     const TestField field({40, 40, 40}, 1, ValueType::f32, moving_sphere);
     const auto file = indexed(folder, field.view());
-    const SurfacesQuery query{.step = 0, .isovalues = {30.0, 1e9}, .mesh_room = 0};
+    const SurfacesQuery query{.instant = Instant(0), .isovalues = {30.0, 1e9}, .mesh_room = 0};
     SurfacesQuery with_mesh = query;
     with_mesh.mesh_room = 1 << 30;
     const ExtractionPtr meshed =
@@ -89,7 +90,7 @@ TEST(Extraction, MeshesGiveWayToOtherPartsOfTheCellsThatAreNeededFirst) {
         }
         return extract(query, std::move(stop));
     });
-    const SurfacesQuery query{.step = 0, .isovalues = {30.0}};
+    const SurfacesQuery query{.instant = Instant(0), .isovalues = {30.0}};
     extractor.request({.query = query});
     extractor.wait();
     constexpr std::uint64_t kRoom = 1 << 30;

@@ -27,7 +27,7 @@ class SizedExtraction {
             extraction->colors.resize(bytes_ / sizeof(std::uint16_t));
             {
                 const std::scoped_lock lock(mutex_);
-                steps_.push_back(query.step);
+                steps_.push_back(query.instant.step);
             }
             came_.notify_all();
             return extraction;
@@ -65,7 +65,7 @@ TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 9}));
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3}));
     extractor.request({.query = {9, {1.0}}, .ahead = StepsAhead{0, 10}});
-    EXPECT_EQ(extractor.newest()->query.step, 9u) << "at once";
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(9)) << "at once";
     EXPECT_FALSE(extractor.busy());
     made.await(extractor, 7);
     EXPECT_EQ(made.steps().back(), 4u);
@@ -101,7 +101,8 @@ TEST(Prefetch, WhatHasAMeshAnswersWhoNeedsNoneAndNotTheOtherWayRound) {
     Extractor extractor(made.extract());
     const auto ask = [&](std::uint32_t step, std::uint64_t room) {
         extractor.request(
-            {.query = {.step = step, .isovalues = {1.0}, .mesh_room = room}, .ahead = {}});
+            {.query = {.instant = Instant(step), .isovalues = {1.0}, .mesh_room = room},
+             .ahead = {}});
         extractor.wait();
         return extractor.newest()->query.mesh_room;
     };
@@ -122,7 +123,7 @@ TEST(Prefetch, WithoutRoomIsOfTheNextStepAlone) {
     made.await(extractor, 2);
     for (std::uint32_t step = 9; step < 30; ++step) {
         extractor.request({.query = {step % 10, {1.0}}, .ahead = StepsAhead{(step + 1) % 10, 10}});
-        EXPECT_EQ(extractor.newest()->query.step, step % 10);
+        EXPECT_EQ(extractor.newest()->query.instant, Instant(step % 10));
         made.await(extractor, step - 6);
         EXPECT_EQ(made.steps().back(), (step + 1) % 10);
         EXPECT_LE(extractor.at_hand().size(), 3u);
@@ -135,8 +136,8 @@ TEST(Prefetch, OfAStepThatFailsEndsThere) {
     Extractor extractor(
         [&](const SurfacesQuery& query, const std::stop_token&) -> ExtractionPtr {
             const std::scoped_lock lock(mutex);
-            asked.push_back(query.step);
-            if (query.step == 3)
+            asked.push_back(query.instant.step);
+            if (query.instant == Instant(3))
                 throw std::runtime_error("bad step");
             auto extraction = std::make_shared<Extraction>();
             extraction->query = query;
@@ -149,7 +150,7 @@ TEST(Prefetch, OfAStepThatFailsEndsThere) {
         return !asked.empty() && asked.back() == 3;
     }));
     extractor.request({.query = {2, {1.0}}, .ahead = {}});
-    EXPECT_EQ(extractor.newest()->query.step, 2u);
+    EXPECT_EQ(extractor.newest()->query.instant, Instant(2));
     EXPECT_FALSE(extractor.failure());
     const std::scoped_lock lock(mutex);
     EXPECT_EQ(asked, (std::vector<std::uint32_t>{1, 2, 3}));

@@ -129,10 +129,10 @@ TEST(Rectilinear, MeshesLieOnTheSurfaceAndHaveTheNormalsOfAParaboloid) {
     const StepValues values = on(field, grid);
     const double isovalue = bowl(grid.physical({6.5, 2.5, 6.5}));
     std::vector<CellId> ids;
-    scan(values, {0, isovalue}, ids);
+    scan(values, {Instant(0), isovalue}, ids);
     std::vector<MeshMaker> makers(2);
     CellMesh mesh;
-    ASSERT_TRUE(make_mesh(makers, values, {0, isovalue}, ids, mesh));
+    ASSERT_TRUE(make_mesh(makers, values, {Instant(0), isovalue}, ids, mesh));
     int inner = 0;
     for (const MeshVertex& vertex : mesh.vertices) {
         const glm::dvec3 at = grid.physical(position_of(vertex));
@@ -228,17 +228,17 @@ TEST_F(RectilinearIndex, SamplesAreInterpolatedBetweenTheVerticesAroundThem) {
         const glm::dvec3 last(20, 17, 39);
         const glm::dvec3 at =
             grid_.physical(last * glm::dvec3(share(random_), share(random_), share(random_)));
-        const auto value = value_in(*file_, 0, at);
+        const auto value = value_in(*file_, Instant(0), at);
         ASSERT_TRUE(value);
         EXPECT_NEAR(*value, interpolated(function_, grid_, at), 1e-5);
     }
-    EXPECT_FALSE(value_in(*file_, 0, grid_.physical({-0.01, 3, 3})));
-    EXPECT_FALSE(value_in(*file_, 0, grid_.physical({3, 3, 39.01})));
+    EXPECT_FALSE(value_in(*file_, Instant(0), grid_.physical({-0.01, 3, 3})));
+    EXPECT_FALSE(value_in(*file_, Instant(0), grid_.physical({3, 3, 39.01})));
 }
 
 TEST_F(RectilinearIndex, PickingFindsWhatAMarchThroughSpaceFinds) {
     constexpr double kIsovalue = 0.1;
-    const ExtractionPtr shown = extract_from(file_)({0, {kIsovalue}}, {});
+    const ExtractionPtr shown = extract_from(file_)({Instant(0), {kIsovalue}}, {});
     ASSERT_TRUE(shown);
     const glm::dvec3 last(20, 17, 39);
     const double size = glm::distance(grid_.physical({0, 0, 0}), grid_.physical(last));

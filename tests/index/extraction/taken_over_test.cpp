@@ -30,11 +30,11 @@ TEST(TakenOver, ColorsOfVerticesAreTakenOverWhereTheyAreSaidToStayAndMadeWhereNo
     build_index(series, folder.path() / "a.isochron", {.color = &colors});
     for (const std::uint64_t cache : {std::uint64_t{1}, std::uint64_t{1} << 30}) {
         const auto file = IndexFile::open(folder.path() / "a.isochron", cache);
-        const StepView step = step_of(*file, 0);
+        const StepView step = step_of(*file, Instant(0));
         ASSERT_EQ(step.by_chunks(), cache == 1);
         LayerSearch search(file);
         CellSet set;
-        set.query = {0, quantiles(sorted_values(values.view()), 3)[1]};
+        set.query = {{}, quantiles(sorted_values(values.view()), 3)[1]};
         ASSERT_TRUE(search.search(step, set, true, true, {}));
         const ColorSource source(*file, 0);
         CellMesh anew, found;
@@ -131,9 +131,9 @@ TEST(TakenOver, TellsHowManyCellsWereReused) {
             const Extract extract =
                 extract_from(IndexFile::open(folder.path() / "a.isochron", cache), {}, shading);
             std::uint32_t before = 0;
-            EXPECT_EQ(extract({before, {isovalue}}, {})->reused(), 0u);
+            EXPECT_EQ(extract({Instant(before), {isovalue}}, {})->reused(), 0u);
             for (const std::uint32_t step : {1u, 2u, 3u, 3u, 2u, 3u, 4u, 5u, 6u, 7u, 6u}) {
-                const ExtractionPtr found = extract({step, {isovalue}}, {});
+                const ExtractionPtr found = extract({Instant(step), {isovalue}}, {});
                 const std::size_t stay =
                     cells_without(changed_chunks(values, before, step), values.grid,
                                   found->surfaces[0].ids, shading != Shading::none);
@@ -143,7 +143,7 @@ TEST(TakenOver, TellsHowManyCellsWereReused) {
                 before = step;
             }
             // Of another isovalue no cell is known.
-            EXPECT_EQ(extract({before, {isovalue + 50}}, {})->reused(), 0u);
+            EXPECT_EQ(extract({Instant(before), {isovalue + 50}}, {})->reused(), 0u);
         }
 }
 

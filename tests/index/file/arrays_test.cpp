@@ -102,7 +102,7 @@ class IndexArrays : public testing::Test {
                         const auto method = SearchMethod(i);
                         if (!can_search(*array, method))
                             continue;
-                        EXPECT_EQ(search_in(array, method)({step, isovalue}, {})->ids,
+                        EXPECT_EQ(search_in(array, method)({Instant(step), isovalue}, {})->ids,
                                   expected.active(isovalue))
                             << number << ' ' << step << ' ' << kSearchMethodNames[i];
                     }
@@ -240,7 +240,7 @@ TEST_F(IndexArrays, ColorTheSurfacesOfOthers) {
             build_index(*array_series("surfaces", field(surfaces)), path,
                         {.color = of_colors.get()});
             const auto pair = IndexFile::open(path);
-            SurfacesQuery query{.step = 3,
+            SurfacesQuery query{.instant = Instant(3),
                                 .isovalues = quantiles(sorted_values(field(surfaces).view()), 2),
                                 .coloring = CellColoring::value};
             const auto expected = extract_from(pair)(query, {});
@@ -255,11 +255,12 @@ TEST_F(IndexArrays, ColorTheSurfacesOfOthers) {
 }
 
 TEST_F(IndexArrays, WhatWasExtractedOfOneIsNotTakenForAnother) {
-    const SurfacesQuery query{.step = 3, .isovalues = {0.5}, .coloring = CellColoring::value};
+    const SurfacesQuery query{
+        .instant = Instant(3), .isovalues = {0.5}, .coloring = CellColoring::value};
     SurfacesQuery surfaces = query, colors = query, step = query;
     surfaces.array = 1;
     colors.colors = 1;
-    step.step = 4;
+    step.instant = Instant(4);
     EXPECT_TRUE(same_but_for_step(query, step));
     EXPECT_FALSE(same_but_for_step(query, surfaces));
     EXPECT_FALSE(same_but_for_step(query, colors));

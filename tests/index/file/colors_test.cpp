@@ -145,7 +145,8 @@ TEST_F(Colors, OfCellsAreThoseOfAFieldThatIsLinear) {
     const auto cells = BruteForce(plane.view(), 0).active(isovalue);
     ASSERT_GT(cells.size(), 50u);
     std::vector<std::uint16_t> out(cells.size());
-    ASSERT_TRUE(color_cells(plane.view(), height.view(), {0, isovalue}, cells, 0, 30, out));
+    ASSERT_TRUE(
+        color_cells(plane.view(), height.view(), {Instant(0), isovalue}, cells, 0, 30, out));
     for (const std::uint16_t coordinate : out)
         EXPECT_EQ(coordinate, color_coordinate(2 * isovalue + 1, 0, 30));
 }
@@ -155,7 +156,8 @@ TEST_F(Colors, OfCellsLieBetweenTheirVerticesColors) {
     const auto cells = BruteForce(volume, 2).active(0.1);
     const auto sorted = sorted_values(colors);
     std::vector<std::uint16_t> out(cells.size());
-    ASSERT_TRUE(color_cells(volume, colors, {2, 0.1}, cells, sorted.front(), sorted.back(), out));
+    ASSERT_TRUE(
+        color_cells(volume, colors, {Instant(2), 0.1}, cells, sorted.front(), sorted.back(), out));
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto [x, y, z] = volume.grid.cell_of(cells[i]);
         double low = INFINITY, high = -INFINITY;
@@ -177,7 +179,7 @@ TEST_F(Colors, OfCellsAreNoneWhereAVertexHasNone) {
     const auto cells = BruteForce(volume_.view(), 0).active(0.1);
     std::vector<std::uint16_t> out(cells.size());
     StepValues first = volume_.view();
-    ASSERT_TRUE(color_cells(first, colors.view(), {0, 0.1}, cells, 0, 1, out));
+    ASSERT_TRUE(color_cells(first, colors.view(), {Instant(0), 0.1}, cells, 0, 1, out));
     for (const std::uint16_t coordinate : out)
         EXPECT_EQ(coordinate, kNoColor);
 }
@@ -201,7 +203,7 @@ TEST_F(Colors, ByFirstCrossingRunInPhysicalTime) {
     const std::vector<double> times{10, 11, 20};
     const std::vector<CellId> cells{3, 0, 2, 1};
     std::vector<std::uint16_t> out(cells.size());
-    color_by_first_crossing(crossings, times, 0, cells, out);
+    color_by_first_crossing(crossings, times, {}, cells, out);
     EXPECT_EQ(out, (std::vector<std::uint16_t>{kColorSteps / 10, 0, kNoColor, kColorSteps}));
 }
 

@@ -176,7 +176,7 @@ TEST(DetailLevels, AreWhatTheirDefinitionSaysForEveryTypeAndSize) {
                             // And so the cells are those of a scan of these values.
                             const BruteForce cells(got.values, step);
                             for (const double isovalue : {-1e8, 3e8, 5e8, 60.0, -100.0}) {
-                                EXPECT_EQ(search_level(file, level, {step, isovalue}).ids,
+                                EXPECT_EQ(search_level(file, level, {Instant(step), isovalue}).ids,
                                           cells.active(isovalue));
                             }
                         }
@@ -211,7 +211,7 @@ TEST(DetailLevels, ThatAreNotThereAreRefused) {
     for (const auto& [level, step, what] :
          {std::tuple{2u, 0u, "level 2: expected 0 to 1"}, {1u, 2u, "step 2: expected 0 to 1"}})
         try {
-            search_level(file, level, {step, 1.0});
+            search_level(file, level, {Instant(step), 1.0});
             FAIL() << "no error";
         } catch (const Error& error) {
             EXPECT_THAT(error.what(), HasSubstr(what));

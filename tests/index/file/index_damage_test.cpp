@@ -47,10 +47,10 @@ void use(const std::shared_ptr<const IndexFile>& file) {
         const double isovalue = step % 2 ? 128.0 : 100.5;
         for (const SearchMethod method : {SearchMethod::bricks, SearchMethod::scan})
             if (can_search(*file, method))
-                search_in(file, method)({step, isovalue}, {});
+                search_in(file, method)({Instant(step), isovalue}, {});
         for (std::size_t level = 0; level < file->detail_levels(); ++level)
-            search_level(file, level, {step, isovalue});
-        changes({step, isovalue}, {(step + 1) % 2, isovalue});
+            search_level(file, level, {Instant(step), isovalue});
+        changes({Instant(step), isovalue}, {Instant((step + 1) % 2), isovalue});
         if (file->color())
             file->load_color(step);
     }

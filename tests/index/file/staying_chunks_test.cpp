@@ -253,7 +253,7 @@ TEST(StayingChunks, OfFilesOfEarlierVersionsAreStillReadAndAppendedTo) {
         const auto expect_cells = [&](const std::shared_ptr<const IndexFile>& file) {
             for (std::uint32_t step = 0; step < file->info().steps(); ++step)
                 for (const double isovalue : quantiles(sorted_values(values), 5))
-                    ASSERT_EQ(search_in(file)({step, isovalue}, {})->ids,
+                    ASSERT_EQ(search_in(file)({Instant(step), isovalue}, {})->ids,
                               BruteForce(values, step).active(isovalue));
         };
         ASSERT_NO_FATAL_FAILURE(expect_cells(old));

@@ -89,11 +89,13 @@ class IndexAppendTest : public testing::Test {
             const BruteForce now(values, step);
             for (const double isovalue : isovalues) {
                 const auto expected = now.active(isovalue);
-                ASSERT_EQ(search({step, isovalue}, {})->ids, expected) << step << ' ' << isovalue;
+                ASSERT_EQ(search({Instant(step), isovalue}, {})->ids, expected)
+                    << step << ' ' << isovalue;
                 if (step == 0)
                     continue;
                 auto before = BruteForce(values, step - 1).active(isovalue);
-                const CellChange change = changes({step - 1, isovalue}, {step, isovalue});
+                const CellChange change =
+                    changes({Instant(step - 1), isovalue}, {Instant(step), isovalue});
                 std::set<CellId> after(before.begin(), before.end());
                 if (change.whole)
                     after.clear();

@@ -108,14 +108,14 @@ void expect_exact(const StepValues& values) {
                 ASSERT_EQ(bricks, expected);
                 for (const double isovalue : isovalues) {
                     std::vector<CellId> found;
-                    search_bricks(values, levels, bricks, {step, isovalue}, found);
+                    search_bricks(values, levels, bricks, {Instant(step), isovalue}, found);
                     std::sort(found.begin(), found.end());
                     ASSERT_EQ(found, std::isfinite(isovalue) ? oracle.active(isovalue)
                                                              : std::vector<CellId>())
                         << "step " << step << ", isovalue " << isovalue << ", " << levels.levels()
                         << " levels";
                     std::vector<CellId> tested;
-                    test_bricks(values, levels, bricks, {step, isovalue}, tested);
+                    test_bricks(values, levels, bricks, {Instant(step), isovalue}, tested);
                     std::ranges::sort(tested);
                     ASSERT_EQ(tested, found);
                 }
@@ -185,7 +185,7 @@ TEST(Bricks, AppendBrickByBrickAndAscendingWithinEach) {
     std::vector<std::uint8_t> bricks(grid.bytes_per_step());
     build_bricks(values, levels, 0, bricks);
     std::vector<CellId> found{7};
-    search_bricks(values, levels, bricks, {0, 112.5}, found);
+    search_bricks(values, levels, bricks, {Instant(0), 112.5}, found);
     ASSERT_GT(found.size(), 1000u);
     EXPECT_EQ(found.front(), 7u);
     const auto place = [&](CellId id) {

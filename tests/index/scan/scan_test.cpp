@@ -24,8 +24,8 @@ void expect_exact(const StepValues& values, const std::vector<double>& isovalues
             const std::vector<CellId> expected = oracle.active(isovalue);
             on_every_simd_target([&] {
                 std::vector<CellId> found, kept = all;
-                scan(values, {step, isovalue}, found);
-                keep_active(values, {step, isovalue}, kept);
+                scan(values, {Instant(step), isovalue}, found);
+                keep_active(values, {Instant(step), isovalue}, kept);
                 ASSERT_EQ(found, expected) << "scan at step " << step << ", isovalue " << isovalue;
                 ASSERT_EQ(kept, expected)
                     << "keep_active at step " << step << ", isovalue " << isovalue;
@@ -100,8 +100,8 @@ TEST(Scan, FindsNothingAtAnIsovalueThatIsNotFinite) {
                           });
     for (const double isovalue : {kNaN, kInfinity, -kInfinity}) {
         std::vector<CellId> found, kept{0, 1, 2};
-        scan(field.view(), {0, isovalue}, found);
-        keep_active(field.view(), {0, isovalue}, kept);
+        scan(field.view(), {Instant(0), isovalue}, found);
+        keep_active(field.view(), {Instant(0), isovalue}, kept);
         EXPECT_TRUE(found.empty());
         EXPECT_TRUE(kept.empty());
     }
@@ -111,7 +111,7 @@ TEST(Scan, AppendsToWhatIsThere) {
     std::mt19937 random(test_seed());
     const TestField field({5, 5, 5}, 1, ValueType::f32, white_noise(random));
     std::vector<CellId> found{99};
-    scan(field.view(), {0, 0}, found);
+    scan(field.view(), {Instant(0), 0}, found);
     EXPECT_EQ(found.front(), 99u);
     EXPECT_GT(found.size(), 1u);
 }
@@ -126,7 +126,7 @@ TEST(KeepActive, KeepsIdsOfAnyOrderAndNumber) {
     for (const CellId id : ids)
         if (std::binary_search(active.begin(), active.end(), id))
             expected.push_back(id);
-    keep_active(field.view(), {0, 0.9}, ids);
+    keep_active(field.view(), {Instant(0), 0.9}, ids);
     EXPECT_EQ(ids, expected);
 }
 
@@ -134,7 +134,7 @@ TEST(KeepActive, DropsIdsThatAreNoCellsAndKeepsTheOrder) {
     const TestField field({4, 4, 4}, 1, ValueType::u8,
                           [](double x, double, double, double) { return x; });
     std::vector<CellId> ids{26, 3, 0, 27, 0xffffffff, 9};
-    keep_active(field.view(), {0, 1}, ids);
+    keep_active(field.view(), {Instant(0), 1}, ids);
     EXPECT_EQ(ids, (std::vector<CellId>{3, 0, 9}));
 }
 

@@ -172,7 +172,8 @@ TEST(BlendedCrossings, ColorEveryCellNoLaterThanItIsShownAndAtStepsAsBetweenThem
     const std::vector<double>& times = file->info().times;
     for (const Instant at : {Instant(2, 32768), Instant(3, 65535), Instant(3), Instant(5)}) {
         const auto set = extract(
-            {.step = at, .isovalues = {0.0}, .coloring = CellColoring::first_blended_crossing}, {});
+            {.instant = at, .isovalues = {0.0}, .coloring = CellColoring::first_blended_crossing},
+            {});
         ASSERT_TRUE(set && set->cells() == 19u * 19);
         for (std::size_t i = 0; i < set->cells(); ++i) {
             // A cell from x to x + 1 is active as soon as the front has passed x.

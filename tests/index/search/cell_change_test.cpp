@@ -29,7 +29,7 @@ class CellChangeTest : public testing::Test {
         if (isovalues.empty())
             isovalues = quantiles(sorted_values(values), 9);
         ChangeSearch search(file);
-        Query at{0, isovalues.front()};
+        Query at{Instant(0), isovalues.front()};
         std::vector<CellId> set = BruteForce(values, 0).active(at.isovalue);
         int whole = 0;
         for (int i = 0; i < length; ++i) {
@@ -37,13 +37,13 @@ class CellChangeTest : public testing::Test {
             const auto steps = static_cast<std::uint32_t>(values.steps);
             switch (random() % 10) {
             case 0: next.isovalue = random() % 2 ? 1e9 : -1e9; break;
-            case 1: next.step = static_cast<std::uint32_t>(random()) % steps; break;
+            case 1: next.instant = Instant(static_cast<std::uint32_t>(random()) % steps); break;
             case 2:
             case 3:
             case 4: next.isovalue = isovalues[random() % isovalues.size()]; break;
             case 5:
-            case 6: next.step = at.step == 0 ? 0 : at.step - 1; break;
-            default: next.step = std::min(at.step + 1, steps - 1);
+            case 6: next.instant = Instant(std::max(at.instant.step, 1u) - 1); break;
+            default: next.instant = Instant(std::min(at.instant.step + 1, steps - 1));
             }
             const CellChange change = search(at, next);
             whole += change.whole;
@@ -60,8 +60,9 @@ class CellChangeTest : public testing::Test {
             set.clear();
             std::merge(kept.begin(), kept.end(), added.begin(), added.end(),
                        std::back_inserter(set));
-            EXPECT_EQ(set, BruteForce(values, next.step).active(next.isovalue))
-                << at.step << ' ' << at.isovalue << " to " << next.step << ' ' << next.isovalue;
+            EXPECT_EQ(set, BruteForce(values, next.instant.step).active(next.isovalue))
+                << at.instant.step << ' ' << at.isovalue << " to " << next.instant.step << ' '
+                << next.isovalue;
             at = next;
         }
         return whole;

@@ -71,7 +71,7 @@ TEST(CubeCells, AsManyAreTestedAsInTheWholeStep) {
         MemorySeries series(field.view());
         build_index(series, path, {.tiers = TierSet().with(Tier::bricks)});
         const auto file = IndexFile::open(path, 1); // so that no step is worked on as a whole
-        const Query query{0, 100};
+        const Query query{Instant(0), 100};
         const CellSetPtr set = search_in(file, SearchMethod::bricks)(query, {});
         const LoadedStep step = file->load(0);
         std::vector<CellId> ids;

@@ -32,14 +32,15 @@ TEST(IndexSearch, FindsTheActiveCellsOfEveryTypeByEveryMethod) {
             std::optional<Query> before;
             for (int i = 0; i < 60; ++i) {
                 // Mostly the same isovalue, as in playback: the incremental search is used.
-                const Query query{static_cast<std::uint32_t>(random() % values.steps),
+                const Query query{Instant(static_cast<std::uint32_t>(random() % values.steps)),
                                   isovalues[static_cast<std::size_t>(i) / 7]};
                 const CellSetPtr set = search(query, {});
                 ASSERT_NE(set, nullptr);
                 EXPECT_EQ(set->query, query);
                 EXPECT_EQ(set->method, method);
-                ASSERT_EQ(set->ids, BruteForce(values, query.step).active(query.isovalue))
-                    << name_of(type) << " step " << query.step << " isovalue " << query.isovalue;
+                ASSERT_EQ(set->ids, BruteForce(values, query.instant.step).active(query.isovalue))
+                    << name_of(type) << " step " << query.instant.step << " isovalue "
+                    << query.isovalue;
                 EXPECT_EQ(set->points.size(), set->ids.size());
                 EXPECT_GE(set->candidates, set->ids.size());
                 EXPECT_LE(set->reused, set->ids.size());
@@ -65,10 +66,10 @@ TEST(IndexSearch, FindsInTheFmriSeriesWhatTheScanFindsAtEveryStepAnd64Quantiles)
     std::uint64_t active = 0;
     for (const double isovalue : isovalues)
         for (std::uint32_t step = 0; step < file->info().steps(); ++step) {
-            const CellSetPtr found = by_tree({step, isovalue}, {});
-            const CellSetPtr expected = by_scan({step, isovalue}, {});
+            const CellSetPtr found = by_tree({Instant(step), isovalue}, {});
+            const CellSetPtr expected = by_scan({Instant(step), isovalue}, {});
             ASSERT_EQ(found->ids, expected->ids) << "step " << step << " isovalue " << isovalue;
-            ASSERT_EQ(by_bricks({step, isovalue}, {})->ids, expected->ids)
+            ASSERT_EQ(by_bricks({Instant(step), isovalue}, {})->ids, expected->ids)
                 << "step " << step << " isovalue " << isovalue;
             active += found->ids.size();
         }
@@ -76,7 +77,7 @@ TEST(IndexSearch, FindsInTheFmriSeriesWhatTheScanFindsAtEveryStepAnd64Quantiles)
     // The scan itself against the slowest way, where it is affordable.
     for (const std::uint32_t step : {0u, 31u, 63u})
         for (const std::size_t i : {5u, 33u, 60u})
-            EXPECT_EQ(by_scan({step, isovalues[i]}, {})->ids,
+            EXPECT_EQ(by_scan({Instant(step), isovalues[i]}, {})->ids,
                       BruteForce(file->values(), step).active(isovalues[i]));
 }
 
@@ -94,7 +95,7 @@ TEST(IndexSearch, AStepThatIsSearchedAgainAndAgainGivesTheSameCellsAndTakesNoMor
         for (std::size_t i = 0; i < isovalues.size(); ++i) {
             if (i == 16)
                 held_before = file->cache().held;
-            ASSERT_EQ(search({1, isovalues[i]}, {})->ids, oracle.active(isovalues[i]))
+            ASSERT_EQ(search({Instant(1), isovalues[i]}, {})->ids, oracle.active(isovalues[i]))
                 << name_of(type) << ", search " << i;
         }
         EXPECT_EQ(file->cache().held, held_before);
@@ -108,14 +109,14 @@ TEST(IndexSearch, SlabsOfALargeScanMeetWithoutGapOrRepetition) {
     const TestField field({300, 200, 120}, 1, ValueType::u8, white_noise(random));
     const StepValues values = field.view();
     const auto file = indexed(folder, values, {.tiers = TierSet{}});
-    EXPECT_EQ(search_in(file)({0, 0.5}, {})->ids, BruteForce(values, 0).active(0.5));
+    EXPECT_EQ(search_in(file)({Instant(0), 0.5}, {})->ids, BruteForce(values, 0).active(0.5));
 }
 
 TEST(IndexSearch, TheScanIsUsedWhenItIsAskedFor) {
     const TestFolder folder;
     const TestField field({12, 12, 12}, 4, ValueType::f32, moving_sphere);
     const auto file = indexed(folder, field.view());
-    const Query query{2, 3.0};
+    const Query query{Instant(2), 3.0};
     const CellSetPtr scanned = search_in(file, SearchMethod::scan)(query, {});
     EXPECT_EQ(scanned->candidates, scanned->ids.size());
     EXPECT_EQ(scanned->ids, search_in(file)(query, {})->ids);
@@ -127,7 +128,7 @@ TEST(IndexSearch, NoIsovalueOutsideTheNumbersHasActiveCells) {
     const Search search = search_in(indexed(folder, field.view()));
     for (const double isovalue : {std::nan(""), std::numeric_limits<double>::infinity(),
                                   -std::numeric_limits<double>::infinity(), 1e300, -1e300}) {
-        const CellSetPtr set = search({1, isovalue}, {});
+        const CellSetPtr set = search({Instant(1), isovalue}, {});
         ASSERT_NE(set, nullptr);
         EXPECT_TRUE(set->ids.empty());
     }
@@ -141,8 +142,8 @@ TEST(IndexSearch, AStoppedSearchGivesNothingAndTheNextIsRight) {
         const Search search = search_in(indexed(folder, values, kEveryMethod), method);
         std::stop_source stop;
         stop.request_stop();
-        EXPECT_EQ(search({1, 150.0}, stop.get_token()), nullptr);
-        EXPECT_EQ(search({1, 150.0}, {})->ids, BruteForce(values, 1).active(150.0));
+        EXPECT_EQ(search({Instant(1), 150.0}, stop.get_token()), nullptr);
+        EXPECT_EQ(search({Instant(1), 150.0}, {})->ids, BruteForce(values, 1).active(150.0));
     }
 }
 
@@ -158,7 +159,7 @@ TEST(IndexSearch, AnIsovalueBeyondTheValuesOfAStepLooksAtNoCell) {
         ASSERT_FALSE(file->chunks().levels(0)->lossless());
         const Search search = search_in(file, SearchMethod::bricks);
         for (const double isovalue : {-1500.0, 1500.0, 3000.0, 9000.0}) {
-            const CellSetPtr none = search({0, isovalue}, {});
+            const CellSetPtr none = search({Instant(0), isovalue}, {});
             EXPECT_TRUE(none->ids.empty());
             EXPECT_EQ(none->candidates, 0u) << name_of(type) << ' ' << isovalue;
         }
@@ -170,7 +171,8 @@ TEST(IndexSearch, AnIsovalueBeyondTheValuesOfAStepLooksAtNoCell) {
         }());
         for (const double isovalue : {values.front(), values[1], values[values.size() / 2],
                                       values[values.size() - 2], values.back()})
-            EXPECT_EQ(search({0, isovalue}, {})->ids, BruteForce(field.view(), 0).active(isovalue));
+            EXPECT_EQ(search({Instant(0), isovalue}, {})->ids,
+                      BruteForce(field.view(), 0).active(isovalue));
     }
 }
 
@@ -178,7 +180,7 @@ TEST(IndexSearch, AStepThatIsNotThereIsAFailure) {
     const TestFolder folder;
     const TestField field({5, 5, 5}, 2, ValueType::f32, moving_sphere);
     const Search search = search_in(indexed(folder, field.view()));
-    EXPECT_THROW(search({2, 1.0}, {}), Error);
+    EXPECT_THROW(search({Instant(2), 1.0}, {}), Error);
 }
 
 } // namespace

@@ -146,8 +146,8 @@ TEST(InstantSearch, ColorsByFirstCrossingNoCellLaterThanTheMomentAndEachCell) {
         return color_coordinate(time, file->info().times.front(), file->info().times.back());
     };
     for (const Instant at : {Instant(2, 32768), Instant(3, 65535), Instant(3)}) {
-        const auto set =
-            extract({.step = at, .isovalues = {0.0}, .coloring = CellColoring::first_crossing}, {});
+        const auto set = extract(
+            {.instant = at, .isovalues = {0.0}, .coloring = CellColoring::first_crossing}, {});
         ASSERT_TRUE(set);
         ASSERT_EQ(set->cells(), 19u * 19);
         for (const std::uint16_t color : set->colors)
@@ -164,7 +164,7 @@ TEST(InstantSearch, MakesTheRanksOfAMomentOnceForAllPlacesThatAreLookedAtThere) 
     const Instant at(1, 12345);
     const auto extract = extract_from(file, std::nullopt, Shading::cells);
     for (const double isovalue : {60.0, 70.0, 80.0}) // known, so that few blends tell its ranks
-        ASSERT_TRUE(extract({.step = at, .isovalues = {isovalue}, .mesh_room = 1 << 24}, {}));
+        ASSERT_TRUE(extract({.instant = at, .isovalues = {isovalue}, .mesh_room = 1 << 24}, {}));
     for (int i = 0; i < 10; ++i) // the pointer hovers
         ASSERT_TRUE(value_in(*file, at, {3.0 + i, 4, 5}));
     EXPECT_EQ(kept.use().misses, 1u);
@@ -183,7 +183,8 @@ TEST(InstantSearch, FindsTheCellThatIsWhollyBelowAtOneStepAndWhollyAboveAtTheNex
         return 10 * (8 + 8 * t - x) + 100;
     });
     const auto file = built(folder.path(), field);
-    const std::vector<CellId> now = found(file, {0, 101}), next = found(file, {1, 101}),
+    const std::vector<CellId> now = found(file, {Instant(0), 101}),
+                              next = found(file, {Instant(1), 101}),
                               between = found(file, {{0, kWhole / 2}, 101});
     EXPECT_EQ(between, by_the_rule(field.view(), {0, kWhole / 2}, 101));
     EXPECT_FALSE(between.empty());
@@ -202,7 +203,8 @@ TEST(InstantSearch, IsTheSameByAScanAndWithoutNormals) {
     for (int i = 0; i < 20; ++i) {
         const Query query{{random() % 2, 1 + random() % (kWhole - 1)},
                           static_cast<double>(random() % 100) / 100 - 0.5};
-        const std::vector<CellId> expected = by_the_rule(field.view(), query.step, query.isovalue);
+        const std::vector<CellId> expected =
+            by_the_rule(field.view(), query.instant, query.isovalue);
         EXPECT_EQ(found(with, query), expected);
         EXPECT_EQ(found(with, query, Shading::none), expected);
         EXPECT_EQ(found(without, query), expected);
@@ -219,7 +221,7 @@ TEST(InstantSearch, LevelsOfDetailAreBlendedByTheSameRule) {
         const LevelSteps coarse(file, level);
         const Query query{{0, 12345}, 100.5};
         EXPECT_EQ(search_level(file, level, query).ids,
-                  by_the_rule(coarse.view(), query.step, query.isovalue));
+                  by_the_rule(coarse.view(), query.instant, query.isovalue));
     }
 }
 
@@ -229,9 +231,9 @@ TEST(InstantSearch, AtAStepNothingDiffersFromTheStepAlone) {
     const test_support::TestFolder folder;
     const auto file = built(folder.path(), field);
     const Extract extract = extract_from(file, std::nullopt, Shading::cells);
-    const ExtractionPtr alone = extract({.step = 1, .isovalues = {5000, 5100}}, {});
-    (void)extract({.step = {1, 77}, .isovalues = {5000, 5100}}, {});
-    const ExtractionPtr again = extract({.step = {1, 0}, .isovalues = {5000, 5100}}, {});
+    const ExtractionPtr alone = extract({.instant = Instant(1), .isovalues = {5000, 5100}}, {});
+    (void)extract({.instant = {1, 77}, .isovalues = {5000, 5100}}, {});
+    const ExtractionPtr again = extract({.instant = {1, 0}, .isovalues = {5000, 5100}}, {});
     const auto same = [](const CellPoint& a, const CellPoint& b) {
         return std::memcmp(&a, &b, sizeof a) == 0;
     };
@@ -254,7 +256,7 @@ TEST(InstantSearch, BlocksOfAnInstantHaveEveryVertexOnItsSide) {
         const Extract extract = extract_from(file, std::nullopt, Shading::cells);
         const Instant at{0, 23456};
         const double isovalue = 125.25;
-        const ExtractionPtr made = extract({.step = at, .isovalues = {isovalue}}, {});
+        const ExtractionPtr made = extract({.instant = at, .isovalues = {isovalue}}, {});
         ASSERT_EQ(made->surfaces[0].ids, by_the_rule(field.view(), at, isovalue));
         const VolumeBlocks& blocks = made->blocks;
         ASSERT_EQ(blocks.held, ValueType::f32);
@@ -295,7 +297,8 @@ TEST(InstantSearch, MeshesAndValuesAreThoseOfTheBlend) {
     const auto mesh = [](const std::shared_ptr<const IndexFile>& of, const Query& query) {
         return *SurfaceMeshes(of).make_packed(query);
     };
-    const CellMesh found = mesh(file, {{0, kWhole / 2}, 33}), expected = mesh(halfway, {0, 33});
+    const CellMesh found = mesh(file, {{0, kWhole / 2}, 33}),
+                   expected = mesh(halfway, {Instant(0), 33});
     EXPECT_FALSE(found.triangles.empty());
     EXPECT_EQ(found.vertices, expected.vertices);
     EXPECT_EQ(found.triangles, expected.triangles);
@@ -304,7 +307,7 @@ TEST(InstantSearch, MeshesAndValuesAreThoseOfTheBlend) {
             return std::uniform_real_distribution<double>(0, cells)(random);
         };
         const glm::dvec3 at(along(29), along(28), along(30));
-        EXPECT_EQ(value_in(*file, {0, kWhole / 2}, at), value_in(*halfway, 0, at));
+        EXPECT_EQ(value_in(*file, {0, kWhole / 2}, at), value_in(*halfway, Instant(0), at));
     }
 }
 
@@ -313,7 +316,7 @@ TEST(InstantSearch, TheLastStepHolds) {
     const TestField field({20, 20, 20}, 2, ValueType::f32, turbulence(random));
     const test_support::TestFolder folder;
     const auto file = built(folder.path(), field);
-    EXPECT_EQ(found(file, {{1, 777}, 0.1}), found(file, {1, 0.1}));
+    EXPECT_EQ(found(file, {{1, 777}, 0.1}), found(file, {Instant(1), 0.1}));
 }
 
 TEST(InstantSearch, ChangesBetweenInstantsAreTheDifferencesOfTheirSets) {
@@ -326,7 +329,7 @@ TEST(InstantSearch, ChangesBetweenInstantsAreTheDifferencesOfTheirSets) {
     const CellChange change = search(from, to);
     EXPECT_TRUE(change.whole);
     EXPECT_EQ(std::vector<CellId>(change.added.begin(), change.added.end()),
-              by_the_rule(field.view(), to.step, 120));
+              by_the_rule(field.view(), to.instant, 120));
     const CellChange none = search(to, to);
     EXPECT_FALSE(none.whole);
     EXPECT_TRUE(none.added.empty() && none.removed.empty());

@@ -94,14 +94,14 @@ TEST_P(LayerCandidatesTest, NothingIsReadThatWasNotAnnouncedWithTheCandidates) {
             for (std::uint32_t near = layer - std::min(layer, 1u);
                  near < std::min(layer + 2, store.grid().layers()); ++near)
                 store.fetch(0, near, LayerCandidates::places_of(*store.layer(0, near), cut), {});
-            const StepView step = step_in_chunks(*file, 0);
+            const StepView step = step_in_chunks(*file, Instant(0));
             const LayerCandidates candidates(step, layer, cut, normals, {});
             const std::uint64_t announced = source.announcements;
             source.unannounced = 0;
             CellSet set;
             std::chrono::nanoseconds shading{0};
             const auto divided = *stored_cut(store.info().type, store.info().scaling, isovalue);
-            CubeSearch().search(step, candidates, {0, isovalue}, divided, normals, {}, set,
+            CubeSearch().search(step, candidates, {Instant(0), isovalue}, divided, normals, {}, set,
                                 shading);
             found += set.ids.size();
             EXPECT_EQ(set.points.size(), normals ? set.ids.size() : 0);
@@ -140,7 +140,8 @@ TEST(LayersOfAStep, AreReadInOneGoEachWhereMostOfThemIsNeeded) {
         const std::uint32_t in_one_go = bytes == whole ? source.requests : 0;
         CellSet set;
         set.query = {0, isovalue};
-        EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, 0), set, true, true, {}));
+        EXPECT_TRUE(
+            LayerSearch(file).search(step_in_chunks(*file, Instant(0)), set, true, true, {}));
         EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(isovalue));
         return in_one_go;
     };

@@ -45,7 +45,7 @@ class LayerSearchTest : public testing::Test {
 
 CellMesh mesh_of_cells(const std::shared_ptr<const IndexFile>& file, const CellSet& set) {
     CellMesh mesh;
-    EXPECT_TRUE(LayerSearch(file).make_mesh(step_of(*file, set.query.step), set, mesh, {}));
+    EXPECT_TRUE(LayerSearch(file).make_mesh(step_of(*file, set.query.instant), set, mesh, {}));
     return mesh;
 }
 
@@ -81,9 +81,9 @@ TEST_F(LayerSearchTest, FindsAndShadesWhatWholeStepsGiveForEveryTypeMethodAndGri
                                  << name_of(type) << " " << vertices[0] << " x " << vertices[1]
                                  << " x " << vertices[2] << " method " << int(method)
                                  << " isovalue " << isovalue << " noise " << noise);
-                    const Query query{static_cast<std::uint32_t>(random_() % 2), isovalue};
+                    const Query query{Instant(static_cast<std::uint32_t>(random_() % 2)), isovalue};
                     const CellSetPtr found = search_in(chunks, method, Shading::cells)(query, {});
-                    ASSERT_EQ(found->ids, BruteForce(values, query.step).active(isovalue));
+                    ASSERT_EQ(found->ids, BruteForce(values, query.instant.step).active(isovalue));
                     const CellSetPtr wanted = search_in(whole, method, Shading::cells)(query, {});
                     expect_same(*found, *wanted);
                     const CellMesh mesh = mesh_of_cells(chunks, *found);
@@ -103,7 +103,7 @@ TEST_F(LayerSearchTest, CellsWithNaNAreNotActive) {
     const auto chunks = indexed(values)[1];
     for (const double isovalue : {-0.3, 0.0, 0.2})
         for (const SearchMethod method : {SearchMethod::bricks, SearchMethod::scan})
-            EXPECT_EQ(search_in(chunks, method, Shading::none)({0, isovalue}, {})->ids,
+            EXPECT_EQ(search_in(chunks, method, Shading::none)({Instant(0), isovalue}, {})->ids,
                       BruteForce(values, 0).active(isovalue));
 }
 
@@ -117,7 +117,7 @@ TEST_F(LayerSearchTest, EveryCodecGivesTheSameCells) {
             for (std::size_t t = 0; t < 2; ++t)
                 ASSERT_TRUE(std::ranges::equal(whole->values().step_bytes(t), values.step_bytes(t)))
                     << name_of(type);
-            EXPECT_EQ(search_in(chunks, SearchMethod::bricks)({1, isovalue}, {})->ids,
+            EXPECT_EQ(search_in(chunks, SearchMethod::bricks)({Instant(1), isovalue}, {})->ids,
                       BruteForce(values, 1).active(isovalue));
             EXPECT_NO_THROW(chunks->verify());
         }
@@ -132,7 +132,7 @@ TEST_F(LayerSearchTest, ExtractionsAreThoseOfWholeSteps) {
         const auto path = folder_.path() / "b.isochron";
         build_index(series, path, {.color = &colors});
         const auto isovalues = quantiles(sorted_values(field.view()), 4);
-        const SurfacesQuery query{1, {isovalues[1], isovalues[2]}, CellColoring::value};
+        const SurfacesQuery query{Instant(1), {isovalues[1], isovalues[2]}, CellColoring::value};
         const ExtractionPtr whole = extract_from(IndexFile::open(path))(query, {});
         const ExtractionPtr chunks = extract_from(IndexFile::open(path, kNoRoom))(query, {});
         for (std::size_t i = 0; i < 2; ++i)
@@ -153,7 +153,7 @@ TEST_F(LayerSearchTest, AStoppedSearchGivesNothing) {
     std::stop_source stop;
     stop.request_stop();
     for (const SearchMethod method : kEveryWay)
-        EXPECT_EQ(search_in(chunks, method)({0, 150.0}, stop.get_token()), nullptr);
+        EXPECT_EQ(search_in(chunks, method)({Instant(0), 150.0}, stop.get_token()), nullptr);
 }
 
 TEST(ValueInIndex, OfALargeStepIsThatOfItsChunks) {
@@ -174,7 +174,7 @@ TEST(ValueInIndex, OfALargeStepIsThatOfItsChunks) {
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec3 at(1 + 125 * along(random), 2 + 192 * along(random),
                             3 + 100 * along(random));
-        const auto value = value_in(*file, 1, at);
+        const auto value = value_in(*file, Instant(1), at);
         EXPECT_EQ(value, value_at(values, 1, at));
         found += value.has_value();
     }

@@ -52,10 +52,13 @@ TEST_F(SurfaceMeshTest, IsTheMeshThatIsDrawn) {
         ASSERT_FALSE(files[1]->better_whole(1));
         for (const auto& file : files) {
             const ExtractionPtr drawn = extract_from(file, std::nullopt, Shading::cells)(
-                {.step = 1, .isovalues = {isovalue}, .mesh_room = std::uint64_t{1} << 30}, {});
+                {.instant = Instant(1),
+                 .isovalues = {isovalue},
+                 .mesh_room = std::uint64_t{1} << 30},
+                {});
             const CellMesh& mesh = *drawn->surfaces.front().mesh;
             ASSERT_GT(mesh.vertices.size(), 1000u);
-            const SurfaceMesh surface = mesh_of(file, {1, isovalue}, {.normals = true});
+            const SurfaceMesh surface = mesh_of(file, {Instant(1), isovalue}, {.normals = true});
             ASSERT_EQ(surface.points.size(), mesh.vertices.size());
             ASSERT_EQ(surface.normals.size(), mesh.vertices.size());
             ASSERT_EQ(3 * surface.triangles.size(), mesh.triangles.size());
@@ -71,7 +74,7 @@ TEST_F(SurfaceMeshTest, IsTheMeshThatIsDrawn) {
             }
             for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
                 ASSERT_EQ(surface.triangles[i / 3][i % 3], mesh.triangles[i]);
-            EXPECT_TRUE(mesh_of(file, {1, isovalue}).normals.empty());
+            EXPECT_TRUE(mesh_of(file, {Instant(1), isovalue}).normals.empty());
         }
     }
 }
@@ -82,10 +85,10 @@ TEST_F(SurfaceMeshTest, InPiecesIsTheSame) {
     const auto files = indexed(field.view());
     for (const auto& file : files) {
         SurfaceMeshes meshes(file);
-        const std::optional<CellMesh> whole = meshes.make_packed({0, isovalue});
+        const std::optional<CellMesh> whole = meshes.make_packed({Instant(0), isovalue});
         CellMesh joined;
         std::size_t pieces = 0, before = 0; // vertices before the last piece
-        ASSERT_TRUE(meshes.make_pieces({0, isovalue}, {}, [&](CellMesh piece) {
+        ASSERT_TRUE(meshes.make_pieces({Instant(0), isovalue}, {}, [&](CellMesh piece) {
             for (const std::uint32_t corner : piece.triangles)
                 ASSERT_GE(corner, before) << "in this piece or the one before it";
             before = joined.vertices.size();
@@ -111,7 +114,7 @@ TEST_F(SurfaceMeshTest, HasTheValuesOfAnotherArrayWhereTheyAreAsked) {
     const TestField colors({37, 41, 39}, 2, ValueType::f64, linear);
     const double isovalue = quantiles(sorted_values(field.view()), 3)[1];
     for (const auto& file : indexed(field.view(), &colors)) {
-        const SurfaceMesh surface = mesh_of(file, {1, isovalue}, {.values = 0});
+        const SurfaceMesh surface = mesh_of(file, {Instant(1), isovalue}, {.values = 0});
         ASSERT_GT(surface.points.size(), 1000u);
         ASSERT_EQ(surface.values.size(), surface.points.size());
         for (std::size_t i = 0; i < surface.points.size(); ++i) {
@@ -119,7 +122,8 @@ TEST_F(SurfaceMeshTest, HasTheValuesOfAnotherArrayWhereTheyAreAsked) {
             const glm::dvec3 at = file->info().grid.index_of({x, y, z});
             ASSERT_NEAR(surface.values[i], linear(at.x, at.y, at.z, 1), 1e-3) << i;
         }
-        EXPECT_THROW(mesh_of(file, {1, isovalue}, {.values = ColorSource::count(*file)}), Error);
+        EXPECT_THROW(mesh_of(file, {Instant(1), isovalue}, {.values = ColorSource::count(*file)}),
+                     Error);
     }
 }
 
@@ -129,7 +133,7 @@ TEST_F(SurfaceMeshTest, OfABallHasEverySideTwiceOnceEachWay) {
                               return std::hypot(x - 19.3, y - 17.8, z - 24.6);
                           });
     for (const auto& file : indexed(field.view())) {
-        const SurfaceMesh surface = mesh_of(file, {0, 15.0});
+        const SurfaceMesh surface = mesh_of(file, {Instant(0), 15.0});
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
         for (const auto& [a, b, c] : surface.triangles)
             for (const auto& side : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
@@ -143,14 +147,14 @@ TEST_F(SurfaceMeshTest, OfABallHasEverySideTwiceOnceEachWay) {
 TEST_F(SurfaceMeshTest, IsEmptyWhereNothingIsActiveAndGoneWhenItIsStopped) {
     const TestField field({20, 20, 20}, 1, ValueType::f32, turbulence(random_));
     for (const auto& file : indexed(field.view())) {
-        EXPECT_TRUE(mesh_of(file, {0, kNowhere}, {.normals = true}).points.empty());
-        EXPECT_TRUE(mesh_of(file, {0, std::nan("")}).triangles.empty());
-        EXPECT_THROW(mesh_of(file, {1, 0.0}), Error) << "there is no such step";
+        EXPECT_TRUE(mesh_of(file, {Instant(0), kNowhere}, {.normals = true}).points.empty());
+        EXPECT_TRUE(mesh_of(file, {Instant(0), std::nan("")}).triangles.empty());
+        EXPECT_THROW(mesh_of(file, {Instant(1), 0.0}), Error) << "there is no such step";
         SurfaceMeshes meshes(file);
         std::stop_source stop;
         stop.request_stop();
-        EXPECT_FALSE(meshes.make({0, 0.1}, {}, stop.get_token()));
-        EXPECT_TRUE(meshes.make({0, 0.1})) << "the same work space";
+        EXPECT_FALSE(meshes.make({Instant(0), 0.1}, {}, stop.get_token()));
+        EXPECT_TRUE(meshes.make({Instant(0), 0.1})) << "the same work space";
     }
 }
 

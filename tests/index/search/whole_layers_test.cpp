@@ -84,7 +84,7 @@ class WholeLayersTest : public testing::Test {
         return at ? WholeLayers::worth(step(), *at, 2, room) : std::nullopt;
     }
 
-    StepView step() const { return step_in_chunks(*file_, 0); }
+    StepView step() const { return step_in_chunks(*file_, Instant(0)); }
     bool search(CellSet& set, const std::stop_token& stop = {}) const {
         return LayerSearch(file_).search(step(), set, true, true, stop);
     }
@@ -176,7 +176,8 @@ TEST_F(WholeLayersTest, OfASmallStepComeInOneRequestWithItsTablesAndLevels) {
         index(field);
         for (const std::uint32_t step : {1u, 0u, 2u}) {
             source_->requests = 0;
-            const CellSetPtr found = search_in(file_, {}, Shading::cells)({step, 128.5}, {});
+            const CellSetPtr found =
+                search_in(file_, {}, Shading::cells)({Instant(step), 128.5}, {});
             EXPECT_EQ(source_->requests, 1) << name_of(type);
             EXPECT_EQ(found->ids, BruteForce(field.view(), step).active(128.5));
         }
@@ -218,8 +219,8 @@ TEST_F(WholeLayersTest, AreWorkedOnOnceEachByAnyNumberOfThreads) {
         EXPECT_TRUE(layers.for_each(
             [&](StepSlab& slab, std::uint32_t layer, std::chrono::nanoseconds) {
                 std::vector<CellId> ids;
-                test_bricks(slab.cells(), *file_->chunks().levels(0), slab.bricks(), {0, 128.5},
-                            ids);
+                test_bricks(slab.cells(), *file_->chunks().levels(0), slab.bricks(),
+                            {Instant(0), 128.5}, ids);
                 sort_ids(ids, slab.cells().grid.cell_count());
                 for (CellId& id : ids)
                     id += slab.first_cell();
@@ -291,7 +292,7 @@ TEST_F(WholeLayersTest, ADamagedChunkIsOneLine) {
     set.query = {0, 128.5};
     try {
         const auto file = IndexFile::open(damaged);
-        LayerSearch(file).search(step_in_chunks(*file, 0), set, true, true, {});
+        LayerSearch(file).search(step_in_chunks(*file, Instant(0)), set, true, true, {});
         FAIL() << "no error";
     } catch (const Error& error) {
         EXPECT_EQ(error.what(), damaged.string() + ": damaged: volume, step 0: chunk 3 0 2: its "

@@ -62,12 +62,12 @@ TEST(WideIds, OfAStepOf2To32CellsAreAllFoundInTheirPlaces) {
     const auto file = IndexFile::open(std::make_unique<HugeIndex>(grid, high));
     const auto expected = active_slowly(grid, high);
     EXPECT_GT(expected.back(), 0xffff'0000u);
-    const Query query{0, 150};
+    const Query query{Instant(0), 150};
     const CellSetPtr found = search_in(file)(query, {});
     EXPECT_EQ(found->method, SearchMethod::bricks);
     EXPECT_EQ(wide_ids_of(*found, grid), expected);
     EXPECT_EQ(wide_ids_of(search_level(file, 0, query), grid), expected);
-    EXPECT_TRUE(search_in(file)({0, 250}, {})->ids.empty());
+    EXPECT_TRUE(search_in(file)({Instant(0), 250}, {})->ids.empty());
 }
 
 /// Chunks near the corner from which a volume starts, before and behind where ids of 32 bits begin
@@ -130,11 +130,11 @@ TEST(WideIds, OfFirstCrossingsHaveNoColor) {
 
 TEST(WideIds, OfASurfaceAreColoredAsTheSameCellsOfAGridWithoutThem) {
     const auto colors = [](const std::shared_ptr<const IndexFile>& file) {
-        const CellSetPtr set = search_in(file)({0, 150}, {});
+        const CellSetPtr set = search_in(file)({Instant(0), 150}, {});
         std::vector<std::uint16_t> out(set->ids.size(), kNoColor);
         const ColorSource by_own_values(*file, 0);
-        EXPECT_TRUE(
-            LayerSearch(file).color_cells(step_in_chunks(*file, 0), *set, by_own_values, out, {}));
+        EXPECT_TRUE(LayerSearch(file).color_cells(step_in_chunks(*file, Instant(0)), *set,
+                                                  by_own_values, out, {}));
         return out;
     };
     const auto found = colors(step_of(2049, 2049));
@@ -144,11 +144,11 @@ TEST(WideIds, OfASurfaceAreColoredAsTheSameCellsOfAGridWithoutThem) {
 
 TEST(WideIds, AreCountedWithoutBeingKept) {
     const auto file = step_of(2049, 2049);
-    const Query query{0, 150};
-    const StepView step = step_in_chunks(*file, 0);
+    const Query query{Instant(0), 150};
+    const StepView step = step_in_chunks(*file, Instant(0));
     EXPECT_EQ(LayerSearch(file).count(step, query, true, {}),
               search_in(file)(query, {})->ids.size());
-    EXPECT_EQ(LayerSearch(file).count(step, {0, 250}, true, {}), 0u);
+    EXPECT_EQ(LayerSearch(file).count(step, {Instant(0), 250}, true, {}), 0u);
 }
 
 TEST(WideIds, WhatTellsCellsApartBy32BitsRefusesThemBeforeAnythingIsRead) {

@@ -56,8 +56,8 @@ std::map<CutEdge, Cut> cuts_of(const StepValues& values, const Query& query,
             from[axis == 2 ? 1 : 2] += e / 2 % 2;
             auto to = from;
             ++to[axis];
-            const double a = value_at(values, query.step, from),
-                         b = value_at(values, query.step, to);
+            const double a = value_at(values, query.instant.step, from),
+                         b = value_at(values, query.instant.step, to);
             if ((a >= query.isovalue) != (b >= query.isovalue))
                 cuts[{from[0], from[1], from[2], axis}] = {
                     (query.isovalue - a) / (b - a),
@@ -95,7 +95,7 @@ TEST(CellMesh, HasOneVertexOnEveryCutEdgeOfEveryTypeScalingAndTie) {
             const TestField field = steps_of(random, {5, 6, 7}, type, scaling);
             const StepValues values = field.view();
             for (const double isovalue : ties(values, 5)) {
-                const Query query{1, isovalue};
+                const Query query{Instant(1), isovalue};
                 const auto cells = active_cells(values, query);
                 const auto cuts = cuts_of(values, query, cells);
                 const CellMesh mesh = mesh_of(values, query);
@@ -121,7 +121,7 @@ TEST(CellMesh, TrianglesLieInTheirCellsAndCloseWithinTheGrid) {
     for (int round = 0; round < 20; ++round) {
         const TestField field = steps_of(random, {8, 9, 10}, ValueType::u8);
         const StepValues values = field.view();
-        const Query query{0, 4.5 + round % 3};
+        const Query query{Instant(0), 4.5 + round % 3};
         const CellMesh mesh = mesh_of(values, query);
         const auto cells = active_cells(values, query);
         std::size_t corner = 0;
@@ -175,7 +175,7 @@ TEST(CellMesh, EveryWayThroughACellHasNoSideInAFaceButThoseOfItsPolygons) {
 
 TEST(CellMesh, OfASphereIsClosedAndFacesOutwards) {
     const TestField field({61, 50, 60}, 2, ValueType::f32, moving_sphere);
-    const CellMesh mesh = mesh_of(field.view(), {1, 112.5});
+    const CellMesh mesh = mesh_of(field.view(), {Instant(1), 112.5});
     EXPECT_TRUE(open_sides(mesh).empty());
     EXPECT_EQ(mesh.vertices.size(), mesh.triangles.size() / 6 + 2); // Euler
     const glm::dvec3 middle(22.2, 19.09, 22.12);
@@ -195,10 +195,10 @@ TEST(CellMesh, NormalsArePhysicalAndTurnWithAFallingScaling) {
     StepValues values = field.view();
     values.grid.spacing = {0.5, 3.0, 1.25};
     const glm::dvec3 up = glm::normalize(glm::dvec3(1, 2, -1) / values.grid.spacing);
-    for (const MeshVertex& vertex : mesh_of(values, {0, 8.3}).vertices)
+    for (const MeshVertex& vertex : mesh_of(values, {Instant(0), 8.3}).vertices)
         EXPECT_LT(glm::distance(normal_of(vertex), -up), 1e-4);
     values.scaling.slope = -1;
-    const CellMesh falling = mesh_of(values, {0, -8.3});
+    const CellMesh falling = mesh_of(values, {Instant(0), -8.3});
     ASSERT_FALSE(falling.vertices.empty());
     for (const MeshVertex& vertex : falling.vertices)
         EXPECT_LT(glm::distance(normal_of(vertex), up), 1e-4);
@@ -211,7 +211,7 @@ TEST(CellMesh, LeavesOutCellsWithNaNAndEndsThere) {
         for (int i = 0; i < 12; ++i)
             field.at<float>(0, random() % (9 * 8 * 7)) = std::numeric_limits<float>::quiet_NaN();
         const StepValues values = field.view();
-        const Query query{0, 0.1};
+        const Query query{Instant(0), 0.1};
         const auto cells = active_cells(values, query);
         const auto cuts = cuts_of(values, query, cells);
         const CellMesh mesh = mesh_of(values, query);
@@ -226,7 +226,7 @@ TEST(CellMesh, InfiniteAndHugeValuesHaveCutsAtTheirFiniteEnds) {
     TestField field({3, 2, 2}, 1, ValueType::f64, [](double, double, double, double) { return 0; });
     for (std::size_t i = 0; i < 12; ++i)
         field.at<double>(0, i) = i % 3 == 0 ? -kInfinity : i % 3 == 1 ? 1e308 : -1e308;
-    const CellMesh mesh = mesh_of(field.view(), {0, 0.0});
+    const CellMesh mesh = mesh_of(field.view(), {Instant(0), 0.0});
     ASSERT_EQ(mesh.vertices.size(), 8u);
     for (const MeshVertex& vertex : mesh.vertices)
         EXPECT_EQ(position_of(vertex).x, vertex.x == 0 ? 1.0 : 1.5);
@@ -249,7 +249,7 @@ TEST(CellMesh, PartsSideBySideBecomeTheMeshThatOneMakes) {
     std::mt19937 random(test_seed());
     const TestField field({24, 25, 60}, 1, ValueType::u8, scaled(white_noise(random), 60, 62));
     const StepValues values = field.view();
-    const Query query{0, 60.5};
+    const Query query{Instant(0), 60.5};
     const CellMesh one = mesh_of(values, query);
     for (const std::size_t makers : {2u, 7u}) {
         const CellMesh many = mesh_of(values, query, makers);
@@ -265,7 +265,7 @@ TEST(CellMesh, AMakerForgetsTheMeshesBefore) {
                                                 2 + std::uint32_t(random() % 9),
                                                 2 + std::uint32_t(random() % 9)};
         const TestField field = steps_of(random, size, ValueType::i16);
-        const Query query{0, 4.5};
+        const Query query{Instant(0), 4.5};
         const auto cells = active_cells(field.view(), query);
         MeshPart part;
         ASSERT_TRUE(maker.make(field.view(), query, cells, part));

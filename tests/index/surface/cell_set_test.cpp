@@ -331,7 +331,7 @@ TEST(CellSet, RowsPartitionTheCellsInOrder) {
     for (const std::array<std::uint32_t, 3> vertices : {std::array{9u, 8u, 7u}, {5u, 41u, 31u}}) {
         const TestField field({vertices}, 1, ValueType::f32, turbulence(random));
         CellSet set;
-        scan(field.view(), {0, 0.05}, set.ids);
+        scan(field.view(), {Instant(0), 0.05}, set.ids);
         ASSERT_FALSE(set.ids.empty());
         ASSERT_TRUE(shade_cells(field.view(), set));
         expect_rows_partition_the_cells(field.view(), set);
@@ -343,7 +343,7 @@ TEST(CellSet, HasAllRowsHoweverManyThereAre) {
         const TestField field({4, rows + 1, 2}, 1, ValueType::u8,
                               [](double x, double, double, double) { return 100 * x; });
         CellSet set;
-        scan(field.view(), {0, 150}, set.ids);
+        scan(field.view(), {Instant(0), 150}, set.ids);
         ASSERT_TRUE(shade_cells(field.view(), set));
         EXPECT_EQ(set.rows.size(), rows);
         expect_rows_partition_the_cells(field.view(), set);

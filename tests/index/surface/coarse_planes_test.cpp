@@ -35,7 +35,8 @@ std::vector<CellPoint> cells_of_ball(unsigned level, double side) {
     CellSet set;
     set.query = {0, 0.0};
     const auto file = IndexFile::open(folder.path() / "a.isochron", 1);
-    EXPECT_TRUE(LayerSearch(file).search(step_in_chunks(*file, 0, level), set, true, true, {}));
+    EXPECT_TRUE(
+        LayerSearch(file).search(step_in_chunks(*file, Instant(0), level), set, true, true, {}));
     return set.points;
 }
 

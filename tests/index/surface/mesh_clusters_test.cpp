@@ -29,7 +29,7 @@ double ball_and_tube(double x, double y, double z, double) {
 }
 
 CellMesh ball_mesh(const TestField& field, std::size_t makers = 1) {
-    const Query query{0, 0.0};
+    const Query query{Instant(0), 0.0};
     std::vector<CellId> ids;
     scan(field.view(), query, ids);
     std::vector<MeshMaker> team(makers);

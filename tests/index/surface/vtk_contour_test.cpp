@@ -49,7 +49,7 @@ TEST(Rectilinear, SurfacesHaveThePlacesOfVtksContour) {
     const Grid& grid = file->info().grid;
     EXPECT_TRUE(grid.rectilinear());
     const ExtractionPtr shown = extract_from(file, std::nullopt, Shading::cells)(
-        {.step = 0, .isovalues = {kIsovalue}, .mesh_room = 1 << 28}, {});
+        {.instant = Instant(0), .isovalues = {kIsovalue}, .mesh_room = 1 << 28}, {});
     ASSERT_TRUE(shown);
     ASSERT_TRUE(shown->surfaces.front().mesh);
     std::vector<glm::dvec3> places;

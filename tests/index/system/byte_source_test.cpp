@@ -82,7 +82,8 @@ TEST_F(ByteSourceTest, FetchingReadsNothingForTheCallerAndLeavesErrorsToTheRead)
 
 TEST_F(ByteSourceTest, ReadsThatComeInPiecesGiveTheSame) {
     source_->most = 7;
-    EXPECT_EQ(search_in(file_)({1, 100.0}, {})->ids, BruteForce(field_.view(), 1).active(100.0));
+    EXPECT_EQ(search_in(file_)({Instant(1), 100.0}, {})->ids,
+              BruteForce(field_.view(), 1).active(100.0));
     EXPECT_NO_THROW(file_->verify());
 }
 
@@ -92,13 +93,13 @@ TEST_F(ByteSourceTest, AFailureIsOneLineOfEveryMethodAndTheNextSearchIsRight) {
         const Search search = search_in(file_, method);
         source_->fails = true;
         try {
-            search({2, 100.0}, {});
+            search({Instant(2), 100.0}, {});
             FAIL() << "no error";
         } catch (const Error& error) {
             EXPECT_STREQ(error.what(), "poor.isochron: cannot be read: Input/output error");
         }
         source_->fails = false;
-        EXPECT_EQ(search({2, 100.0}, {})->ids, BruteForce(field_.view(), 2).active(100.0));
+        EXPECT_EQ(search({Instant(2), 100.0}, {})->ids, BruteForce(field_.view(), 2).active(100.0));
     }
 }
 
@@ -150,11 +151,12 @@ TEST_F(ByteSourceTest, AnAbandonedSearchEndsWithTheReadsThatAreUnderWay) {
                 if (++reads == abandoned_at)
                     stop.request_stop();
             };
-            EXPECT_EQ(search({0, 100.0}, stop.get_token()), nullptr);
+            EXPECT_EQ(search({Instant(0), 100.0}, stop.get_token()), nullptr);
             EXPECT_LE(after, under_way);
             source.at_read = [&] { ++reads; };
             reads = 0;
-            EXPECT_EQ(search({0, 100.0}, {})->ids, BruteForce(field.view(), 0).active(100.0));
+            EXPECT_EQ(search({Instant(0), 100.0}, {})->ids,
+                      BruteForce(field.view(), 0).active(100.0));
             EXPECT_GT(reads, abandoned_at + 3 * under_way) << "there was nothing to abandon";
         }
 }

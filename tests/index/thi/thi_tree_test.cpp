@@ -33,7 +33,7 @@ void expect_exact(const ThiTree& tree, const StepValues& values,
             found = sorted(std::move(found));
             ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end())
                 << "a cell twice at step " << step << ", isovalue " << isovalue;
-            keep_active(values, {step, isovalue}, found);
+            keep_active(values, {Instant(step), isovalue}, found);
             ASSERT_EQ(found, oracle.active(isovalue))
                 << "at step " << step << ", isovalue " << isovalue;
         }

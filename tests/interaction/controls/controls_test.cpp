@@ -58,7 +58,7 @@ TEST(Controls, GamepadTriggersChangeTheIsovalueAndSticksFly) {
     desk.frame({head_at(kStanding), {"gamepad", std::nullopt, true, 0, {0, 0, 1, 0, 0, 0}}}, 0.1);
     EXPECT_LT(desk.center().x, before.x); // turning right: it swings to the left
     desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::right_bumper), {}}});
-    EXPECT_EQ(desk.settings.step, 1u);
+    EXPECT_EQ(desk.settings.instant, Instant(1));
     desk.frame({{"gamepad", std::nullopt, true, bit(GamepadButton::a), {}}});
     EXPECT_TRUE(desk.settings.playback.playing);
 }
@@ -66,18 +66,18 @@ TEST(Controls, GamepadTriggersChangeTheIsovalueAndSticksFly) {
 TEST(Controls, SteppingWrapsWithLoopStopsWithoutAndPauses) {
     Desk desk;
     desk.tap(bit(Action::step_back));
-    EXPECT_EQ(desk.settings.step, 4u);
+    EXPECT_EQ(desk.settings.instant, Instant(4));
     desk.tap(bit(Action::step_forward));
-    EXPECT_EQ(desk.settings.step, 0u);
+    EXPECT_EQ(desk.settings.instant, Instant(0));
     desk.tap(bit(Action::loop));
     EXPECT_FALSE(desk.settings.playback.loop);
     desk.tap(bit(Action::step_back));
-    EXPECT_EQ(desk.settings.step, 0u);
+    EXPECT_EQ(desk.settings.instant, Instant(0));
     desk.tap(bit(Action::play));
     EXPECT_TRUE(desk.settings.playback.playing);
     desk.tap(bit(Action::step_forward));
     EXPECT_FALSE(desk.settings.playback.playing);
-    EXPECT_EQ(desk.settings.step, 1u);
+    EXPECT_EQ(desk.settings.instant, Instant(1));
 }
 
 TEST(Controls, PlayingRunsThroughTheSeriesInTenSeconds) {
@@ -86,7 +86,7 @@ TEST(Controls, PlayingRunsThroughTheSeriesInTenSeconds) {
     std::vector<int> frames(5, 0);
     for (int frame = 0; frame < 600; ++frame) {
         desk.frame({head_at(kStanding)});
-        ++frames[desk.settings.step];
+        ++frames[desk.settings.instant.step];
     }
     for (const int count : frames)
         EXPECT_NEAR(count, 120, 3);
@@ -110,11 +110,11 @@ TEST(Controls, FollowingGoesToTheLastStep) {
     Desk desk;
     const Commands on = desk.tap(bit(Action::follow));
     EXPECT_EQ(on.follow, true);
-    EXPECT_EQ(on.step, 4u);
+    EXPECT_EQ(on.instant, Instant(4));
     desk.settings.follow = true;
     const Commands off = desk.tap(bit(Action::follow));
     EXPECT_EQ(off.follow, false);
-    EXPECT_FALSE(off.step);
+    EXPECT_FALSE(off.instant);
 }
 
 TEST(Controls, OneStepDoesNotPlay) {
@@ -211,7 +211,7 @@ TEST(ActionTable, HasOneRowForEachActionWithANameAndAnOldBitOfItsOwn) {
 TEST(Commands, MergingKeepsTheLaterAndCollectsStamps) {
     Commands a, b;
     a.isovalue = 1;
-    a.step = 2;
+    a.instant = Instant(2);
     a.stamps = {"one"};
     a.screenshot = true;
     b.isovalue = 3;
@@ -219,7 +219,7 @@ TEST(Commands, MergingKeepsTheLaterAndCollectsStamps) {
     b.stamps = {"two"};
     merge(a, b);
     EXPECT_EQ(a.isovalue, 3);
-    EXPECT_EQ(a.step, 2u);
+    EXPECT_EQ(a.instant, Instant(2));
     EXPECT_EQ(a.panel, false);
     EXPECT_TRUE(a.screenshot);
     EXPECT_EQ(a.stamps, (std::vector<std::string>{"one", "two"}));

@@ -172,7 +172,7 @@ TEST(MotionGate, EveryPendingInputLeavesSettledAtOnce) {
     Commands isovalue, surfaces, step, volume, play;
     isovalue.isovalue = 1.0;
     surfaces.isosurfaces = std::vector<Isosurface>(2);
-    step.step = 3;
+    step.instant = Instant(3);
     volume.room_from_physical = Similarity{};
     play.playback = PlaybackState{};
     const std::vector<std::pair<std::vector<DeviceState>, Commands>> inputs{
@@ -255,7 +255,7 @@ TEST(MotionGate, ALostHeadCountsAsStillWhereverItReappears) {
 TEST(MotionGate, AStepThatStandsForLongSettlesWhileTimePlays) {
     Commands play, next;
     play.playback = PlaybackState{true, false, true, 1.0};
-    next.step = 1;
+    next.instant = Instant(1);
     for (const int frames_of_step : {6, 8, 60}) { // 0.1 s, 0.13 s, 1 s
         SCOPED_TRACE(frames_of_step);
         MotionGate by_steps{StillnessLimits{}}, always{StillnessLimits{}};

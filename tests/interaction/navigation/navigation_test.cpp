@@ -328,7 +328,7 @@ TEST(Controls, NothingEverMakesTheVolumeInvalid) {
             ASSERT_NEAR(glm::length(desk.volume().rotation), 1.0, 1e-9);
             ASSERT_GE(desk.settings.isovalue(), 0);
             ASSERT_LE(desk.settings.isovalue(), 100);
-            ASSERT_LT(desk.settings.step, 5u);
+            ASSERT_LT(desk.settings.instant, Instant(5));
         }
     }
 }

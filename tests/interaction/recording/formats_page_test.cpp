@@ -90,12 +90,28 @@ TEST(FormatsPage, AxesOfVersion01AreStillRead) {
     }
 }
 
+TEST(FormatsPage, AnInstantIsAStepAndItsFraction) {
+    using nlohmann::json;
+    const auto read = [](const json& text) { return commands_from(text, "commands"); };
+    Commands expected;
+    expected.instant = Instant(3, 77);
+    EXPECT_EQ(read({{"step", 3}, {"fraction", 77}}), expected);
+    EXPECT_EQ(commands_json(expected), json({{"step", 3}, {"fraction", 77}}));
+    expected.instant = Instant(3);
+    EXPECT_EQ(read({{"step", 3}}), expected);
+    Commands alone;
+    alone.fraction = 77;
+    EXPECT_EQ(read({{"fraction", 77}}), alone);
+    EXPECT_EQ(commands_json(alone), json({{"fraction", 77}}));
+    EXPECT_THROW(read({{"step", 3}, {"fraction", 65536}}), interaction::Error);
+}
+
 TEST(FormatsPage, AMarkOfOlderRecordingsIsAtAStepItself) {
     const auto old = nlohmann::json::parse(R"({"position":[1,2.5,-3],"step":3,"value":9.25})");
     Commands expected;
-    expected.mark = Mark{MarkedPoint{{1, 2.5, -3}, 3, 9.25, 0}};
+    expected.mark = Mark{MarkedPoint{{1, 2.5, -3}, Instant(3), 9.25}};
     EXPECT_EQ(commands_from({{"mark", old}}, "commands"), expected);
-    expected.mark->point->fraction = 16384;
+    expected.mark->point->instant.fraction = 16384;
     EXPECT_EQ(commands_json(expected).at("mark").at("fraction"), 16384);
     EXPECT_EQ(commands_from(commands_json(expected), "commands"), expected);
     nlohmann::json wrong = old;

@@ -32,6 +32,10 @@ struct RandomValue {
                    ? static_cast<std::uint32_t>(random() % (static_cast<unsigned>(field.high) + 1))
                    : random();
     }
+    void operator()(const Field&, Instant& into) {
+        into = {static_cast<std::uint32_t>(random()),
+                static_cast<std::uint32_t>(random() % Instant::kFractions)};
+    }
     template <std::floating_point T>
     void operator()(const Field& field, T& into) {
         into = static_cast<T>(field.high < kAnyNumber ? uniform(random, field.low, field.high)
@@ -82,16 +86,17 @@ struct RandomValue {
             (*this)(field, into.emplace_back());
     }
     template <class T>
-    void operator()(const Field&, T& part)
-        requires requires { each_field(*this, part); }
-    {
+    void operator()(const Field&, T& part) requires requires {
         each_field(*this, part);
     }
+    { each_field(*this, part); }
 };
 
 inline Commands random_commands(Random& random) {
     Commands commands;
     each_field(RandomValue{random}, commands);
+    if (commands.instant)
+        commands.fraction.reset();
     return commands;
 }
 

@@ -95,13 +95,13 @@ TEST(Recompute, DevicesExplainEveryCommandThatThePanelDoesNot) {
                 if (random() % 20 == 0)
                     record.from_panel.isovalue = uniform(random, 0, 17);
                 if (random() % 50 == 0)
-                    record.from_panel.step = random() % 8;
+                    record.from_panel.instant = Instant(random() % 8);
                 merge(record.commands, record.from_panel);
                 session.obey(record.commands);
                 paces.push_back(
                     gate.update(record.input, record.commands, session.settings().quality));
                 navigated += record.commands.room_from_physical.has_value();
-                stepped += record.commands.step.has_value();
+                stepped += record.commands.instant.has_value();
                 writer.append(record);
                 now += uniform(random, 0.001, 0.06);
             }

@@ -26,7 +26,7 @@ class ToolDesk : public Desk {
             const glm::dvec3 at = from + along * (to - from);
             if (!(along > 0) || at.x < 0 || at.x > 60 || at.y < 0 || at.y > 50)
                 return std::nullopt;
-            return Pointed{{at, 0, settings.isovalue()}, 0};
+            return Pointed{{at, {}, settings.isovalue()}, 0};
         };
     }
     /// A click of the mouse, whose ray goes through a place in the room.

@@ -21,7 +21,8 @@ class Extractions {
     index::ExtractionPtr active(std::uint32_t step, std::vector<double> isovalues) {
         auto made = std::make_shared<index::Extraction>();
         for (const double isovalue : isovalues)
-            index::scan(values_, {step, isovalue}, made->surfaces.emplace_back().ids);
+            index::scan(values_, {index::Instant(step), isovalue},
+                        made->surfaces.emplace_back().ids);
         made->query = {step, std::move(isovalues)};
         return complete(std::move(made));
     }
@@ -41,7 +42,7 @@ class Extractions {
         auto with_points = std::make_shared<index::Extraction>(*set);
         for (std::size_t i = 0; i < with_points->surfaces.size(); ++i) {
             index::CellSet& surface = with_points->surfaces[i];
-            surface.query = {set->query.step, set->query.isovalues[i]};
+            surface.query = {set->query.instant, set->query.isovalues[i]};
             index::shade_cells(values_, surface);
         }
         return with_points;
@@ -65,7 +66,7 @@ class Extractions {
         made->levels = levels.units;
         for (const index::CellSet& surface : made->surfaces)
             gatherer_.need(surface);
-        gatherer_.gather(values_, made->query.step, levels, made->blocks);
+        gatherer_.gather(values_, made->query.instant, levels, made->blocks);
         return made;
     }
 

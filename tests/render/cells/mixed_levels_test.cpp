@@ -121,14 +121,14 @@ TEST_P(MixedLevels, AtLevelZeroThePictureIsThatOfTheVolume) {
 TEST_P(MixedLevels, AClosedSurfaceKeepsItsOutlineAndHasNoHolesInIt) {
     test_support::TestFolder folder;
     const index::Extract extract = extract_of(field_.view(), folder);
-    const index::ExtractionPtr whole = extract({0, {0.0}}, {});
+    const index::ExtractionPtr whole = extract({index::Instant(0), {0.0}}, {});
     const index::DetailRegions regions(field_.view().grid);
     for (const auto& [eye, parallel] :
          {std::pair{glm::vec3(150, 120, 190), false}, {glm::vec3(80, 200, 100), true}}) {
         look_from(eye, parallel);
         const std::vector<bool> exact = lit(picture(whole, Footprint::quad, CellShape::plane));
         for (int i = 0; i < 2; ++i) {
-            index::SurfacesQuery query{0, {0.0}};
+            index::SurfacesQuery query{index::Instant(0), {0.0}};
             query.detail.most_cells = whole->cells() / 2;
             for (std::size_t r = 0; r < regions.size(); ++r)
                 query.detail.wished.push_back(
@@ -170,7 +170,7 @@ TEST_P(MixedLevels, CellsThatReachIntoFinerRegionsCloseTheGapBetweenTheSheets) {
                                  });
     test_support::TestFolder folder;
     const index::Extract extract = extract_of(sheet.view(), folder);
-    index::SurfacesQuery query{0, {0.0}};
+    index::SurfacesQuery query{index::Instant(0), {0.0}};
     const index::ExtractionPtr whole = extract(query, {});
     const index::DetailRegions regions(sheet.view().grid);
     query.detail.most_cells = whole->cells() - 1;
@@ -228,7 +228,7 @@ TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
     values.first = stretched.view().first;
     test_support::TestFolder folder;
     const index::Extract extract = extract_of(values, folder);
-    index::SurfacesQuery query{0, {0.0}};
+    index::SurfacesQuery query{index::Instant(0), {0.0}};
     const index::ExtractionPtr whole = extract(query, {});
     const index::DetailRegions regions(values.grid);
     query.detail.most_cells = whole->cells() / 2;
@@ -266,9 +266,9 @@ TEST_P(MixedLevels, WhereALevelGivesWayNoOutlineMovesByMoreThanAPixel) {
     test_support::TestFolder folder;
     const index::Extract extract = extract_of(bumpy.view(), folder);
     const index::DetailRegions regions(bumpy.view().grid);
-    const index::ExtractionPtr whole = extract({0, {0.0}}, {});
+    const index::ExtractionPtr whole = extract({index::Instant(0), {0.0}}, {});
     const auto of_level = [&](unsigned level) {
-        index::SurfacesQuery query{0, {0.0}};
+        index::SurfacesQuery query{index::Instant(0), {0.0}};
         query.detail.most_cells = whole->cells() / 2;
         query.detail.wished.assign(regions.size(), static_cast<std::int8_t>(kParts * int(level)));
         index::ExtractionPtr set = level == 0 ? whole : extract(query, {});
@@ -316,7 +316,7 @@ TEST_P(MixedLevels, CellsThatOthersOfOtherLevelsHideMayBeLeftOut) {
     const index::DetailRegions regions(rough.view().grid);
     int several = 0;
     for (int i = 0; i < 3; ++i) {
-        index::SurfacesQuery query{0, {0.0, 20.0}};
+        index::SurfacesQuery query{index::Instant(0), {0.0, 20.0}};
         query.detail.most_cells = 30'000u >> 2 * i;
         for (std::size_t r = 0; r < regions.size(); ++r)
             query.detail.wished.push_back(

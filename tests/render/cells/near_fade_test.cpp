@@ -59,7 +59,7 @@ class NearFadeTest : public SurfaceTest {
     }
 
     const TestField smooth_{{24, 20, 22}, 1, ValueType::f32, index::turbulence(random_, 24)};
-    const VertexField field_{smooth_.view(), {0, 0.03}};
+    const VertexField field_{smooth_.view(), {index::Instant(0), 0.03}};
     const Placement placement_ =
         placed_at_origin(smooth_.view().grid, glm::scale(glm::dmat4(1.0), glm::dvec3(kScale)));
 };

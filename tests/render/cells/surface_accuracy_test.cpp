@@ -27,7 +27,7 @@ class SurfaceAccuracy : public SurfaceTest {
     void expect_agreement(const char* name, const index::StepValues& values, double isovalue,
                           const std::vector<View>& views,
                           const glm::dmat4& room_from_physical = glm::dmat4(1.0)) {
-        const VertexField field(values, {0, isovalue});
+        const VertexField field(values, {index::Instant(0), isovalue});
         const Placement placement = placed_at_origin(values.grid, room_from_physical);
         Agreement all;
         for (const View& view : views)
@@ -210,7 +210,7 @@ TEST_P(SurfaceAccuracy, OfAPlaneAlongTheGridSeenAlongTheAxes) {
     expect_agreement("plane of vertices", field.view(), 5.0, {view});
     view.eye_from_room = glm::lookAt(glm::vec3(2, 0, 0), glm::vec3(0), glm::vec3(0, 1, 0));
     const Placement placement = placed_at_origin(field.view().grid);
-    const VertexField from_its_edge(field.view(), {0, 5.3});
+    const VertexField from_its_edge(field.view(), {index::Instant(0), 5.3});
     const Agreement agreement =
         compare(draw(from_its_edge, placement, view), from_its_edge, view, placement);
     EXPECT_EQ(agreement.hit_by_one, 0);

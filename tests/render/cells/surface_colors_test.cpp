@@ -38,16 +38,18 @@ class SurfaceColorsTest : public GlTest {
         const std::vector<index::CellId>& ids = surface.ids;
         made->colors.resize(ids.size());
         made->corner_colors.resize(8 * ids.size());
-        EXPECT_TRUE(index::color_cells(volume_.view(), colors_.view(), {0, kColoredIsovalue}, ids,
-                                       kColoredLow, kColoredHigh, made->colors));
-        index::color_corners(colors_.view(), 0, ids, kColoredLow, kColoredHigh,
+        EXPECT_TRUE(index::color_cells(volume_.view(), colors_.view(),
+                                       {index::Instant(0), kColoredIsovalue}, ids, kColoredLow,
+                                       kColoredHigh, made->colors));
+        index::color_corners(colors_.view(), index::Instant(0), ids, kColoredLow, kColoredHigh,
                              made->corner_colors);
         if (!shaded)
             return made;
         std::vector<index::MeshMaker> makers(1);
         index::CellMesh mesh;
-        EXPECT_TRUE(make_mesh(makers, volume_.view(), {0, kColoredIsovalue}, ids, mesh));
-        mesh.values = index::values_at(colors_.view(), 0, mesh.vertices, 0);
+        EXPECT_TRUE(
+            make_mesh(makers, volume_.view(), {index::Instant(0), kColoredIsovalue}, ids, mesh));
+        mesh.values = index::values_at(colors_.view(), index::Instant(0), mesh.vertices, 0);
         index::color_by_values(mesh, kColoredLow, kColoredHigh);
         surface.mesh = std::make_shared<const index::CellMesh>(std::move(mesh));
         return made;
@@ -76,7 +78,7 @@ class SurfaceColorsTest : public GlTest {
 
     /// The color of a place, sRGB, 0 to 255.
     glm::dvec3 color_at(const RayHit& hit) const {
-        const VertexField field(colors_.view(), {0, 0.0});
+        const VertexField field(colors_.view(), {index::Instant(0), 0.0});
         const double value = field.value(hit.cell, hit.at - glm::dvec3(hit.cell));
         const double at =
             std::clamp((value - kColoredLow) / (kColoredHigh - kColoredLow), 0.0, 1.0) *
@@ -101,7 +103,7 @@ class SurfaceColorsTest : public GlTest {
     /// Percentage of the pixels with a surface in which a channel is off by more than 8 of 255.
     /// @param inside leave out pixels beside outlines
     double percent_off(const Image& picture, const View& view, bool inside = false) {
-        const VertexField field(volume_.view(), {0, kColoredIsovalue});
+        const VertexField field(volume_.view(), {index::Instant(0), kColoredIsovalue});
         const ReferenceRayCaster caster(field, view, placed_at_origin(volume_.view().grid));
         int all = 0, off = 0;
         for (int y = 0; y < kColoredSize.y; ++y)

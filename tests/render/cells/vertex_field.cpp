@@ -15,7 +15,8 @@ VertexField::VertexField(const index::StepValues& values, index::Query query)
       physical_gradient_from_index_(
           glm::transpose(glm::inverse(glm::dmat3(values.grid.physical_from_index())))) {
     for (std::size_t vertex = 0; vertex < values.grid.vertex_count(); ++vertex)
-        at_vertex_.push_back(index::scaled_value(values, query.step, vertex) - query.isovalue);
+        at_vertex_.push_back(index::scaled_value(values, query.instant.step, vertex) -
+                             query.isovalue);
 }
 
 glm::dvec3 VertexField::gradient(glm::ivec3 vertex) const {

@@ -50,7 +50,8 @@ class RectilinearPass : public GlTest {
             *extractions.shaded(extractions.active(0, {150.5})));
         std::vector<index::MeshMaker> makers(1);
         index::CellMesh mesh;
-        EXPECT_TRUE(make_mesh(makers, values, {0, 150.5}, set->surfaces[0].ids, mesh));
+        EXPECT_TRUE(
+            make_mesh(makers, values, {index::Instant(0), 150.5}, set->surfaces[0].ids, mesh));
         set->surfaces[0].mesh = std::make_shared<const index::CellMesh>(std::move(mesh));
 
         CellBuffers cells(gl_, grid);

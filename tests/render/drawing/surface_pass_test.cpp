@@ -18,7 +18,7 @@ using index::ValueType;
 class SurfacePasses : public SurfaceTest {
   protected:
     const TestField smooth_{{24, 20, 22}, 1, ValueType::f32, index::turbulence(random_, 24)};
-    const VertexField field_{smooth_.view(), {0, 0.03}};
+    const VertexField field_{smooth_.view(), {index::Instant(0), 0.03}};
     const Placement placement_ = placed_at_origin(smooth_.view().grid);
 
     /// Side by side in one target, of two sizes and off its corner.
@@ -119,7 +119,7 @@ TEST_P(SurfacePasses, EverySampleOfAPixelHasARayOfItsOwn) {
 TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {
     // Coarse noise: rays cross it up to three times within a cell.
     const TestField noise({7, 7, 7}, 1, ValueType::f32, index::white_noise(random_));
-    const VertexField field(noise.view(), {0, 0.1});
+    const VertexField field(noise.view(), {index::Instant(0), 0.1});
     const Placement placement = placed_at_origin(noise.view().grid);
     const View view = perspective_view({1.1f, 0.9f, 1.5f});
     constexpr float kOpacity = 0.4f;
@@ -155,7 +155,7 @@ TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {
 
 TEST_P(SurfacePasses, MoreCellsThanHaveCornersAtATimeAreAllWhereTheyBelong) {
     const TestField sheet({400, 300, 2}, 1, ValueType::u8, index::white_noise(random_));
-    const VertexField field(sheet.view(), {0, 0.01});
+    const VertexField field(sheet.view(), {index::Instant(0), 0.01});
     const Placement placement = placed_at_origin(sheet.view().grid);
     CellBuffers cells(gl_, field.values().grid);
     const index::ExtractionPtr active = Extractions(field.values()).active(0, {0.01});
@@ -216,7 +216,7 @@ TEST_P(SurfacePasses, AnOpaqueSurfaceIsSeenThroughAnotherThatSharesItsCells) {
 
 TEST_P(SurfacePasses, NormalsRunOnAcrossTheBordersOfCells) {
     const TestField sphere({40, 38, 41}, 1, ValueType::f32, index::moving_sphere);
-    const VertexField field(sphere.view(), {0, 100.5});
+    const VertexField field(sphere.view(), {index::Instant(0), 100.5});
     const Placement placement = placed_at_origin(sphere.view().grid);
     View view = perspective_view({0.3f, 0.2f, 1.5f});
     const SurfacePicture picture = draw(field, placement, view);
@@ -249,8 +249,8 @@ TEST_P(SurfacePasses, NormalsBesideMissingValuesAreNumbers) {
     for (int i = 0; i < 40; ++i)
         gaps.at<float>(0, random_() % 4096) = std::numeric_limits<float>::quiet_NaN();
     const SurfacePicture picture =
-        draw(VertexField(gaps.view(), {0, 0.03}), placed_at_origin(gaps.view().grid),
-             perspective_view({0.8f, 0.7f, 1.5f}));
+        draw(VertexField(gaps.view(), {index::Instant(0), 0.03}),
+             placed_at_origin(gaps.view().grid), perspective_view({0.8f, 0.7f, 1.5f}));
     int covered = 0;
     for (const glm::vec4& normal : picture.normals) {
         covered += normal.w > 0.0f;

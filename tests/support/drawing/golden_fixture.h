@@ -58,7 +58,7 @@ inline Commands showing(const interaction::Similarity& placement) {
     Commands commands;
     commands.room_from_physical = placement;
     commands.isovalue = kFromRadius - kOuterRadius;
-    commands.step = kStep;
+    commands.instant = index::Instant(kStep);
     return commands;
 }
 

@@ -135,10 +135,10 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
     }
     std::filesystem::remove(path.string());
     save_session(path, kept_of(state));
-    state.step = 3;
+    state.instant = index::Instant(3);
     SessionKeeper second(path, start, false);
     second.finish(state, head);
-    EXPECT_EQ(back_from(path).step, 3u);
+    EXPECT_EQ(back_from(path).instant, index::Instant(3));
     const auto all = sessions_of(path);
     ASSERT_EQ(all.size(), 2u);
     for (const EarlierSession& each : all)
@@ -191,7 +191,7 @@ TEST(SessionKeeper, WhatGoesOnWithWorkIsWork) {
     explore_once(path, state);
     EXPECT_FALSE(read_session(path).only_looked);
     SessionKeeper resumed(path, read_session(path), true);
-    state.step = 2;
+    state.instant = index::Instant(2);
     resumed.finish(state, kept_of({}).head);
     EXPECT_FALSE(read_session(path).only_looked);
     EXPECT_EQ(sessions_of(path).size(), 1u) << "it takes the place of what it goes on with";
@@ -202,12 +202,12 @@ TEST(SessionKeeper, LeavesAnEarlierSessionThatCannotBeRenamed) {
     const auto path = folder.path() / std::string(250, 'a'); // with a date it is too long
     save_session(path, kept_of({}));
     ExplorerState state;
-    state.step = 3;
+    state.instant = index::Instant(3);
     SessionKeeper keeper(path, kept_of({}), false);
     for (int twice = 0; twice < 2; ++twice) {
         state.step++;
         EXPECT_THROW(keeper.finish(state, kept_of({}).head), index::Error);
-        EXPECT_EQ(back_from(path).step, 0u);
+        EXPECT_EQ(back_from(path).instant, index::Instant(0));
     }
 }
 
@@ -240,7 +240,7 @@ TEST(KeptSession, EveryEarlierOneIsFoundAndTheLastComesFirst) {
     EXPECT_THAT(words_of(all.front()), testing::EndsWith(", only looked at"));
     options.session = (folder.path() / "own.isochron-session").string();
     for (std::uint32_t end = 1; end < 3; ++end) {
-        state.step = end;
+        state.instant = index::Instant(end);
         explore_once(*options.session, state);
     }
     EXPECT_EQ(earlier_sessions(options, *file).size(), 2u);
@@ -292,12 +292,12 @@ TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
         Commands commands;
         commands.isosurfaces = {
             {{5.5, {0.2f, 0.7f, 0.9f}, 0.4f}, {9.25, {0.9f, 0.3f, 0.1f}, 1.0f}}};
-        commands.step = 4;
+        commands.instant = index::Instant(4);
         commands.room_from_physical = interaction::Similarity{
             {-0.31, 0.87, -1.9}, glm::normalize(glm::dquat(0.9, 0.1, 0.3, -0.2)), 0.041};
         commands.clip = interaction::ClipPlane{true, {16, 15, 15}, {1, 0, 0}};
         commands.ruler = interaction::Ruler{{{10, 10, 10}, {20, 20, 12}}};
-        commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, 4, 9.25, 12345}};
+        commands.mark = interaction::Mark{interaction::MarkedPoint{{12, 14, 16}, {4, 12345}, 9.25}};
         commands.grid = true;
         session.frame(head_at_rest(0), commands, Waiting::for_cells);
         left = settled(session);

@@ -70,7 +70,7 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "logarithmic", .may_lack = true}, r.logarithmic...);
     visit(
         Field{
-            .key = "colors", .low = 0, .high = 0xffffff, .most = kMostMapColors, .may_lack = true},
+            .key = "colors", .low = 0, .high = 0xffffff, .most = kMostMapColors, .may_lack = true, .in_files = false},
         r.colors...);
     visit(Field{.key = "percentiles", .low = 0, .high = 100, .may_lack = true}, r.percentiles...);
 }
@@ -80,7 +80,8 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"background"}, r.background...);
     visit(Field{"material"}, r.material...);
     visit(Field{"occlusion", 0, 1}, r.occlusion...);
-    visit(Field{.key = "light", .low = -180, .high = 180, .may_lack = true}, r.light...);
+    visit(Field{.key = "light", .low = -180, .high = 180, .may_lack = true, .any_order = true},
+          r.light...);
 }
 
 template <class Visit, Of<SurfaceExport>... Records>

@@ -1,7 +1,8 @@
 // Settings: everything that a user can set while exploring, said once.
 //
 // A new setting is a member of SettingsOf and its line in each_setting; without that line this
-// header does not compile. Settings, which sessions keep, SettingChanges, which commands hold, and
+// header does not compile. A configuration file says how a setting begins whose line has a key there
+// (`configured`). Settings, which sessions keep, SettingChanges, which commands hold, and
 // with them merging, JSON, checks, undo, sessions, the comparison of replays and the random
 // recordings of the tests follow; docs/FORMATS.md is held against it.
 #pragma once
@@ -81,9 +82,10 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces, .dragged = true},
           r.isosurfaces...);
     visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
-    visit(Field{.key = "coloring", .dragged = true}, r.coloring...);
-    visit(Field{.key = "look", .dragged = true}, r.look...);
-    visit(Field{.key = "bounding_box", .old_key = "axes"}, r.bounding_box...);
+    visit(Field{.key = "coloring", .dragged = true, .configured = "coloring"}, r.coloring...);
+    visit(Field{.key = "look", .dragged = true, .configured = "look"}, r.look...);
+    visit(Field{.key = "bounding_box", .old_key = "axes", .configured = "rendering.bounding_box"},
+          r.bounding_box...);
     visit(Field{.key = "steps", .low = 0, .undone = false}, r.steps...);
     visit(Field{.key = "step", .dragged = true}, r.instant...);
     visit(Field{"between"}, r.between...);
@@ -92,12 +94,12 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{.key = "play_range", .dragged = true}, r.play_range...);
     visit(Field{.key = "bookmarks", .most = kMostBookmarks}, r.bookmarks...);
     visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
-    visit(Field{"quality"}, r.quality...);
+    visit(Field{.key = "quality", .configured = "quality.mode"}, r.quality...);
     visit(Field{.key = "eye_separation", .low = 0, .high = kWidestEyes, .dragged = true},
           r.eye_separation...);
     visit(Field{"stereo"}, r.stereo...);
     visit(Field{.key = "panel", .undone = false}, r.panel...);
-    visit(Field{"grid"}, r.grid...);
+    visit(Field{.key = "grid", .configured = "comfort.grid"}, r.grid...);
     visit(Field{.key = "views", .most = kMostViews}, r.views...);
     visit(Field{.key = "room_panel", .undone = false}, r.room_panel...);
     visit(Field{"mark"}, r.mark...);

@@ -17,6 +17,13 @@
 
 namespace isochron::stereo {
 
+/// The line of the file that describes something; 0: none does. It makes no difference whether two
+/// things are the same.
+struct FileLine {
+    int number = 0;
+    bool operator==(const FileLine&) const { return true; }
+};
+
 /// A wall: a rectangle given by three corners [m], in the room frame; or, if the head of the
 /// viewport's viewer carries it, in the head's frame (origin between the eyes, -Z ahead).
 struct Screen {
@@ -31,6 +38,7 @@ struct Screen {
     /// Fraction of the picture's width, at its left, that shows what lies left of the screen. The
     /// screen is fitted to the rest. Not configured.
     float aside = 0;
+    FileLine line{}; ///< or else of its viewport, or of its window
     bool operator==(const Screen&) const = default;
 };
 
@@ -67,6 +75,7 @@ struct Window {
     bool border = true; ///< whether the desktop may frame it
     StereoMode stereo = StereoMode::mono;
     std::vector<Viewport> viewports{Viewport{}};
+    FileLine line{};
     bool operator==(const Window&) const = default;
 };
 
@@ -88,6 +97,7 @@ struct Viewer {
     float eye_separation = 0.063f;        ///< meters, 0 to 0.1
     /// Measured places of the eyes in the head's frame [m], `eye_separation` apart; both or none.
     std::optional<glm::vec3> left_eye, right_eye;
+    FileLine line{};
     bool operator==(const Viewer&) const = default;
 };
 

@@ -3,7 +3,6 @@
 #include "app/config/check_config.h"
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
-#include "app/config/toml_reader.h"
 #include "app/output/guarded_outputs.h"
 #include "app/text.h"
 #include "index/system/new_file.h"
@@ -33,12 +32,13 @@ bool asks_for_tracker(const ConfigProblem& problem) {
 
 /// Checks an imported configuration as it will be checked when it is used. Messages leave line
 /// numbers out, as the lines differ from the lines of the imported file.
-Config sound_config(const std::string& text, const std::string& source) {
+Config sound_config(const std::string& text, const std::string& source,
+                    const stereo::Installation& installation) {
     const std::string name = "import";
     try {
         Config config = parse_config(text, name);
         config.name = source;
-        config.places = {};
+        config.installation = installation;
         for (const ConfigProblem& problem : problems_of(config))
             if (problem.wrong && !asks_for_tracker(problem))
                 throw ConfigError(line_of(problem, config));
@@ -57,7 +57,7 @@ void import(ImportOptions options) {
     const PvxImport imported = read_pvx(options.file, options.pvx);
     const std::string text =
         "# Imported from a .pvx file of ParaView.\n" + display_config_text(imported.installation);
-    const Config config = sound_config(text, options.file);
+    const Config config = sound_config(text, options.file, imported.installation);
     if (options.out) {
         guard_outputs({{*options.out, OutputKind::configuration, 0, text}}, {{options.file}},
                       options.force);

@@ -1,5 +1,6 @@
 // `isochron reproduce`: draws a picture again from the note inside it, and compares the two.
 #include "app/command_line/subcommands.h"
+#include "app/config/config_fields.h"
 #include "app/explore/kept_session.h"
 #include "app/explore/replay_source.h"
 #include "app/indexing/open_index.h"
@@ -68,10 +69,11 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
     config.pictures.ray = note.ray;
     config.pictures.caption = note.caption;
     config.pictures.text = static_cast<float>(note.text);
-    config.rendering.cell_shape = cell_shape_from_name(note.shape);
+    config.rendering.cell_shape = value_of<render::CellShape>(note.shape, "shape");
     config.openxr.enabled = false;
     if (note.footprint != render::name_of(render::Footprint::quad))
-        config.quality.settled = settled_footprint_from_name(note.footprint);
+        config.quality.settled =
+            value_of<SettledFootprint>(note.footprint, "footprint", kSettledField);
     auto& windows = config.installation.windows;
     for (stereo::Window& window : windows)
         window.fullscreen = false;

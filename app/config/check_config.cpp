@@ -1,9 +1,7 @@
 // Describes an installation and finds its problems.
 #include "app/config/check_config.h"
 
-#include "app/config/check/check_gaps.h"
-#include "app/config/check/check_measures.h"
-#include "app/config/check_devices.h"
+#include "app/config/check/check_parts.h"
 #include "app/config/tracker_setup.h"
 #include "app/text.h"
 #include "stereo/nodes.h"
@@ -26,33 +24,6 @@ constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to coin
 constexpr float kSame = 1e-3f;      ///< [m] corners this near are the same
 constexpr float kLevel = 0.7f;      ///< cosine to an axis of the room
 constexpr const char* kScreenKey = "windows.viewports.projection";
-
-struct PlacedViewport {
-    const stereo::Window& window;
-    const stereo::Viewport& viewport;
-    std::size_t number; ///< of the viewport in its window, from 1
-    int line;
-};
-
-/// A line of the file that `places` knows, or 0.
-int line_at(const std::vector<int>& lines, std::size_t index) {
-    return index < lines.size() ? lines[index] : 0;
-}
-
-DisplayPlaces::Window place_of_window(const Config& config, std::size_t index) {
-    return index < config.places.windows.size() ? config.places.windows[index]
-                                                : DisplayPlaces::Window{};
-}
-
-std::vector<PlacedViewport> viewports_of(const Config& config) {
-    std::vector<PlacedViewport> all;
-    const auto& windows = config.installation.windows;
-    for (std::size_t w = 0; w < windows.size(); ++w)
-        for (std::size_t v = 0; v < windows[w].viewports.size(); ++v)
-            all.push_back({windows[w], windows[w].viewports[v], v + 1,
-                           line_at(place_of_window(config, w).viewports, v)});
-    return all;
-}
 
 std::string name_of(const PlacedViewport& place) {
     if (!place.viewport.name.empty())
@@ -103,17 +74,16 @@ glm::ivec2 shared_pixels(const stereo::Window& a, const stereo::Window& b) {
 
 class Judge {
   public:
-    explicit Judge(const Config& config) : config_(config) {}
+    Judge(const Config& config, Findings& findings) : config_(config), findings_(findings) {}
 
-    std::vector<ConfigProblem> judge() {
+    void judge() {
         const auto all = viewports_of(config_);
         for (std::size_t i = 0; i < all.size(); ++i) {
             screen(all[i]);
             for (std::size_t j = 0; j < i; ++j)
                 pair(all[j], all[i]);
         }
-        for (ConfigProblem& problem : problems_of_gaps(gaps_, kScreenKey))
-            found_.push_back(std::move(problem));
+        check_gaps(gaps_, kScreenKey, findings_);
         windows();
         viewers(all);
         const std::string misfit = stereo::misfit(config_.installation, 1);
@@ -121,12 +91,11 @@ class Judge {
             add(0, "windows.node", misfit);
         if (config_.installation.near_plane >= config_.installation.far_plane)
             add(0, "rendering.near", "it is not nearer than rendering.far");
-        return std::move(found_);
     }
 
   private:
     void add(int line, const std::string& key, const std::string& text, bool wrong = true) {
-        found_.push_back({line, key, text, wrong});
+        wrong ? findings_.wrong(line, key, text) : findings_.warn(line, key, text);
     }
 
     void screen(const PlacedViewport& place) {
@@ -217,7 +186,7 @@ class Judge {
         const auto& windows = config_.installation.windows;
         for (std::size_t i = 0; i < windows.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) {
-                const int line = place_of_window(config_, i).line;
+                const int line = windows[i].line.number;
                 if (windows[i].fullscreen && windows[j].fullscreen &&
                     windows[i].monitor != stereo::kNextMonitor &&
                     windows[i].monitor == windows[j].monitor && windows[i].node == windows[j].node)
@@ -238,18 +207,18 @@ class Judge {
         for (std::size_t i = 0; i < viewers.size(); ++i) {
             if (std::ranges::none_of(
                     all, [&](const PlacedViewport& place) { return place.viewport.viewer == i; }))
-                add(line_at(config_.places.viewers, i), "viewers",
+                add(viewers[i].line.number, "viewers",
                     fmt::format("no viewport is for viewer {}", viewers[i].name), false);
             for (std::size_t j = 0; j < i; ++j)
                 if (viewers[i].head == viewers[j].head)
-                    add(line_at(config_.places.viewers, i), "viewers.head",
+                    add(viewers[i].line.number, "viewers.head",
                         fmt::format("device {} tracks viewer {} and viewer {}", viewers[i].head,
                                     viewers[j].name, viewers[i].name));
         }
     }
 
     const Config& config_;
-    std::vector<ConfigProblem> found_;
+    Findings& findings_;
     std::vector<ScreenGap> gaps_;
 };
 
@@ -313,13 +282,20 @@ std::string describe_nodes(const stereo::Installation& installation) {
 
 } // namespace
 
-std::vector<ConfigProblem> problems_of(const Config& config) {
-    std::vector<ConfigProblem> all = Judge(config).judge();
-    for (ConfigProblem& problem : problems_of_measures(config))
-        all.push_back(std::move(problem));
-    for (ConfigProblem& problem : problems_of_devices(config))
-        all.push_back(std::move(problem));
+std::vector<PlacedViewport> viewports_of(const Config& config) {
+    std::vector<PlacedViewport> all;
+    for (const stereo::Window& window : config.installation.windows)
+        for (std::size_t i = 0; i < window.viewports.size(); ++i)
+            all.push_back({window, window.viewports[i], i + 1});
     return all;
+}
+
+std::vector<ConfigProblem> problems_of(const Config& config) {
+    Findings findings;
+    Judge(config, findings).judge();
+    check_measures(config, findings);
+    check_devices(config, findings);
+    return std::move(findings.found);
 }
 
 std::string line_of(const ConfigProblem& problem, const Config& config) {

@@ -1,5 +1,5 @@
 // Finds the problems in the devices of a configuration.
-#include "app/config/check_devices.h"
+#include "app/config/check/check_parts.h"
 
 #include "app/config/tracker_setup.h"
 
@@ -12,11 +12,6 @@
 namespace isochron::app {
 namespace {
 
-/// A line of the file that `places` knows, or 0.
-int line_in(const std::vector<int>& lines, std::size_t index) {
-    return index < lines.size() ? lines[index] : 0;
-}
-
 /// Every device of every tracker, in one form.
 struct ListedDevice {
     const interaction::DeviceOptions& options;
@@ -25,31 +20,26 @@ struct ListedDevice {
     int line;           ///< of the tracker
 };
 
+std::string source_read_by(const interaction::DTrackOptions& dtrack,
+                           const interaction::DTrackDevice& device) {
+    return fmt::format("{} {} of {}", name_of(device.kind), device.id, to_string(dtrack.endpoint));
+}
+std::string source_read_by(const interaction::OscOptions& osc,
+                           const interaction::OscDevice& device) {
+    return fmt::format("{}/{} of {}", osc.prefix, device.source, to_string(osc.endpoint));
+}
+std::string source_read_by(const interaction::VrpnOptions&, const interaction::VrpnDevice& device) {
+    return device.tracker.empty() ? ""
+                                  : fmt::format("sensor {} of {}", device.sensor, device.tracker);
+}
+
 std::vector<ListedDevice> listed(const DeviceConfig& devices) {
-    using interaction::DTrackKind;
     std::vector<ListedDevice> all;
-    for (std::size_t i = 0; i < devices.dtrack.size(); ++i)
-        for (const interaction::DTrackDevice& each : devices.dtrack[i].devices) {
-            const char* kind = each.kind == DTrackKind::body       ? "body"
-                               : each.kind == DTrackKind::flystick ? "flystick"
-                                                                   : "marker";
-            all.push_back(
-                {each.device, "dtrack",
-                 fmt::format("{} {} of {}", kind, each.id, to_string(devices.dtrack[i].endpoint)),
-                 line_in(devices.places.dtrack, i)});
-        }
-    for (std::size_t i = 0; i < devices.osc.size(); ++i)
-        for (const interaction::OscDevice& each : devices.osc[i].devices)
-            all.push_back({each.device, "osc",
-                           fmt::format("{}/{} of {}", devices.osc[i].prefix, each.source,
-                                       to_string(devices.osc[i].endpoint)),
-                           line_in(devices.places.osc, i)});
-    for (std::size_t i = 0; i < devices.vrpn.size(); ++i)
-        for (const interaction::VrpnDevice& each : devices.vrpn[i].devices)
-            if (!each.tracker.empty())
-                all.push_back({each.device, "vrpn",
-                               fmt::format("sensor {} of {}", each.sensor, each.tracker),
-                               line_in(devices.places.vrpn, i)});
+    each_tracker(devices, [&](const char* key, const auto& tracker) {
+        for (const auto& each : tracker.devices)
+            if (const std::string source = source_read_by(tracker, each); !source.empty())
+                all.push_back({each.device, key, source, tracker.line});
+    });
     return all;
 }
 
@@ -63,36 +53,30 @@ bool overlap(const interaction::Endpoint& a, const interaction::Endpoint& b) {
 
 class DeviceJudge {
   public:
-    explicit DeviceJudge(const Config& config)
-        : config_(config), devices_(listed(config.devices)) {}
+    DeviceJudge(const Config& config, Findings& findings)
+        : config_(config), devices_(listed(config.devices)), findings_(findings) {}
 
-    std::vector<ConfigProblem> judge() {
+    void judge() {
         heads();
         sources();
         ports();
         for (const MissingTracker& missing : missing_trackers(config_))
-            add(missing.line, missing.key, missing.text);
-        return std::move(found_);
+            findings_.wrong(missing.line, missing.key, missing.text);
     }
 
   private:
-    void add(int line, const std::string& key, const std::string& text, bool wrong = true) {
-        found_.push_back({line, key, text, wrong});
-    }
-
     /// Mouse, keyboard and a headset provide `head`; any other name needs a tracker.
     void heads() {
-        const auto& viewers = config_.installation.viewers;
-        for (std::size_t i = 0; i < viewers.size(); ++i) {
-            const std::string& head = viewers[i].head;
+        for (const stereo::Viewer& viewer : config_.installation.viewers) {
+            const std::string& head = viewer.head;
             const bool tracked =
                 head == "head" || std::ranges::any_of(devices_, [&](const ListedDevice& device) {
                     return device.options.name == head && device.options.has_pose;
                 });
             if (!tracked)
-                add(line_in(config_.places.viewers, i), "viewers.head",
-                    fmt::format("no tracker provides device {}, which tracks viewer {}", head,
-                                viewers[i].name));
+                findings_.wrong(viewer.line.number, "viewers.head",
+                                fmt::format("no tracker provides device {}, which tracks viewer {}",
+                                            head, viewer.name));
         }
     }
 
@@ -101,10 +85,9 @@ class DeviceJudge {
         for (const ListedDevice& device : devices_) {
             const auto [known, is_new] = first.emplace(device.source, device.options.name);
             if (!is_new)
-                add(device.line, device.key + ".devices",
-                    fmt::format("{} and {} are both {}", known->second, device.options.name,
-                                device.source),
-                    false);
+                findings_.warn(device.line, device.key + ".devices",
+                               fmt::format("{} and {} are both {}", known->second,
+                                           device.options.name, device.source));
         }
     }
 
@@ -115,30 +98,28 @@ class DeviceJudge {
             int line;
         };
         std::vector<Listener> listeners;
-        const DeviceConfig& devices = config_.devices;
-        for (std::size_t i = 0; i < devices.dtrack.size(); ++i)
-            listeners.push_back(
-                {devices.dtrack[i].endpoint, "dtrack", line_in(devices.places.dtrack, i)});
-        for (std::size_t i = 0; i < devices.osc.size(); ++i)
-            listeners.push_back({devices.osc[i].endpoint, "osc", line_in(devices.places.osc, i)});
+        each_tracker(config_.devices, [&](const char* key, const auto& tracker) {
+            if constexpr (requires { tracker.endpoint; })
+                listeners.push_back({tracker.endpoint, key, tracker.line});
+        });
         for (std::size_t i = 0; i < listeners.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
                 if (overlap(listeners[i].endpoint, listeners[j].endpoint))
-                    add(listeners[i].line, listeners[i].key + ".port",
-                        fmt::format("{} is the {} tracker's of line {} already",
-                                    to_string(listeners[i].endpoint), listeners[j].key,
-                                    listeners[j].line));
+                    findings_.wrong(listeners[i].line, listeners[i].key + ".port",
+                                    fmt::format("{} is the {} tracker's of line {} already",
+                                                to_string(listeners[i].endpoint), listeners[j].key,
+                                                listeners[j].line));
     }
 
     const Config& config_;
     std::vector<ListedDevice> devices_;
-    std::vector<ConfigProblem> found_;
+    Findings& findings_;
 };
 
 } // namespace
 
-std::vector<ConfigProblem> problems_of_devices(const Config& config) {
-    return DeviceJudge(config).judge();
+void check_devices(const Config& config, Findings& findings) {
+    DeviceJudge(config, findings).judge();
 }
 
 } // namespace isochron::app

@@ -1,7 +1,7 @@
 // Color maps that ParaView has exported as JSON.
 #include "app/config/color_map_file.h"
 
-#include "app/config/toml_reader.h"
+#include "app/config/config_problem.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
 #include "render/gl/srgb.h"

@@ -1,217 +1,295 @@
-// Reading of the TOML configuration: the only file that knows its keys.
+// Reading of configuration files: one rule for each type of value, the keys from config_fields.h.
 #include "app/config/config.h"
 
-#include "app/config/look_config.h"
+#include "app/config/config_checks.h"
+#include "app/config/config_fields.h"
 #include "app/config/shipped_configs.h"
-#include "app/config/toml_reader.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
-#include "render/passes/color_map.h"
+#include "interaction/trackers/calibration.h"
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/trigonometric.hpp>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 namespace isochron::app {
 namespace {
 
-using interaction::QualityMode;
-
 constexpr std::uint64_t kMostBytes = 16 << 20; ///< largest configuration file
-constexpr const char* kAnyFootprint = "auto";
-constexpr std::array kSettledFootprints{render::Footprint::gaussian, render::Footprint::mesh,
-                                        render::Footprint::surface};
-constexpr std::array kCellShapes{render::CellShape::plane, render::CellShape::voxel};
 
-void read_emulation(TomlReader& reader, interaction::EmulationOptions& emulation) {
-    reader.number("walk_speed", 0.01, 100.0, emulation.walk_speed);
-    reader.number("look_speed", 0.01, 100.0, emulation.look_speed);
-    reader.number("wand_reach", 0.05, 5.0, emulation.wand_reach);
+struct Thing {
+    const char* what;
+    std::string_view name;
+};
+Thing thing_with(const stereo::Viewer& viewer) {
+    return {"viewer", viewer.name};
+}
+Thing thing_with(const stereo::Window& window) {
+    return {"window", window.name};
+}
+template <class Device>
+requires requires(Device each) {
+    each.device.name;
+}
+Thing thing_with(const Device& each) {
+    return {"device", each.device.name};
 }
 
-void read_quality(TomlReader& reader, Config& config) {
-    reader.word("mode", interaction::all_names<QualityMode>(), [&](const std::string& word) {
-        config.quality.mode = quality_mode_from_name(word);
-    });
-    reader.word("settled", settled_footprint_names(), [&](const std::string& word) {
-        config.quality.settled = settled_footprint_from_name(word);
-    });
-    reader.number("frame_budget_ms", 0.0, 1000.0, config.quality.frame_budget_ms);
-    reader.number("longest_ms", 0.0, 1000.0, config.quality.longest_ms);
-    reader.number("least_resolution", 0.35, 1.0, config.quality.least_resolution);
-    reader.number("still_budget_ms", 0.0, 10000.0, config.quality.still_budget_ms);
-    reader.number("still_linear", 0.0, 10.0, config.quality.stillness.linear);
-    reader.number("still_angular", 0.0, 10.0, config.quality.stillness.angular);
-    reader.number("leave_factor", 1.0, 100.0, config.quality.stillness.leave_factor);
-    double settle_ms = config.quality.stillness.settle.count() * 1e3;
-    reader.number("settle_ms", 0.0, 10000.0, settle_ms);
-    config.quality.stillness.settle = interaction::Seconds(settle_ms / 1e3);
-}
+/// Reads the table at a place, and says where it is if it cannot.
+class Reader {
+  public:
+    explicit Reader(Config& config) : config_(config) {}
 
-void read_surface(TomlReader& reader, std::vector<ConfiguredSurface>& surfaces) {
-    const auto& palette = render::surface_palette();
-    ConfiguredSurface& surface = surfaces.emplace_back(
-        ConfiguredSurface{std::nullopt, kFirstQuantile, palette[surfaces.size() % palette.size()]});
-    double isovalue = 0;
-    constexpr double kMost = std::numeric_limits<double>::max();
-    reader.number("isovalue", -kMost, kMost, isovalue);
-    if (reader.has("isovalue") && reader.has("quantile"))
-        reader.fail("quantile", "a surface has either an isovalue or a quantile");
-    if (reader.has("isovalue"))
-        surface.isovalue = isovalue;
-    reader.number("quantile", 0.0, 1.0, surface.quantile);
-    reader.color("color", surface.color);
-    reader.number("opacity", 0.0, 1.0, surface.opacity);
-}
+    template <Table T>
+    void read(TomlTable at, T& table) {
+        each_field([&](const Field& field, auto&& member) { read(at, field, member, table); },
+                   table);
+        if (!at.is_there())
+            return;
+        if constexpr (requires { table.line.number; })
+            table.line.number = at.line();
+        else if constexpr (requires { table.line = at.line(); })
+            table.line = at.line();
+        if constexpr (requires { check(at, config_, table); })
+            check(at, config_, table);
+    }
 
-void read_surfaces(TomlReader& reader, Config& config) {
-    reader.tables("surfaces", [&](TomlReader& inner) { read_surface(inner, config.surfaces); });
-    if (config.surfaces.size() > interaction::kMostIsosurfaces)
-        reader.fail("surfaces", fmt::format("expected at most {}, got {}",
-                                            interaction::kMostIsosurfaces, config.surfaces.size()));
-}
+  private:
+    template <class T, class Owner>
+    void read(TomlTable& at, const Field& field, T& member, Owner& owner) {
+        if (!field.in_files)
+            return;
+        if constexpr (Tables<T>) {
+            read_list(at, field, member, owner);
+        } else if constexpr (Table<T>) {
+            read(at.within(field.key), member);
+        } else if constexpr (kIsOptional<T>) {
+            if (const toml::node* node = at.take(field.key)) {
+                if constexpr (Table<typename T::value_type>)
+                    read(at.within(field.key), member.emplace());
+                else if constexpr (Worded<T>)
+                    take({at, field, *node}, member);
+                else
+                    take({at, field, *node}, member.emplace());
+            }
+        } else if (const toml::node* node = at.take(field.key)) {
+            take({at, field, *node}, member);
+        }
+    }
 
-void read_lighting(TomlReader& reader, render::CellAppearance& look) {
-    constexpr double kBrightest = 4.0;
-    reader.number("ambient", 0.0, kBrightest, look.ambient);
-    reader.number("head_light", 0.0, kBrightest, look.head_light);
-    reader.number("key_light", 0.0, kBrightest, look.key_light);
-    reader.vector("key_direction", look.key_direction);
-    if (glm::length(look.key_direction) < 1e-6f)
-        reader.fail("key_direction", "expected a direction towards the light, got 0 0 0");
-    reader.number("ground", 0.0, 1.0, look.ground);
-    reader.number("reflectance", 0.0, 1.0, look.reflectance);
-    reader.number("shininess", 1.0, 1000.0, look.shininess);
-    reader.number("outline", 0.0, 1.0, look.outline);
-    reader.number("depth_cue", 0.0, 1.0, look.depth_cue);
-}
+    template <class T, class Owner>
+    void read_list(TomlTable& at, const Field& field, std::vector<T>& list, Owner& owner) {
+        const auto read_item = [&](std::vector<T>& into, std::string_view key,
+                                   const toml::node& node) {
+            TomlTable item = at.item(key, node);
+            read(item, into.back());
+            refuse_twin(item, into);
+            item.finish();
+        };
+        const auto add = [&](std::vector<T>& into) {
+            T& item = into.emplace_back();
+            if constexpr (requires { item.name.empty(); })
+                if (!item.name.empty() && into.size() > 1)
+                    item.name += fmt::format(" {}", into.size());
+            if constexpr (requires { begin(std::as_const(owner), into); })
+                begin(std::as_const(owner), into);
+        };
+        const toml::node* node = at.take(field.key);
+        const toml::node* one = field.one ? at.take(field.one) : nullptr;
+        if (one && (one != node || one->is_table())) {
+            if (list.empty())
+                add(list);
+            read_item(list, field.one, *one);
+            if (node && node != one)
+                at.fail(field.key, fmt::format("[{0}] describes the one {0} already", field.one));
+            return;
+        }
+        if (!node)
+            return;
+        const toml::array* array = node->as_array();
+        if (!array || array->empty() || !array->is_homogeneous(toml::node_type::table))
+            at.fail(field.key,
+                    fmt::format("expected [[{}]] tables, got {}", field.key, type_name(*node)));
+        std::vector<T> items;
+        for (const toml::node& element : *array) {
+            add(items);
+            read_item(items, field.key, element);
+        }
+        list = std::move(items);
+    }
 
-void read_rendering(TomlReader& reader, Config& config) {
-    reader.word("shape", cell_shape_names(), [&](const std::string& word) {
-        config.rendering.cell_shape = cell_shape_from_name(word);
-    });
-    reader.word("context", {"glfw", "egl", "osmesa"}, [&](const std::string& word) {
-        config.rendering.context = *stereo::context_kind_from_name(word);
-    });
-    reader.flag("vsync", config.rendering.vsync);
-    reader.number("frame_rate_limit", 1.0, 1000.0, config.rendering.frame_rate_limit);
-    reader.integer("upload_kilobytes_per_frame", 16, 1 << 20,
-                   config.rendering.upload_kilobytes_per_frame);
-    reader.number("near", 1e-3, 10.0, config.installation.near_plane);
-    reader.number("far", 1.0, 1e5, config.installation.far_plane);
-    reader.color("background", config.rendering.background);
-    reader.color("surface_color", config.rendering.surface_color);
-    reader.integer("samples", 0, 64, config.rendering.samples);
-    reader.integer("picture_samples", 0, 64, config.pictures.samples);
-    reader.word("blending", {"auto", "linear", "display"}, [&](const std::string& word) {
-        config.rendering.blending = word == "auto"     ? Blending::automatic
-                                    : word == "linear" ? Blending::linear
-                                                       : Blending::display;
-    });
-    reader.word("drawn_by", {"auto", "gpu", "processor"}, [&](const std::string& word) {
-        config.rendering.drawn_by = word == "auto"  ? render::DrawnBy::automatic
-                                    : word == "gpu" ? render::DrawnBy::gpu
-                                                    : render::DrawnBy::processor;
-    });
-    reader.flag("level_of_detail", config.rendering.level_of_detail);
-    reader.flag("bounding_box", config.rendering.bounding_box);
-    reader.flag("wand_ray", config.rendering.wand_ray);
-    reader.flag("picture_ray", config.pictures.ray);
-    reader.flag("picture_caption", config.pictures.caption);
-}
+    /// Messages, and the names of pictures, tell devices, viewers and windows apart by name.
+    template <class T>
+    void refuse_twin(const TomlTable& item, const std::vector<T>& all) {
+        if constexpr (requires { thing_with(all.back()); }) {
+            const auto [what, name] = thing_with(all.back());
+            if (name.empty())
+                item.fail("name", fmt::format("a {} needs a name", what));
+            if (std::ranges::count(all, name, [](const T& each) { return thing_with(each).name; }) >
+                1)
+                item.fail("name", fmt::format("two {}s are called '{}'", what, name));
+        }
+    }
 
-void read_placement(TomlReader& reader, PlacementOptions& placement) {
-    reader.number("size", 0.01, 100.0, placement.size);
-    reader.number("height", -100.0, 100.0, placement.height);
-    reader.number("distance", -100.0, 100.0, placement.distance);
-    reader.number("fill", 0.0, 1.0, placement.fill);
-}
+    /// A value of the file.
+    struct Given {
+        const TomlTable& at;
+        Field field;
+        const toml::node& node;
 
-void read_time(TomlReader& reader, std::optional<interaction::BetweenSteps>& between) {
-    reader.word("between", {"auto", "hold", "blend"}, [&](const std::string& word) {
-        between = interaction::value_named<interaction::BetweenSteps>(word); // none is `auto`
-    });
-}
+        [[noreturn]] void fail(const std::string& message) const { at.fail(field.key, message); }
+        template <class T>
+        T exactly(const char* expected) const {
+            if (const auto value = node.value_exact<T>())
+                return *value;
+            fail(fmt::format("expected {}, got {}", expected, type_name(node)));
+        }
+        template <class T>
+        void expect_in_range(const char* what, T value) const {
+            const auto number = static_cast<double>(value);
+            if (!std::isfinite(number) || number < field.low || number > field.high)
+                fail(fmt::format("expected {} from {} to {}, got {}", what, field.low, field.high,
+                                 value));
+        }
+        double number() const {
+            const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+            if (!value)
+                fail(fmt::format("expected a number, got {}", type_name(node)));
+            expect_in_range("a number", *value);
+            return *value;
+        }
+        double whole_number() const {
+            const double value = number();
+            if (value != std::floor(value))
+                fail(fmt::format("expected whole numbers, got {}", value));
+            return value;
+        }
+        /// @param size of the array, or most of it @param words its expected size in words
+        template <class T>
+        std::vector<T> numbers(std::size_t least, std::size_t most, const char* words) const {
+            const toml::array* array = node.as_array();
+            if (!array || array->size() < least || array->size() > most)
+                fail(
+                    fmt::format("expected an array of {}{} numbers, got {}", words, most,
+                                array ? fmt::format("one of {}", array->size()) : type_name(node)));
+            std::vector<T> values;
+            for (const toml::node& element : *array) {
+                const Given one{at, field, element};
+                values.push_back(
+                    static_cast<T>(std::integral<T> ? one.whole_number() : one.number()));
+            }
+            return values;
+        }
+        /// @param words one of which it is
+        std::string word(const std::vector<std::string>& words) const {
+            const std::string value(new_spelling(exactly<std::string>("a string")));
+            if (std::ranges::find(words, value) == words.end())
+                fail(unknown_word("value", value, words));
+            return value;
+        }
+    };
 
-void read_root(TomlReader& reader, Config& config) {
-    int version = 1;
-    reader.integer("version", 1, 1, version);
-    config.places = read_displays(reader, config.installation);
-    config.emulation.head.position = config.installation.viewers.front().position;
-    reader.table("emulation", [&](TomlReader& inner) { read_emulation(inner, config.emulation); });
-    read_devices(reader, config.devices, config.emulation);
-    read_panel(reader, config.panel);
-    read_cluster(reader, config.cluster);
-    reader.table("openxr", [&](TomlReader& inner) { read_openxr(inner, config.openxr); });
-    read_comfort(reader, config.comfort, config.grid);
-    reader.table("quality", [&](TomlReader& inner) { read_quality(inner, config); });
-    reader.table("rendering", [&](TomlReader& inner) { read_rendering(inner, config); });
-    reader.table("lighting",
-                 [&](TomlReader& inner) { read_lighting(inner, config.rendering.appearance); });
-    reader.table("coloring", [&](TomlReader& inner) {
-        read_coloring(inner, config.name, config.coloring, config.color_maps);
-    });
-    reader.table("look", [&](TomlReader& inner) { read_look(inner, config.look); });
-    reader.table("time", [&](TomlReader& inner) { read_time(inner, config.between); });
-    read_surfaces(reader, config);
-    reader.table("memory", [&](TomlReader& inner) {
-        inner.integer("cache_megabytes", 0, 1 << 24, config.memory.cache_megabytes);
-        inner.integer("mesh_megabytes", 0, 1 << 16, config.memory.mesh_megabytes);
-        inner.integer("most_cells", 20'000, 500'000'000, config.memory.most_cells);
-    });
-    reader.table("placement", [&](TomlReader& inner) { read_placement(inner, config.placement); });
-}
+    void take(const Given& given, bool& into) {
+        if (const auto& words = given.field.words; words[0])
+            into = given.word({words[0], words[1]}) == words[1];
+        else
+            into = given.exactly<bool>("true or false");
+    }
+    template <std::integral T>
+    void take(const Given& any, T& into) {
+        Given given = any;
+        given.field.low = std::max(given.field.low, double(std::numeric_limits<T>::lowest()));
+        given.field.high = std::min(given.field.high, double(std::numeric_limits<T>::max()));
+        const auto value = given.exactly<std::int64_t>("an integer");
+        given.expect_in_range("an integer", value);
+        into = static_cast<T>(value);
+    }
+    /// A viewer, by name.
+    void take(const Given& given, std::size_t& into) {
+        std::vector<std::string> names;
+        for (const stereo::Viewer& viewer : config_.installation.viewers)
+            names.push_back(viewer.name);
+        into = std::ranges::find(names, given.word(names)) - names.begin();
+    }
+    template <std::floating_point T>
+    void take(const Given& given, T& into) {
+        into = static_cast<T>(given.number() / given.field.per);
+    }
+    void take(const Given& given, interaction::Seconds& into) {
+        into = interaction::Seconds(given.number() / given.field.per);
+    }
+    void take(const Given& given, std::string& into) {
+        const auto words = words_of_text(given.field.key);
+        into = words.empty() ? given.exactly<std::string>("a string") : given.word(words);
+    }
+    template <Worded T>
+    void take(const Given& given, T& into) {
+        into = value_of<T>(given.word(words_of<T>(given.field)));
+    }
+    /// Without a range of their own, they are meters or pixels.
+    template <glm::length_t n, class T>
+    void take(const Given& any, glm::vec<n, T>& into) {
+        Given given = any;
+        given.field.low = std::max(given.field.low, -kFar);
+        given.field.high = std::min(given.field.high, kFar);
+        const auto values = given.numbers<T>(n, n, "");
+        for (glm::length_t i = 0; i < n; ++i)
+            into[i] = values[static_cast<std::size_t>(i)];
+    }
+    /// Heading, pitch and roll in degrees.
+    void take(const Given& given, glm::quat& into) {
+        glm::vec3 degrees;
+        take(given, degrees);
+        into = interaction::rotation_from_angles(glm::radians(degrees));
+    }
+    void take(const Given& given, std::array<double, 2>& into) {
+        const auto values = given.numbers<double>(2, 2, "");
+        into = {values[0], values[1]};
+        if (!given.field.any_order && !(into[0] < into[1]))
+            given.fail(
+                fmt::format("expected two ascending numbers, got {} and {}", into[0], into[1]));
+    }
+    template <class T>
+    requires std::integral<T> || std::floating_point<T>
+    void take(const Given& given, std::vector<T>& into) {
+        into = given.numbers<T>(0, given.field.most, "at most ");
+    }
+    void take(const Given& given, interaction::Endpoint& into) {
+        const auto text = given.exactly<std::string>("a string");
+        const auto endpoint = interaction::endpoint_from(text);
+        if (!endpoint)
+            given.fail(fmt::format("expected a numeric address such as 192.168.0.10 or "
+                                   "192.168.0.10:5000, got '{}'",
+                                   text));
+        into = *endpoint;
+    }
+    void take(const Given& given, NumberInDTrack& into) {
+        into.device.kind = into.kind;
+        take(given, into.device.id);
+    }
+    /// A setting of a type that no file says.
+    template <class T>
+    void take(const Given& given, T&) {
+        given.fail("no file says it");
+    }
+
+    Config& config_;
+};
 
 } // namespace
 
-QualityMode quality_mode_from_name(const std::string& name) {
-    if (const auto mode = interaction::value_named<QualityMode>(name))
-        return *mode;
-    throw ConfigError(
-        fmt::format("unknown quality mode '{}', expected auto, fast, quality or paper", name));
-}
-
-std::optional<render::Footprint> settled_footprint_from_name(const std::string& name) {
-    for (const render::Footprint footprint : kSettledFootprints)
-        if (name == render::name_of(footprint))
-            return footprint;
-    if (name == kAnyFootprint)
-        return std::nullopt;
-    throw ConfigError(
-        fmt::format("unknown footprint '{}', expected auto, gaussian, mesh or surface", name));
-}
-
-std::vector<std::string> settled_footprint_names() {
-    std::vector<std::string> names{kAnyFootprint};
-    for (const render::Footprint footprint : kSettledFootprints)
-        names.emplace_back(render::name_of(footprint));
-    return names;
-}
-
-render::CellShape cell_shape_from_name(const std::string& name) {
-    for (const render::CellShape shape : kCellShapes)
-        if (name == render::name_of(shape))
-            return shape;
-    throw ConfigError(fmt::format("unknown shape '{}', expected plane or voxel", name));
-}
-
-std::vector<std::string> cell_shape_names() {
-    std::vector<std::string> names;
-    for (const render::CellShape shape : kCellShapes)
-        names.emplace_back(render::name_of(shape));
-    return names;
-}
-
-std::vector<std::string> stereo_mode_names() {
-    std::vector<std::string> names;
-    for (const std::string_view word : stereo::stereo_mode_words())
-        names.emplace_back(word);
-    return names;
+std::string unknown_word(const char* what, const std::string& word,
+                         const std::vector<std::string>& known) {
+    const std::string near = nearest_word(word, known);
+    return fmt::format("unknown {} '{}', expected one of {}{}", what, word, fmt::join(known, ", "),
+                       near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
 }
 
 interaction::EmulationOptions emulation_for(const Config& config) {
@@ -228,22 +306,14 @@ Config parse_config(const std::string& text, const std::string& name) {
     config.text = text;
     try {
         const toml::table table = toml::parse(text, name);
-        TomlReader reader(table, name, "");
-        read_root(reader, config);
-        reader.finish();
+        const TomlTable file(table, name, "");
+        Reader(config).read(file, config);
+        file.finish();
     } catch (const toml::parse_error& error) {
         throw ConfigError(one_line(
             fmt::format("{}:{}: {}", name, error.source().begin.line, error.description())));
     }
     return config;
-}
-
-std::string config_schema() {
-    TableSchema schema;
-    TomlReader reader(schema);
-    Config defaults;
-    read_root(reader, defaults);
-    return schema.text();
 }
 
 Config read_config(const std::filesystem::path& path) {

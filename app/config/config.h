@@ -1,16 +1,19 @@
 // The configuration: an installation and the program's settings, read from a TOML file.
 #pragma once
 
-#include "app/config/cluster_config.h"
 #include "app/config/color_map_file.h"
-#include "app/config/device_config.h"
-#include "app/config/display_config.h"
+#include "app/config/config_problem.h"
 #include "app/config/first_placement.h"
 #include "app/config/openxr_config.h"
-#include "app/config/panel_config.h"
+#include "interaction/controls/desktop_emulation.h"
 #include "interaction/controls/motion_gate.h"
 #include "interaction/navigation/comfort.h"
+#include "interaction/settings.h"
+#include "interaction/trackers/dtrack_input.h"
+#include "interaction/trackers/osc_input.h"
+#include "interaction/trackers/vrpn_input.h"
 #include "render/drawing/cell_pass.h"
+#include "stereo/cluster.h"
 #include "stereo/context/gl_context.h"
 #include "stereo/installation.h"
 
@@ -28,8 +31,8 @@ constexpr double kFirstQuantile = 0.95;
 /// An isosurface to start with, given as an isovalue or else as a quantile of the data's values.
 struct ConfiguredSurface {
     std::optional<double> isovalue;
-    double quantile; ///< of all values, 0 to 1; used if there is no isovalue
-    glm::vec3 color; ///< sRGB
+    double quantile = kFirstQuantile; ///< of all values, 0 to 1; used if there is no isovalue
+    glm::vec3 color{};                ///< sRGB
     float opacity = 1.0f;
 };
 
@@ -39,7 +42,6 @@ enum class Blending : std::uint8_t { automatic, linear, display };
 
 /// How good pictures are, and what they may cost: the table `quality`.
 struct QualityConfig {
-    interaction::QualityMode mode = interaction::QualityMode::automatic; ///< at the start
     /// Footprint of a settled picture, whatever it costs; empty: the best one within the budget
     /// (the best one of all in a fixed-step replay, which measures nothing).
     std::optional<render::Footprint> settled;
@@ -70,7 +72,6 @@ struct RenderingConfig {
     render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
     int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
     bool level_of_detail = true; ///< coarser levels while too many cells move
-    bool bounding_box = true;    ///< with ticks and numbers
     bool wand_ray = true;
 };
 
@@ -86,6 +87,46 @@ struct PictureConfig {
     bool only_kept = false;
 };
 
+/// The trackers, any number of each kind.
+struct DeviceConfig {
+    interaction::DeviceOptions common; ///< what all devices start from: the table `tracking`
+    std::vector<interaction::DTrackOptions> dtrack;
+    std::vector<interaction::OscOptions> osc;
+    std::vector<interaction::VrpnOptions> vrpn;
+    bool empty() const { return dtrack.empty() && osc.empty() && vrpn.empty(); }
+};
+
+/// Calls `visit(key, tracker)` for every tracker, with the key of its table.
+template <class Visit>
+void each_tracker(const DeviceConfig& devices, Visit&& visit) {
+    const auto all = [&](const char* key, const auto& trackers) {
+        for (const auto& tracker : trackers)
+            visit(key, tracker);
+    };
+    all("dtrack", devices.dtrack);
+    all("osc", devices.osc);
+    all("vrpn", devices.vrpn);
+}
+
+struct ClusterConfig {
+    stereo::ClusterLimits limits;
+    bool swap_group = false; ///< let the graphics driver swap all windows at once
+};
+
+/// A window that shows only the panel.
+struct ConsoleConfig {
+    glm::ivec2 size{480, 900};
+    glm::ivec2 position = stereo::Window{}.position;
+    stereo::Window window() const { return {"console", size, position}; }
+};
+
+struct PanelConfig {
+    float width = 0.46f;    ///< [m] of the panel in the room
+    float distance = 0.65f; ///< [m] from the eyes, at which it appears
+    float font_scale = 1;   ///< size of the other panels, times the desktop's scale
+    std::optional<ConsoleConfig> console;
+};
+
 /// The table `memory`.
 struct MemoryConfig {
     int cache_megabytes = 0;    ///< most kept of the index; 0: a quarter of the usable memory
@@ -98,17 +139,18 @@ struct MemoryConfig {
     std::uint64_t mesh_room() const { return std::uint64_t(mesh_megabytes) << 20; }
 };
 
+/// Its keys are listed in config_fields.h.
 struct Config {
-    std::string name; ///< file name for messages; empty for the built-in defaults
-    std::string text; ///< the file's whole text, as recordings keep it
+    std::string name;            ///< file name for messages; empty for the built-in defaults
+    std::string text;            ///< the file's whole text, as recordings keep it
+    int version = 1;             ///< of its keys
+    interaction::Settings start; ///< what the file says of settings, which can change later
     stereo::Installation installation;
-    DisplayPlaces places; ///< lines of the file that describe the installation's parts
     interaction::EmulationOptions emulation;
     DeviceConfig devices;
     ClusterConfig cluster;
     OpenXrConfig openxr;
     interaction::ComfortOptions comfort;
-    bool grid = false; ///< floor grid shown at the start
     PanelConfig panel;
     PlacementOptions placement;
     QualityConfig quality;
@@ -116,9 +158,10 @@ struct Config {
     PictureConfig pictures;
     MemoryConfig memory;
     std::vector<ConfiguredSurface> surfaces; ///< empty: one surface of rendering.surface_color
-    interaction::Coloring coloring;
+    /// A file of color maps, which may be relative to the folder of the configuration, and the name
+    /// of the one to start with; empty: none.
+    std::string color_map_file, color_map_of_file;
     std::vector<LoadedColorMap> color_maps; ///< beside those that the program knows
-    interaction::Look look;
     /// The table `time`: what is shown between two steps at first; empty: what the data's own steps
     /// advise, in `explore`, else `hold`.
     std::optional<interaction::BetweenSteps> between;
@@ -133,22 +176,10 @@ Config parse_config(const std::string& text, const std::string& name);
 Config read_config(const std::filesystem::path& path);
 
 /// The JSON schema (draft 7) of configuration files, for editors and other programs. It is made
-/// from the readers above, so it allows exactly what they accept. Shipped as
-/// configs/isochron.schema.json.
+/// from the list of keys that reading uses, too. Shipped as configs/isochron.schema.json.
 std::string config_schema();
 
 /// The emulation's options, with the field of view of the first window's first screen.
 interaction::EmulationOptions emulation_for(const Config& config);
-
-/// Names as configuration files and the command line use them.
-interaction::QualityMode quality_mode_from_name(const std::string& name); ///< @throws ConfigError
-std::vector<std::string> stereo_mode_names();
-/// `auto` (empty), `gaussian`, `mesh`, `surface`: the footprint of a settled picture.
-/// @throws ConfigError for any other name
-std::optional<render::Footprint> settled_footprint_from_name(const std::string& name);
-std::vector<std::string> settled_footprint_names();
-/// `plane`, `voxel`. @throws ConfigError
-render::CellShape cell_shape_from_name(const std::string& name);
-std::vector<std::string> cell_shape_names();
 
 } // namespace isochron::app

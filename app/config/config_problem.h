@@ -1,9 +1,17 @@
-// A problem that a check found in a configuration.
+// What is wrong with a configuration.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 namespace isochron::app {
+
+/// `configs/desktop.toml:12: unknown key 'eye_seperation' in [viewer]; did you mean
+/// 'eye_separation'?`
+class ConfigError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
 
 /// Part of a configuration that can be read but will not work, or that only looks odd.
 struct ConfigProblem {

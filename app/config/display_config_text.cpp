@@ -1,5 +1,7 @@
-// Writes an installation as TOML.
+// Writes an installation as TOML, by the keys in config_fields.h.
 #include "app/config/display_config_text.h"
+
+#include "app/config/config_fields.h"
 
 #include <fmt/format.h>
 
@@ -20,91 +22,72 @@ std::string quoted(const std::string& text) {
     return result + '"';
 }
 
-/// With the fewest digits that read back as the same number.
-std::string numbers(const glm::vec2& v) {
-    return fmt::format("[{}, {}]", v.x, v.y);
-}
-std::string numbers(const glm::ivec2& v) {
-    return fmt::format("[{}, {}]", v.x, v.y);
-}
-std::string numbers(const glm::vec3& v) {
-    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+/// Whether the other keys of a viewer say this one.
+bool is_said(const stereo::Viewer& viewer, const Field& field) {
+    return viewer.left_eye && std::string_view(field.key) == "eye_separation";
 }
 
-std::string text_of(const stereo::Viewer& viewer) {
-    const std::string eyes =
-        viewer.left_eye && viewer.right_eye
-            ? fmt::format("left_eye = {}\n"
-                          "right_eye = {}\n",
-                          numbers(*viewer.left_eye), numbers(*viewer.right_eye))
-            : fmt::format("eye_separation = {}\n", viewer.eye_separation);
-    return fmt::format("\n[[viewers]]\n"
-                       "name = {}\n"
-                       "head = {}\n"
-                       "position = {}\n"
-                       "{}",
-                       quoted(viewer.name), quoted(viewer.head), numbers(viewer.position), eyes);
-}
+class Writer {
+  public:
+    explicit Writer(const stereo::Installation& installation) : installation_(installation) {}
 
-std::string text_of(const stereo::Viewport& viewport, const stereo::Viewer& viewer) {
-    const stereo::Screen& screen = viewport.screen;
-    std::string text = "\n[[windows.viewports]]\n";
-    if (!viewport.name.empty())
-        text += fmt::format("name = {}\n", quoted(viewport.name));
-    text += fmt::format("position = {}\n"
-                        "size = {}\n"
-                        "viewer = {}\n"
-                        "{}"
-                        "\n[windows.viewports.projection]\n"
-                        "carried_by = \"{}\"\n",
-                        numbers(viewport.position), numbers(viewport.size), quoted(viewer.name),
-                        viewport.upside_down ? "upside_down = true\n" : "",
-                        screen.carried_by_head ? "head" : "room");
-    if (screen.fit_aspect)
-        text += "fit_aspect = true\n";
-    if (screen.bezel != 0)
-        text += fmt::format("bezel = {}\n", screen.bezel);
-    return text + fmt::format("lower_left = {}\n"
-                              "upper_left = {}\n"
-                              "upper_right = {}\n",
-                              numbers(screen.lower_left), numbers(screen.upper_left),
-                              numbers(screen.upper_right));
-}
+    /// The keys of a table that differ from the usual, then the tables in it.
+    template <Table T>
+    std::string text_of(const std::string& path, const T& table, const T& usual) const {
+        std::string keys, inner;
+        each_field(
+            [&]<class V>(const Field& field, const V& value, const V& common) {
+                const std::string key = path.empty() ? field.key : path + "." + field.key;
+                if constexpr (Tables<V>) {
+                    for (const auto& item : value)
+                        inner += fmt::format("\n[[{}]]\n{}", key,
+                                             text_of(key, item, typename V::value_type()));
+                } else if constexpr (Table<V>) {
+                    inner += fmt::format("\n[{}]\n{}", key, text_of(key, value, common));
+                } else if (field.told || value != common) {
+                    if constexpr (requires { is_said(table, field); })
+                        if (is_said(table, field))
+                            return;
+                    keys += fmt::format("{} = {}\n", field.key, value_text(field, value));
+                }
+            },
+            table, usual);
+        return keys + inner;
+    }
 
-std::string text_of(const stereo::Window& window, const stereo::Installation& installation) {
-    std::string text = fmt::format("\n[[windows]]\n"
-                                   "name = {}\n"
-                                   "size = {}\n",
-                                   quoted(window.name), numbers(window.size));
-    if (window.position != glm::ivec2(-1))
-        text += fmt::format("position = {}\n", numbers(window.position));
-    if (window.fullscreen)
-        text += "fullscreen = true\n";
-    if (window.monitor != stereo::kNextMonitor)
-        text += fmt::format("monitor = {}\n", window.monitor);
-    if (window.node != 0)
-        text += fmt::format("node = {}\n", window.node);
-    if (!window.border)
-        text += "border = false\n";
-    text += fmt::format("stereo = \"{}\"\n", stereo::name_of(window.stereo));
-    for (const stereo::Viewport& viewport : window.viewports)
-        text += text_of(viewport, installation.viewers[viewport.viewer]);
-    return text;
-}
+  private:
+    std::string value_text(const Field& field, bool value) const {
+        return field.words[0] ? quoted(field.words[value]) : fmt::to_string(value);
+    }
+    std::string value_text(const Field&, int value) const { return fmt::to_string(value); }
+    /// With the fewest digits that read back as the same number.
+    std::string value_text(const Field&, float value) const { return fmt::to_string(value); }
+    std::string value_text(const Field&, const std::string& value) const { return quoted(value); }
+    std::string value_text(const Field&, stereo::StereoMode mode) const {
+        return quoted(std::string(stereo::name_of(mode)));
+    }
+    std::string value_text(const Field&, std::size_t viewer) const {
+        return quoted(installation_.viewers[viewer].name);
+    }
+    template <class T>
+    std::string value_text(const Field& field, const std::optional<T>& value) const {
+        return value_text(field, *value);
+    }
+    template <glm::length_t n, class T>
+    std::string value_text(const Field& field, const glm::vec<n, T>& value) const {
+        std::string text;
+        for (glm::length_t i = 0; i < n; ++i)
+            text += (i > 0 ? ", " : "[") + value_text(field, value[i]);
+        return text + "]";
+    }
+
+    const stereo::Installation& installation_;
+};
 
 } // namespace
 
 std::string display_config_text(const stereo::Installation& installation) {
-    std::string text = "version = 1\n";
-    for (const stereo::Viewer& viewer : installation.viewers)
-        text += text_of(viewer);
-    for (const stereo::Window& window : installation.windows)
-        text += text_of(window, installation);
-    const stereo::Installation usual;
-    if (installation.near_plane != usual.near_plane || installation.far_plane != usual.far_plane)
-        text += fmt::format("\n[rendering]\nnear = {}\nfar = {}\n", installation.near_plane,
-                            installation.far_plane);
-    return text;
+    return "version = 1\n" + Writer(installation).text_of("", installation, stereo::Installation());
 }
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// Writes an installation as the TOML that `read_displays` reads.
+// Writes an installation as the TOML that configurations are written in.
 #pragma once
 
 #include "stereo/installation.h"

@@ -1,86 +1,76 @@
-// Reading of the tables about colors and the look of the picture.
-#include "app/config/look_config.h"
-
+// What is refused of colors and light, and what one part of a file says of another.
+#include "app/config/color_map_file.h"
+#include "app/config/config_checks.h"
 #include "render/passes/color_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 
 namespace isochron::app {
 namespace {
 
-std::vector<LoadedColorMap> maps_of(const TomlReader& reader, const std::filesystem::path& path) {
-    try {
-        return read_color_maps(path);
-    } catch (const ConfigError& error) {
-        reader.fail("file", error.what());
-    }
-    return {};
+/// Takes the map that a file of color maps has under the name `coloring.file_map`.
+void take_maps(const TomlTable& at, Config& config) {
+    const std::string& name = config.color_map_of_file;
+    if (at.has("file"))
+        try {
+            config.color_maps = read_color_maps(std::filesystem::path(config.name).parent_path() /
+                                                config.color_map_file);
+        } catch (const ConfigError& error) {
+            at.fail("file", error.what());
+        }
+    if (!at.has("file_map"))
+        return;
+    if (!at.has("file"))
+        at.fail("file_map", "a map of a file needs the file");
+    const auto map = std::ranges::find(config.color_maps, name, &LoadedColorMap::name);
+    if (map == config.color_maps.end())
+        at.fail("file_map", fmt::format("unknown value '{}', expected one of {}", name,
+                                        fmt::join(config.color_maps |
+                                                      std::views::transform(&LoadedColorMap::name),
+                                                  ", ")));
+    config.start.coloring.map = name;
+    config.start.coloring.colors = map->colors;
 }
 
 } // namespace
 
-void read_coloring(TomlReader& reader, const std::string& name, interaction::Coloring& coloring,
-                   std::vector<LoadedColorMap>& color_maps) {
-    reader.word("by", interaction::all_names<interaction::ColorBy>(), [&](const std::string& word) {
-        coloring.by = *interaction::value_named<interaction::ColorBy>(word);
-    });
-    reader.word("map", {render::kColorMapNames.begin(), render::kColorMapNames.end()},
-                [&](const std::string& word) { coloring.map = word; });
-    std::string file;
-    reader.text("file", file);
-    if (reader.has("file"))
-        color_maps = maps_of(reader, std::filesystem::path(name).parent_path() / file);
-    std::vector<std::string> loaded;
-    for (const LoadedColorMap& map : color_maps)
-        loaded.push_back(map.name);
-    if (reader.has("file_map") && !reader.has("file"))
-        reader.fail("file_map", "a map of a file needs the file");
-    reader.given_word("file_map", loaded, [&](const std::string& word) {
-        coloring.map = word;
-        coloring.colors = std::ranges::find(color_maps, word, &LoadedColorMap::name)->colors;
-    });
-    reader.text("array", coloring.array);
-    reader.flag("reversed", coloring.reversed);
-    int bands = static_cast<int>(coloring.bands);
-    reader.integer("bands", 0, static_cast<int>(interaction::kMostBands), bands);
-    coloring.bands = static_cast<std::uint32_t>(bands);
-    reader.flag("logarithmic", coloring.logarithmic);
-    glm::dvec2 ends(0.0);
-    reader.vector("percentiles", ends);
-    if (reader.has("percentiles")) {
-        if (reader.has("range"))
-            reader.fail("percentiles", "expected range or percentiles, got both");
-        if (!(0 <= ends.x && ends.x < ends.y && ends.y <= 100))
-            reader.fail("percentiles",
-                        fmt::format("expected two ascending numbers from 0 to 100, got {} and {}",
-                                    ends.x, ends.y));
-        coloring.percentiles = {ends.x, ends.y};
-    }
-    glm::dvec2 range(0.0);
-    reader.vector("range", range);
-    if (!reader.has("range"))
-        return;
-    if (!(range.x < range.y))
-        reader.fail("range",
-                    fmt::format("expected two ascending numbers, got {} and {}", range.x, range.y));
-    if (coloring.logarithmic && !(range.x > 0))
-        reader.fail("range", fmt::format("a logarithmic range is above 0, got {}", range.x));
-    coloring.range = {range.x, range.y};
+void begin(const Config&, std::vector<ConfiguredSurface>& all) {
+    const auto& palette = render::surface_palette();
+    all.back().color = palette[(all.size() - 1) % palette.size()];
 }
 
-void read_look(TomlReader& reader, interaction::Look& look) {
-    reader.word("background", interaction::all_names<interaction::Background>(),
-                [&](const std::string& word) {
-                    look.background = *interaction::value_named<interaction::Background>(word);
-                });
-    reader.word("material", interaction::all_names<interaction::Material>(),
-                [&](const std::string& word) {
-                    look.material = *interaction::value_named<interaction::Material>(word);
-                });
-    reader.number("occlusion", 0.0, 1.0, look.occlusion);
+void check(const TomlTable& at, const Config&, ConfiguredSurface&) {
+    if (at.has("isovalue") && at.has("quantile"))
+        at.fail("quantile", "a surface has either an isovalue or a quantile");
+}
+
+void check(const TomlTable& at, const Config&, interaction::Coloring& coloring) {
+    if (coloring.range && coloring.percentiles)
+        at.fail("percentiles", "expected range or percentiles, got both");
+    if (coloring.range && coloring.logarithmic && !(coloring.range->front() > 0))
+        at.fail("range",
+                fmt::format("a logarithmic range is above 0, got {}", coloring.range->front()));
+}
+
+void check(const TomlTable& at, const Config&, Config& config) {
+    config.emulation.head.position = config.installation.viewers.front().position;
+    const glm::vec2 near = config.comfort.near_fade;
+    if (at.has("comfort.near_fade") && !(near.x >= 0 && near.x < near.y && near.y <= 10))
+        at.fail("comfort.near_fade",
+                fmt::format("expected two ascending distances from 0 to 10 m, got {} and {}",
+                            near.x, near.y));
+    if (glm::length(config.rendering.appearance.key_direction) < 1e-6f)
+        at.fail("lighting.key_direction", "expected a direction towards the light, got 0 0 0");
+    if (config.surfaces.size() > interaction::kMostIsosurfaces)
+        at.fail("surfaces", fmt::format("expected at most {}, got {}",
+                                        interaction::kMostIsosurfaces, config.surfaces.size()));
+    take_maps(at.within("coloring"), config);
 }
 
 } // namespace isochron::app

@@ -1,40 +1,18 @@
-// Reads and describes the `[openxr]` table, and opens the headset that it asks for.
+// Describes the `[openxr]` table, and opens the headset that it asks for.
 #include "app/config/openxr_config.h"
 
+#include "app/config/config_fields.h"
 #include "app/text.h"
 #include "stereo/openxr/openxr_headset.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 
 namespace isochron::app {
 namespace {
 
-using stereo::Mirror;
-using stereo::OpenXrBinding;
-using stereo::OpenXrSpace;
-
-template <typename Value>
-struct Word {
-    Value value;
-    const char* name;
-};
-constexpr std::array kSpaces{Word<OpenXrSpace>{OpenXrSpace::automatic, "auto"},
-                             Word<OpenXrSpace>{OpenXrSpace::stage, "stage"},
-                             Word<OpenXrSpace>{OpenXrSpace::local, "local"}};
-constexpr std::array kBindings{Word<OpenXrBinding>{OpenXrBinding::automatic, "auto"},
-                               Word<OpenXrBinding>{OpenXrBinding::egl, "egl"},
-                               Word<OpenXrBinding>{OpenXrBinding::xlib, "xlib"}};
-constexpr std::array kMirrors{
-    Word<Mirror>{Mirror::left, "left"}, Word<Mirror>{Mirror::right, "right"},
-    Word<Mirror>{Mirror::both, "both"}, Word<Mirror>{Mirror::none, "none"}};
-constexpr std::array kHands{Word<bool>{false, "right"}, Word<bool>{true, "left"}};
-constexpr std::array kFallbacks{Word<WithoutRuntime>{WithoutRuntime::fail, "none"},
-                                Word<WithoutRuntime>{WithoutRuntime::window, "window"},
-                                Word<WithoutRuntime>{WithoutRuntime::wait, "wait"}};
+using interaction::name_of;
 
 std::string in_words(const OpenXrConfig& config) {
     switch (config.fallback) {
@@ -46,39 +24,7 @@ std::string in_words(const OpenXrConfig& config) {
     return "an error";
 }
 
-template <typename Words, typename Value>
-void read_word(TomlReader& reader, const char* key, const Words& words, Value& into) {
-    std::vector<std::string> names;
-    for (const auto& word : words)
-        names.emplace_back(word.name);
-    reader.word(key, names, [&](const std::string& name) {
-        into = std::ranges::find(words, name, [](const auto& word) {
-                   return std::string(word.name);
-               })->value;
-    });
-}
-
-template <typename Words, typename Value>
-const char* name_in(const Words& words, Value value) {
-    return std::ranges::find(words, value, [](const auto& word) { return word.value; })->name;
-}
-
 } // namespace
-
-void read_openxr(TomlReader& reader, OpenXrConfig& config) {
-    reader.flag("enabled", config.enabled);
-    stereo::OpenXrOptions& options = config.options;
-    read_word(reader, "reference_space", kSpaces, options.space);
-    read_word(reader, "binding", kBindings, options.binding);
-    read_word(reader, "mirror", kMirrors, config.mirror);
-    read_word(reader, "wand", kHands, options.left_handed);
-    read_word(reader, "fallback", kFallbacks, config.fallback);
-    reader.flag("depth", options.depth);
-    reader.number("scale", 0.1, 4.0, options.scale);
-    double retry = options.retry.count();
-    reader.number("retry_seconds", 0.1, 600.0, retry);
-    options.retry = interaction::Seconds(retry);
-}
 
 std::vector<std::string> describe_openxr(const OpenXrConfig& config) {
     if (!config.enabled)
@@ -86,10 +32,10 @@ std::vector<std::string> describe_openxr(const OpenXrConfig& config) {
     const stereo::OpenXrOptions& options = config.options;
     return {fmt::format("openxr: reference space {}, binding {}, pictures of {:g} times the "
                         "recommended size{}",
-                        name_in(kSpaces, options.space), name_in(kBindings, options.binding),
-                        options.scale, options.depth ? ", with depth where it is taken" : ""),
+                        name_of(options.space), name_of(options.binding), options.scale,
+                        options.depth ? ", with depth where it is taken" : ""),
             fmt::format("  mirror {}, wand in the {} hand, without a runtime: {}",
-                        name_in(kMirrors, config.mirror), name_in(kHands, options.left_handed),
+                        name_of(config.mirror), options.left_handed ? "left" : "right",
                         in_words(config)),
             fmt::format("  devices: head, wand, wand2; keys of their buttons{}",
                         built_with_openxr() ? "" : "; this program was built without OpenXR")};

@@ -1,7 +1,6 @@
 // The `[openxr]` table of a configuration: whether and how a headset is shown through OpenXR.
 #pragma once
 
-#include "app/config/toml_reader.h"
 #include "stereo/headset_display.h"
 #include "stereo/openxr/openxr_options.h"
 
@@ -26,9 +25,6 @@ struct OpenXrConfig {
     stereo::OpenXrOptions options;
     stereo::Mirror mirror = stereo::Mirror::left;
 };
-
-/// @throws ConfigError as TomlReader does
-void read_openxr(TomlReader& reader, OpenXrConfig& config);
 
 /// The settings in words, a line each; empty if OpenXR is not enabled.
 std::vector<std::string> describe_openxr(const OpenXrConfig& config);

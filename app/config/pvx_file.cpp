@@ -1,7 +1,7 @@
 // Reads .pvx files; the only source that includes the XML library.
 #include "app/config/pvx_file.h"
 
-#include "app/config/toml_reader.h"
+#include "app/config/config_problem.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/input_file.h"

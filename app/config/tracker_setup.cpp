@@ -63,52 +63,43 @@ Error missing(const char* tracker, const char* library) {
 
 #ifdef ISOCHRON_WITH_OSC
 constexpr bool kWithOsc = true;
-std::unique_ptr<TrackedInput> open_osc(const OscOptions& options) {
+std::unique_ptr<TrackedInput> opened(const OscOptions& options) {
     return std::make_unique<OscInput>(options);
 }
 #else
 constexpr bool kWithOsc = false;
-std::unique_ptr<TrackedInput> open_osc(const OscOptions&) {
+std::unique_ptr<TrackedInput> opened(const OscOptions&) {
     throw missing("osc", "liblo");
 }
 #endif
 
 #ifdef ISOCHRON_WITH_VRPN
 constexpr bool kWithVrpn = true;
-std::unique_ptr<TrackedInput> open_vrpn(const VrpnOptions& options) {
+std::unique_ptr<TrackedInput> opened(const VrpnOptions& options) {
     return std::make_unique<VrpnInput>(options);
 }
 #else
 constexpr bool kWithVrpn = false;
-std::unique_ptr<TrackedInput> open_vrpn(const VrpnOptions&) {
+std::unique_ptr<TrackedInput> opened(const VrpnOptions&) {
     throw missing("vrpn", "VRPN");
 }
 #endif
 
-/// All devices of all trackers.
-std::vector<const DeviceOptions*> all_devices(const DeviceConfig& config) {
-    std::vector<const DeviceOptions*> all;
-    const auto add = [&](const auto& trackers) {
-        for (const auto& tracker : trackers)
-            for (const auto& each : tracker.devices)
-                all.push_back(&each.device);
-    };
-    add(config.dtrack);
-    add(config.osc);
-    add(config.vrpn);
-    return all;
+std::unique_ptr<TrackedInput> opened(const DTrackOptions& options) {
+    return std::make_unique<DTrackInput>(options);
 }
 
-std::string source_of(const DTrackDevice& device) {
-    switch (device.kind) {
-    case DTrackKind::body: return fmt::format("body {}", device.id);
-    case DTrackKind::flystick: return fmt::format("Flystick {}", device.id);
-    case DTrackKind::marker: return fmt::format("marker {}", device.id);
-    }
-    return {};
+std::string source_of(const DTrackOptions&, const DTrackDevice& device) {
+    return fmt::format("{} {}",
+                       device.kind == DTrackKind::flystick ? "Flystick" : name_of(device.kind),
+                       device.id);
 }
 
-std::string source_of(const VrpnDevice& device) {
+std::string source_of(const OscOptions& osc, const OscDevice& device) {
+    return fmt::format("{}/{}/...", osc.prefix, device.source);
+}
+
+std::string source_of(const VrpnOptions&, const VrpnDevice& device) {
     std::string text;
     if (!device.tracker.empty())
         text += fmt::format("sensor {} of {}, ", device.sensor, device.tracker);
@@ -124,44 +115,26 @@ std::string source_of(const VrpnDevice& device) {
 
 void open_trackers(const Config& config, CompositeInput& input) {
     // Errors name the place in the file of the tracker that cannot be opened.
-    const auto open_all = [&](const char* kind, const auto& trackers, const std::vector<int>& lines,
-                              auto&& open) {
-        for (std::size_t i = 0; i < trackers.size(); ++i) {
-            try {
-                input.add(open(trackers[i]));
-            } catch (const Error& error) {
-                throw Error(
-                    fmt::format("{}:{}: {}: {}", config.name, lines.at(i), kind, error.what()));
-            }
+    each_tracker(config.devices, [&](const char* key, const auto& tracker) {
+        try {
+            input.add(opened(tracker));
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}:{}: {}: {}", config.name, tracker.line, key, error.what()));
         }
-    };
-    const DeviceConfig& devices = config.devices;
-    open_all("dtrack", devices.dtrack, devices.places.dtrack,
-             [](const DTrackOptions& options) { return std::make_unique<DTrackInput>(options); });
-    open_all("osc", devices.osc, devices.places.osc, open_osc);
-    open_all("vrpn", devices.vrpn, devices.places.vrpn, open_vrpn);
+    });
 }
 
 std::vector<std::string> describe_devices(const Config& config) {
     std::vector<std::string> lines = describe_openxr(config.openxr);
-    for (const DTrackOptions& dtrack : config.devices.dtrack) {
-        lines.push_back(fmt::format("dtrack: UDP {}", to_string(dtrack.endpoint)));
-        describe_place(dtrack.devices.front().device.calibration, lines);
-        for (const DTrackDevice& device : dtrack.devices)
-            describe(device.device, source_of(device), lines);
-    }
-    for (const OscOptions& osc : config.devices.osc) {
-        lines.push_back(fmt::format("osc: UDP {}", to_string(osc.endpoint)));
-        describe_place(osc.devices.front().device.calibration, lines);
-        for (const OscDevice& device : osc.devices)
-            describe(device.device, fmt::format("{}/{}/...", osc.prefix, device.source), lines);
-    }
-    for (const VrpnOptions& vrpn : config.devices.vrpn) {
-        lines.emplace_back("vrpn:");
-        describe_place(vrpn.devices.front().device.calibration, lines);
-        for (const VrpnDevice& device : vrpn.devices)
-            describe(device.device, source_of(device), lines);
-    }
+    each_tracker(config.devices, [&](const char* key, const auto& tracker) {
+        if constexpr (requires { tracker.endpoint; })
+            lines.push_back(fmt::format("{}: UDP {}", key, to_string(tracker.endpoint)));
+        else
+            lines.push_back(fmt::format("{}:", key));
+        describe_place(tracker.common.calibration, lines);
+        for (const auto& each : tracker.devices)
+            describe(each.device, source_of(tracker, each), lines);
+    });
     lines.push_back(fmt::format("mouse and keyboard: head, wand, mouse, keys{}",
                                 config.emulation.gamepad ? ", gamepad while there is one" : ""));
     return lines;
@@ -169,15 +142,15 @@ std::vector<std::string> describe_devices(const Config& config) {
 
 std::vector<MissingTracker> missing_trackers(const Config& config) {
     std::vector<MissingTracker> lacking;
-    const auto add = [&](const std::vector<int>& lines, const char* key, const char* library) {
-        lacking.push_back({lines.empty() ? 0 : lines.front(), key, missing(key, library).what()});
+    const auto add = [&](int line, const char* key, const char* library) {
+        lacking.push_back({line, key, missing(key, library).what()});
     };
     if (!config.devices.osc.empty() && !kWithOsc)
-        add(config.devices.places.osc, "osc", "liblo");
+        add(config.devices.osc.front().line, "osc", "liblo");
     if (!config.devices.vrpn.empty() && !kWithVrpn)
-        add(config.devices.places.vrpn, "vrpn", "VRPN");
+        add(config.devices.vrpn.front().line, "vrpn", "VRPN");
     if (config.openxr.enabled && !built_with_openxr())
-        add({}, "openxr", "OpenXR");
+        add(0, "openxr", "OpenXR");
     return lacking;
 }
 
@@ -186,10 +159,12 @@ std::vector<std::string> device_warnings(const Config& config) {
     const auto warn = [&](std::string_view text) {
         warnings.push_back(fmt::format("{}: {}", config.name, text));
     };
-    const auto devices = all_devices(config.devices);
-    const bool head = std::ranges::any_of(
-        devices, [](const DeviceOptions* each) { return each->name == "head" && each->has_pose; });
-    if (!devices.empty() && !head && !config.openxr.enabled)
+    bool head = false;
+    each_tracker(config.devices, [&](const char*, const auto& tracker) {
+        for (const auto& each : tracker.devices)
+            head |= each.device.name == "head" && each.device.has_pose;
+    });
+    if (!config.devices.empty() && !head && !config.openxr.enabled)
         warn("no tracked device is called head: mouse and keyboard move it");
     return warnings;
 }

@@ -1,6 +1,8 @@
 // Options on how cells are drawn.
 #include "app/explore/drawing_options.h"
 
+#include "app/config/config_fields.h"
+
 namespace isochron::app {
 
 void add_shape_option(Command& command, std::optional<std::string>& shape) {
@@ -8,12 +10,12 @@ void add_shape_option(Command& command, std::optional<std::string>& shape) {
         .option("--shape", shape,
                 "Shape of quads and splats, instead of the configured one: plane (flat ellipses on "
                 "the surface) or voxel (the paper's spheres)")
-        .one_of(cell_shape_names());
+        .one_of(words_of<render::CellShape>());
 }
 
 void set_shape(Config& config, const std::optional<std::string>& shape) {
     if (shape)
-        config.rendering.cell_shape = cell_shape_from_name(*shape);
+        config.rendering.cell_shape = value_of<render::CellShape>(*shape);
 }
 
 } // namespace isochron::app

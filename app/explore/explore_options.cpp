@@ -1,7 +1,7 @@
 // The command line options of `explore`.
 #include "app/explore/explore_options.h"
 
-#include "app/config/config.h"
+#include "app/config/config_fields.h"
 #include "app/config/shipped_configs.h"
 #include "app/explore/control_options.h"
 #include "app/explore/drawing_options.h"
@@ -56,14 +56,14 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                 "GL context: glfw (a window), or egl if a headset is the only display")
         .one_of({"glfw", "egl"});
     command.option("--stereo", options.stereo, "Stereo mode to start in")
-        .one_of(stereo_mode_names());
+        .one_of(words_of<stereo::StereoMode>());
     command.option("--quality", options.quality, "auto, fast, quality or paper")
         .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", options.footprint,
                 "Footprint once nothing moves: auto (the exact surface), gaussian, "
                 "mesh or surface")
-        .one_of(settled_footprint_names());
+        .one_of(words_of<SettledFootprint>(kSettledField));
     add_shape_option(command, options.shape);
     command
         .option("--size", options.size,

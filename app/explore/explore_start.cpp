@@ -2,6 +2,7 @@
 #include "app/explore/explore_start.h"
 
 #include "app/config/check_config.h"
+#include "app/config/config_fields.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/explore/drawing_options.h"
@@ -56,9 +57,9 @@ Config configure(const ExploreOptions& options) {
     if (options.context)
         config.rendering.context = *stereo::context_kind_from_name(*options.context);
     if (options.quality)
-        config.quality.mode = quality_mode_from_name(*options.quality);
+        config.start.quality = value_of<interaction::QualityMode>(*options.quality, "quality mode");
     if (options.footprint)
-        config.quality.settled = settled_footprint_from_name(*options.footprint);
+        config.quality.settled = value_of<SettledFootprint>(*options.footprint);
     set_shape(config, options.shape);
     if (!options.size.empty() && !options.emulate)
         for (stereo::Window& window : config.installation.windows) {
@@ -203,13 +204,15 @@ stereo::Windows open_windows(const ExploreOptions& options, const Config& config
          .vsync = config.rendering.vsync && !headset,
          .stereo = headset ? stereo::StereoMode::mono : start,
          .api = headset ? headset->context_api() : stereo::ContextApi::native,
-         .console = job.leads() ? config.panel.console : std::nullopt,
+         .console = job.leads() && config.panel.console
+                        ? std::optional(config.panel.console->window())
+                        : std::nullopt,
          .rank = job.rank(),
          .ranks = job.size()});
 }
 
 void warn_of_colors(const Config& config, const index::IndexFile& file) {
-    const std::string& wanted = config.coloring.array;
+    const std::string& wanted = config.start.coloring.array;
     if (wanted.empty())
         return;
     const std::vector<std::string> there = index::color_source_names(file);

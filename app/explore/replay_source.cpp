@@ -1,6 +1,7 @@
 // The options that all replaying commands share.
 #include "app/explore/replay_source.h"
 
+#include "app/config/config_fields.h"
 #include "app/explore/drawing_options.h"
 #include "app/explore/kept_session.h"
 #include "app/indexing/open_index.h"
@@ -32,14 +33,14 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
     command.flag("--emulate", source.emulate,
                  "Show the room from outside instead, with the picture on every wall");
     command.option("--stereo", source.stereo, "Stereo mode instead of the recorded one")
-        .one_of(stereo_mode_names());
+        .one_of(words_of<stereo::StereoMode>());
     command.option("--quality", source.quality, "Quality mode instead of the recorded one")
         .one_of(interaction::all_names<interaction::QualityMode>());
     command
         .option("--footprint", source.footprint,
                 "Footprint once nothing moves, instead of the configured one: auto (the exact "
                 "surface), gaussian, mesh or surface")
-        .one_of(settled_footprint_names());
+        .one_of(words_of<SettledFootprint>(kSettledField));
     command.flag(
         "--ray", source.ray,
         "Show the wand's ray and what is under the cursor; pictures leave them out otherwise");
@@ -68,7 +69,7 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
         config.pictures.text = static_cast<float>(header.text);
     }
     if (options.footprint)
-        config.quality.settled = settled_footprint_from_name(*options.footprint);
+        config.quality.settled = value_of<SettledFootprint>(*options.footprint);
     set_shape(config, options.shape);
     config.pictures.samples = options.samples.value_or(config.pictures.samples);
     config.pictures.ray = config.pictures.ray || options.ray;
@@ -150,7 +151,7 @@ ReplayOptions replay_options(const ReplaySource& options) {
     if (options.stereo)
         replay.stereo = stereo::stereo_mode_from_name(*options.stereo);
     if (options.quality)
-        replay.quality = quality_mode_from_name(*options.quality);
+        replay.quality = value_of<interaction::QualityMode>(*options.quality, "quality mode");
     return replay;
 }
 

@@ -6,7 +6,7 @@
 //     picture.audience.panel = panel.shown(state.room_panel);
 #pragma once
 
-#include "app/config/panel_config.h"
+#include "app/config/config.h"
 #include "app/panel/panel_layer.h"
 #include "app/scene/shown_panel.h"
 #include "interaction/controls/panel_pointer.h"

@@ -116,9 +116,8 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
       moving_(gl, info.grid), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
-    if (config.comfort.near_whole > 0)
-        configured_.near_fade = {.gone = config.comfort.near_gone,
-                                 .whole = config.comfort.near_whole};
+    if (const glm::vec2 near = config.comfort.near_fade; near.y > 0)
+        configured_.near_fade = {.gone = near.x, .whole = near.y};
     cells_.prepare_for(info);
 }
 

@@ -73,20 +73,16 @@ std::vector<interaction::Isosurface> first_surfaces(const Config& config,
 
 ExplorerState start_state(const Config& config, const std::shared_ptr<const IndexFile>& file) {
     ExplorerState state;
+    static_cast<interaction::Settings&>(state) = config.start;
     if (file->arrays() > 1)
         state.array = file->info().array;
     state.room_from_physical = place(file->info(), config.placement);
-    state.quality = config.quality.mode;
     state.between = config.between.value_or(state.between);
-    state.grid = config.grid;
     state.steps = static_cast<std::uint32_t>(file->info().steps());
     state.eye_separation = config.installation.viewers.front().eye_separation;
     state.isosurfaces = first_surfaces(config, file, state.instant.step);
-    state.coloring = config.coloring;
-    state.look = config.look;
-    state.bounding_box = config.rendering.bounding_box;
     const interaction::Pose eyes{config.installation.viewers.front().position, {1, 0, 0, 0}};
-    state.room_panel = {config.panel.room, interaction::ahead_of(eyes, config.panel.distance)};
+    state.room_panel.pose = interaction::ahead_of(eyes, config.panel.distance);
     state.set_stereo(config.installation.windows.front().stereo);
     return state;
 }

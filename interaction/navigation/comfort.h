@@ -4,6 +4,8 @@
 #include "interaction/input/tracked_input.h"
 #include "interaction/pose.h"
 
+#include <glm/vec2.hpp>
+
 namespace isochron::interaction {
 
 struct ComfortOptions {
@@ -14,9 +16,9 @@ struct ComfortOptions {
     double vignette_turn_full = 2; ///< [rad/s] closed
     Seconds vignette_fade{0.15};   ///< time to close or open all the way
     bool fade_when_lost = true;
-    /// [m] from the point between the eyes: what is nearer than `near_gone` is not drawn, what is
-    /// beyond `near_whole` is drawn whole; it fades between them. Both 0: everything is drawn.
-    float near_gone = 0, near_whole = 0;
+    /// [m] from the point between the eyes: what is nearer than x is not drawn, what is beyond y is
+    /// drawn whole; it fades between them. Both 0: everything is drawn.
+    glm::vec2 near_fade{0.0f};
     Seconds lost_fade{0.5}; ///< time from the full picture to black, once the head is lost
     bool operator==(const ComfortOptions&) const = default;
 };

@@ -114,7 +114,7 @@ void from_json(const json& value, const Field& field, glm::vec<3, T>& into) {
 void from_json(const json& value, const Field& field, std::array<double, 2>& into) {
     list(value, field.key, 2, 2);
     into = {number(value[0], field.key), number(value[1], field.key)};
-    if (!(into[0] < into[1]))
+    if (!field.any_order && !(into[0] < into[1]))
         fail(field.key, "two ascending numbers", value);
 }
 void from_json(const json& value, const Field&, Pose& into) {

@@ -1,6 +1,7 @@
 // Input from an ART tracking system: turns DTrack's datagrams into devices.
 #pragma once
 
+#include "interaction/enum_names.h"
 #include "interaction/trackers/tracked_device.h"
 #include "interaction/trackers/udp_socket.h"
 
@@ -9,6 +10,8 @@
 namespace isochron::interaction {
 
 enum class DTrackKind : std::uint8_t { body, flystick, marker };
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<DTrackKind>{"body", "flystick", "marker"};
 
 /// A body, Flystick or marker of DTrack as a device. A marker has a position only; it is oriented
 /// along the tracker's axes.
@@ -23,6 +26,8 @@ struct DTrackOptions {
     std::optional<Endpoint> from; ///< the only allowed sender; port 0: any port of that address
     std::vector<DTrackDevice> devices;
     DatagramAges ages = DatagramAges::measured;
+    DeviceOptions common; ///< what its devices share: where the tracker is, and how late it sends
+    int line = 0;         ///< of the file that describes it; 0: none does
 };
 
 /// A datagram whose frame counter is not newer than the newest so far is dropped. The time of a

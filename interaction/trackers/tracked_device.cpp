@@ -105,9 +105,11 @@ std::vector<float> TrackedDevice::mapped_valuators() const {
     if (options_.valuators.empty())
         return valuators_;
     std::vector<float> values;
-    for (const ValuatorSource& from : options_.valuators)
-        values.push_back(from.index < valuators_.size() ? from.factor * valuators_[from.index]
-                                                        : 0.0f);
+    for (std::size_t i = 0; i < options_.valuators.size(); ++i) {
+        const std::size_t from = options_.valuators[i];
+        const float factor = options_.valuator_factors.empty() ? 1.0f : options_.valuator_factors[i];
+        values.push_back(from < valuators_.size() ? factor * valuators_[from] : 0.0f);
+    }
     return values;
 }
 

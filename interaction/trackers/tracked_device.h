@@ -19,13 +19,6 @@ struct PredictionOptions {
     bool operator==(const PredictionOptions&) const = default;
 };
 
-/// One of the source's valuators, scaled: a factor of -1 reverses it.
-struct ValuatorSource {
-    std::size_t index;
-    float factor = 1.0f;
-    bool operator==(const ValuatorSource&) const = default;
-};
-
 /// What is configured for one device.
 struct DeviceOptions {
     std::string name;     ///< as the program knows it: `head`, `wand`, ...
@@ -34,8 +27,9 @@ struct DeviceOptions {
     Seconds latency{0}; ///< from the measurement until the tracker sends it
     PoseFilterLimits limits;
     PredictionOptions prediction;
-    std::vector<std::size_t> buttons; ///< the source's button for each bit; empty: the same bits
-    std::vector<ValuatorSource> valuators; ///< empty: the source's, in its order
+    std::vector<std::uint32_t> buttons;   ///< the source's button for each bit; empty: the same bits
+    std::vector<std::uint32_t> valuators; ///< the source's, by number; empty: all, in its order
+    std::vector<float> valuator_factors;  ///< for each of `valuators`, -1 reverses it; empty: 1
 };
 
 /// Collects what has arrived since the last poll. The pose goes through calibration, filter and

@@ -7,7 +7,7 @@
 #include "app/config/config.h"
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
-#include "app/config/toml_reader.h"
+#include "app/config/config_problem.h"
 #include "app/control/control_answers.h"
 #include "app/control/control_request.h"
 #include "interaction/recording/commands_json.h"

@@ -292,9 +292,9 @@ void frame_quality_example(FrameQuality& quality, FrameLog& log, const ExplorerS
 #include "app/quality/frame_quality.example"
 }
 
-void table_schema_example(void (*read_placement)(TomlReader&, PlacementOptions&),
-                          PlacementOptions& placement) {
-#include "app/config/table_schema.example"
+template <class Use>
+void config_fields_example(Use use, Config& config) {
+#include "app/config/config_fields.example"
 }
 
 void quality_controller_example(DrawMeter& meter, const interaction::MotionGate& gate) {

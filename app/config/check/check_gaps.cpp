@@ -1,5 +1,5 @@
 // Warns of gaps between screens, once for each wall.
-#include "app/config/check/check_gaps.h"
+#include "app/config/check/check_parts.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -30,8 +30,7 @@ struct GapsOfWalls {
 
 } // namespace
 
-std::vector<ConfigProblem> problems_of_gaps(const std::vector<ScreenGap>& gaps,
-                                            const std::string& key) {
+void check_gaps(const std::vector<ScreenGap>& gaps, const std::string& key, Findings& findings) {
     std::vector<GapsOfWalls> walls;
     for (const ScreenGap& gap : gaps) {
         const auto same = std::ranges::find_if(walls, [&](const GapsOfWalls& known) {
@@ -45,7 +44,6 @@ std::vector<ConfigProblem> problems_of_gaps(const std::vector<ScreenGap>& gaps,
         if (gap.width > same->widest.width)
             same->widest = gap;
     }
-    std::vector<ConfigProblem> problems;
     for (const auto& [gap, count] : walls) {
         std::string text = fmt::format(
             "{}: a corner is {:.0f} mm from one of {}, where walls meet within {:.0f} mm",
@@ -54,9 +52,8 @@ std::vector<ConfigProblem> problems_of_gaps(const std::vector<ScreenGap>& gaps,
             text += fmt::format("; there are {} such gaps: bezel says how wide the frames of the "
                                 "displays are",
                                 count);
-        problems.push_back({gap.line, key, text, false});
+        findings.warn(gap.line, key, text);
     }
-    return problems;
 }
 
 } // namespace isochron::app

@@ -1,5 +1,5 @@
 // Finds measures of a configuration that no room has.
-#include "app/config/check/check_measures.h"
+#include "app/config/check/check_parts.h"
 
 #include "stereo/screen.h"
 
@@ -43,26 +43,6 @@ int line_of_key(const std::string& text, std::string_view table, std::string_vie
     return 0;
 }
 
-/// A screen in the room or on a head, and where the file describes it.
-struct MeasuredScreen {
-    const stereo::Window& window;
-    const stereo::Viewport& viewport;
-    int line;
-};
-
-std::vector<MeasuredScreen> measured_screens(const Config& config) {
-    std::vector<MeasuredScreen> all;
-    const auto& windows = config.installation.windows;
-    for (std::size_t w = 0; w < windows.size(); ++w)
-        for (std::size_t v = 0; v < windows[w].viewports.size(); ++v) {
-            const auto& places = config.places.windows;
-            const bool known = w < places.size() && v < places[w].viewports.size();
-            all.push_back(
-                {windows[w], windows[w].viewports[v], known ? places[w].viewports[v] : 0});
-        }
-    return all;
-}
-
 bool is_usual(const stereo::Screen& screen) {
     const stereo::Screen usual;
     return screen.lower_left == usual.lower_left && screen.upper_left == usual.upper_left &&
@@ -92,22 +72,18 @@ bool looks_like_radians(const glm::quat& rotation) {
 
 class MeasureJudge {
   public:
-    explicit MeasureJudge(const Config& config)
-        : config_(config), screens_(measured_screens(config)) {}
+    MeasureJudge(const Config& config, Findings& findings)
+        : config_(config), screens_(viewports_of(config)), findings_(findings) {}
 
-    std::vector<ConfigProblem> judge() {
+    void judge() {
         viewers();
         planes();
-        for (const MeasuredScreen& screen : screens_)
+        for (const PlacedViewport& screen : screens_)
             projection(screen);
-        const DeviceConfig& devices = config_.devices;
-        for (std::size_t i = 0; i < devices.dtrack.size(); ++i)
-            calibrations("dtrack", devices.places.dtrack, i, devices.dtrack[i].devices);
-        for (std::size_t i = 0; i < devices.osc.size(); ++i)
-            calibrations("osc", devices.places.osc, i, devices.osc[i].devices);
-        for (std::size_t i = 0; i < devices.vrpn.size(); ++i)
-            calibrations("vrpn", devices.places.vrpn, i, devices.vrpn[i].devices);
-        return std::move(found_);
+        each_tracker(config_.devices, [&](const char* key, const auto& tracker) {
+            for (const auto& each : tracker.devices)
+                calibration(key, tracker.line, each.device);
+        });
     }
 
   private:
@@ -115,8 +91,8 @@ class MeasureJudge {
         const auto same = [&](const ConfigProblem& known) {
             return known.line == line && known.key == key && known.text == text;
         };
-        if (std::ranges::none_of(found_, same))
-            found_.push_back({line, key, text, false});
+        if (std::ranges::none_of(findings_.found, same))
+            findings_.warn(line, key, text);
     }
 
     /// A viewer far outside of the room that the screens around them make.
@@ -125,7 +101,7 @@ class MeasureJudge {
         for (std::size_t i = 0; i < all.size(); ++i) {
             constexpr float kEmpty = std::numeric_limits<float>::max();
             glm::vec3 low(kEmpty), high(-kEmpty);
-            for (const MeasuredScreen& each : screens_) {
+            for (const PlacedViewport& each : screens_) {
                 if (each.viewport.screen.carried_by_head || each.viewport.viewer != i)
                     continue;
                 for (const glm::vec3& corner :
@@ -141,8 +117,7 @@ class MeasureJudge {
             const glm::vec3 at = all[i].position;
             const float away = glm::distance(at, glm::clamp(at, low, high));
             if (away > margin)
-                warn(i < config_.places.viewers.size() ? config_.places.viewers[i] : 0,
-                     "viewer.position",
+                warn(all[i].line.number, "viewer.position",
                      fmt::format("{} is {:.4g} m from all of the screens, {:.4g} m up: positions "
                                  "are in meters",
                                  all[i].name, away, at.y));
@@ -151,7 +126,7 @@ class MeasureJudge {
 
     void planes() {
         float nearest = std::numeric_limits<float>::max(), farthest = 0;
-        for (const MeasuredScreen& each : screens_) {
+        for (const PlacedViewport& each : screens_) {
             const auto& viewer = config_.installation.viewers[each.viewport.viewer];
             const float away =
                 stereo::distance_to(each.viewport.screen, {viewer.position, {1, 0, 0, 0}});
@@ -171,9 +146,9 @@ class MeasureJudge {
                              back, nearest));
     }
 
-    void projection(const MeasuredScreen& each) {
+    void projection(const PlacedViewport& each) {
         const stereo::Screen& screen = each.viewport.screen;
-        const bool others_in_room = std::ranges::any_of(screens_, [&](const MeasuredScreen& other) {
+        const bool others_in_room = std::ranges::any_of(screens_, [&](const PlacedViewport& other) {
             return !other.viewport.screen.carried_by_head && !is_usual(other.viewport.screen);
         });
         if (!screen.carried_by_head && is_usual(screen) && !screen.fit_aspect && others_in_room)
@@ -195,41 +170,37 @@ class MeasureJudge {
                              each.window.name, off));
     }
 
-    template <class Device>
-    void calibrations(const std::string& tracker, const std::vector<int>& lines, std::size_t number,
-                      const std::vector<Device>& devices) {
-        const int line = number < lines.size() ? lines[number] : 0;
-        for (const Device& each : devices) {
-            const interaction::Calibration& known = each.device.calibration;
-            if (known.scale > kLargestScale || known.scale < kSmallestScale)
-                warn(line, tracker + ".scale",
-                     fmt::format("{:.4g}: meters for each meter that the tracker reports, expected "
-                                 "1, or 0.001 where it takes millimeters for meters",
-                                 known.scale));
-            const float arm = glm::length(known.sensor_from_thing.position);
-            if (arm > kArmsLength)
-                warn(line, tracker + ".devices.offset",
-                     fmt::format("{}: {:.4g} m from its sensor: offsets are in meters",
-                                 each.device.name, arm));
-            if (looks_like_radians(known.room_from_tracker.orientation))
-                warn(line, tracker + ".orientation",
-                     "its angles are round in radians, and are read as degrees");
-            if (looks_like_radians(known.sensor_from_thing.orientation))
-                warn(line, tracker + ".devices.orientation",
-                     fmt::format("{}: its angles are round in radians, and are read as degrees",
-                                 each.device.name));
-        }
+    void calibration(const std::string& tracker, int line,
+                     const interaction::DeviceOptions& device) {
+        const interaction::Calibration& known = device.calibration;
+        if (known.scale > kLargestScale || known.scale < kSmallestScale)
+            warn(line, tracker + ".scale",
+                 fmt::format("{:.4g}: meters for each meter that the tracker reports, expected "
+                             "1, or 0.001 where it takes millimeters for meters",
+                             known.scale));
+        const float arm = glm::length(known.sensor_from_thing.position);
+        if (arm > kArmsLength)
+            warn(line, tracker + ".devices.offset",
+                 fmt::format("{}: {:.4g} m from its sensor: offsets are in meters", device.name,
+                             arm));
+        if (looks_like_radians(known.room_from_tracker.orientation))
+            warn(line, tracker + ".orientation",
+                 "its angles are round in radians, and are read as degrees");
+        if (looks_like_radians(known.sensor_from_thing.orientation))
+            warn(line, tracker + ".devices.orientation",
+                 fmt::format("{}: its angles are round in radians, and are read as degrees",
+                             device.name));
     }
 
     const Config& config_;
-    std::vector<MeasuredScreen> screens_;
-    std::vector<ConfigProblem> found_;
+    std::vector<PlacedViewport> screens_;
+    Findings& findings_;
 };
 
 } // namespace
 
-std::vector<ConfigProblem> problems_of_measures(const Config& config) {
-    return MeasureJudge(config).judge();
+void check_measures(const Config& config, Findings& findings) {
+    MeasureJudge(config, findings).judge();
 }
 
 } // namespace isochron::app

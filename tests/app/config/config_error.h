@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/config/config.h"
-#include "app/config/toml_reader.h"
 
 #include <string>
 

@@ -47,7 +47,9 @@ reflectance = 0.1
 [coloring]
 by = "value"
 map = "polar"
-range = [0.1, 0.3]
+range = [0.1, 3e6]
+[look]
+light = [40, 30]
 )",
                                        "lab.toml");
     ASSERT_EQ(config.surfaces.size(), 2u);
@@ -63,12 +65,15 @@ range = [0.1, 0.3]
     EXPECT_EQ(config.rendering.drawn_by, render::DrawnBy::gpu);
     EXPECT_EQ(config.rendering.appearance.key_direction, glm::vec3(0, 1, 0));
     EXPECT_FLOAT_EQ(config.rendering.appearance.reflectance, 0.1f);
-    EXPECT_EQ(config.coloring.by, interaction::ColorBy::value);
-    EXPECT_EQ(config.coloring.map, "coolwarm"); // by its older name
-    EXPECT_EQ(config.coloring.range, (std::array{0.1, 0.3}));
-    EXPECT_EQ(parse_config("[coloring]\narray = \"heat\"\n", "test.toml").coloring.array, "heat");
-    EXPECT_EQ(parse_config("[coloring]\npercentiles = [2, 98]\n", "test.toml").coloring.percentiles,
-              (std::array{2.0, 98.0}));
+    EXPECT_EQ(config.start.coloring.by, interaction::ColorBy::value);
+    EXPECT_EQ(config.start.coloring.map, "coolwarm"); // by its older name
+    EXPECT_EQ(config.start.coloring.range, (std::array{0.1, 3e6}));
+    EXPECT_EQ(config.start.look.light, (std::array{40.0, 30.0}));
+    EXPECT_EQ(parse_config("[coloring]\narray = \"heat\"\n", "test.toml").start.coloring.array,
+              "heat");
+    EXPECT_EQ(
+        parse_config("[coloring]\npercentiles = [2, 98]\n", "test.toml").start.coloring.percentiles,
+        (std::array{2.0, 98.0}));
 }
 
 constexpr const char* kMaps = R"([
@@ -123,10 +128,10 @@ TEST(ColorMapFiles, OfAConfigurationLieBesideIt) {
         "[coloring]\nfile = \"maps.json\"\nfile_map = \"steps\"\nbands = 3\nreversed = true\n",
         name);
     ASSERT_EQ(config.color_maps.size(), 3u);
-    EXPECT_EQ(config.coloring.map, "steps");
-    EXPECT_EQ(config.coloring.colors, config.color_maps[1].colors);
-    EXPECT_EQ(config.coloring.bands, 3u);
-    EXPECT_TRUE(config.coloring.reversed);
+    EXPECT_EQ(config.start.coloring.map, "steps");
+    EXPECT_EQ(config.start.coloring.colors, config.color_maps[1].colors);
+    EXPECT_EQ(config.start.coloring.bands, 3u);
+    EXPECT_TRUE(config.start.coloring.reversed);
     EXPECT_THAT(error_of("[coloring]\nfile = \"none.json\"\n"), HasSubstr("none.json"));
     EXPECT_THAT(error_of("[coloring]\nlogarithmic = true\nrange = [0, 1]\n"), HasSubstr("above 0"));
 }
@@ -148,7 +153,7 @@ TEST(Config, LooksThatCannotBeAreErrorsWithTheirPlace) {
                 HasSubstr("got both"));
     EXPECT_THAT(error_of("[lighting]\nkey_direction = [0, 0, 0]\n"), HasSubstr("lab.toml:2"));
     EXPECT_THAT(error_of("[[surfaces]]\nisovalue = 1\nquantile = 0.5\n"), HasSubstr("quantile"));
-    EXPECT_THAT(error_of("[[surfaces]]\ncolor = [0, 0, 2]\n"), HasSubstr("sRGB"));
+    EXPECT_THAT(error_of("[[surfaces]]\ncolor = [0, 0, 2]\n"), HasSubstr("from 0 to 1, got 2"));
     std::string nine;
     for (int i = 0; i < 9; ++i)
         nine += "[[surfaces]]\nisovalue = 1\n";
@@ -188,7 +193,7 @@ still_budget_ms = 200
     EXPECT_TRUE(window.viewports[0].screen.carried_by_head);
     EXPECT_EQ(window.viewports[0].screen.upper_left, glm::vec3(-2.0f, 1.0f, -1.0f));
     EXPECT_DOUBLE_EQ(config.quality.stillness.settle.count(), 0.3);
-    EXPECT_EQ(config.quality.mode, interaction::QualityMode::fast);
+    EXPECT_EQ(config.start.quality, interaction::QualityMode::fast);
     EXPECT_EQ(config.quality.settled, render::Footprint::gaussian);
     EXPECT_DOUBLE_EQ(config.quality.frame_budget_ms, 8.5);
     EXPECT_DOUBLE_EQ(config.quality.longest_ms, 50);

@@ -96,8 +96,9 @@ TEST(DeviceConfig, EveryValueArrives) {
     const DTrackDevice& wand = dtrack.devices[1];
     EXPECT_EQ(wand.kind, DTrackKind::flystick);
     EXPECT_FALSE(wand.device.prediction.on);
-    EXPECT_EQ(wand.device.buttons, (std::vector<std::size_t>{0, 4}));
-    EXPECT_EQ(wand.device.valuators, (std::vector<ValuatorSource>{{1, 1.0f}, {0, -1.0f}}));
+    EXPECT_EQ(wand.device.buttons, (std::vector<std::uint32_t>{0, 4}));
+    EXPECT_EQ(wand.device.valuators, (std::vector<std::uint32_t>{1, 0}));
+    EXPECT_EQ(wand.device.valuator_factors, (std::vector{1.0f, -1.0f}));
     EXPECT_EQ(wand.device.calibration.sensor_from_thing, Pose{}) << "the head's is its own";
 
     ASSERT_EQ(config.devices.osc.size(), 2u);
@@ -111,7 +112,7 @@ TEST(DeviceConfig, EveryValueArrives) {
     EXPECT_EQ(config.devices.vrpn[0].devices[0].buttons, "Button0@localhost");
     EXPECT_FALSE(config.emulation.gamepad);
     EXPECT_FLOAT_EQ(config.emulation.dead_zone, 0.25f);
-    EXPECT_TRUE(config.grid);
+    EXPECT_TRUE(config.start.grid);
     EXPECT_FALSE(config.comfort.fade_when_lost);
     EXPECT_NEAR(config.comfort.vignette_turn, 1.5707963, 1e-6);
     EXPECT_EQ(config.comfort.vignette_fade, Seconds(0.25));
@@ -127,8 +128,8 @@ TEST(DeviceConfig, WhatIsWrongIsNamedWithItsPlace) {
     expect(dtrack, "lab.toml:1: dtrack.devices: missing, a tracker without devices");
     expect(dtrack + head, "dtrack.devices.body: expected one of body, flystick and marker");
     expect(dtrack + body + "flystick = 0\n", "expected one of body, flystick and marker");
-    expect(dtrack + "[[dtrack.devices]]\nbody = 0\n", "name: expected a device's name");
-    expect(dtrack + body + body, "lab.toml:6: dtrack.devices.name: there is a device 'head'");
+    expect(dtrack + "[[dtrack.devices]]\nbody = 0\n", "devices.name: a device needs a name");
+    expect(dtrack + body + body, "lab.toml:6: dtrack.devices.name: two devices are called 'head'");
     expect(dtrack + body + "offest = [0, 0, 0]\n", "lab.toml:5: unknown key 'offest'");
     expect(dtrack + body + "buttons = [0.5]\n", "buttons: expected whole numbers, got 0.5");
     expect(dtrack + body + "buttons = [64]\n", "expected a number from 0 to 63, got 64");
@@ -216,12 +217,12 @@ TEST(DeviceTracking, IsToldInWords) {
 
 TEST(PanelConfig, HoldsTheRoomsPanelAndTheConsole) {
     const Config plain = parse_config("", "lab.toml");
-    EXPECT_FALSE(plain.panel.room);
+    EXPECT_FALSE(plain.start.room_panel.shown);
     EXPECT_FALSE(plain.panel.console);
     const Config config = parse_config("[panel]\nroom = true\nwidth = 0.6\ndistance = 0.7\n"
                                        "[console]\nsize = [500, 700]\nposition = [10, 20]\n",
                                        "lab.toml");
-    EXPECT_TRUE(config.panel.room);
+    EXPECT_TRUE(config.start.room_panel.shown);
     EXPECT_EQ(config.panel.width, 0.6f);
     EXPECT_EQ(config.panel.distance, 0.7f);
     ASSERT_TRUE(config.panel.console);
@@ -234,10 +235,9 @@ TEST(PanelConfig, HoldsTheRoomsPanelAndTheConsole) {
 }
 
 TEST(ComfortConfig, FadesNearByBetweenTwoAscendingDistances) {
-    EXPECT_EQ(parse_config("", "lab.toml").comfort.near_whole, 0.0f);
+    EXPECT_EQ(parse_config("", "lab.toml").comfort.near_fade, glm::vec2(0));
     const Config config = parse_config("[comfort]\nnear_fade = [0.1, 0.4]\n", "lab.toml");
-    EXPECT_EQ(config.comfort.near_gone, 0.1f);
-    EXPECT_EQ(config.comfort.near_whole, 0.4f);
+    EXPECT_EQ(config.comfort.near_fade, glm::vec2(0.1f, 0.4f));
     for (const char* wrong : {"[0.4, 0.1]", "[0.2, 0.2]", "[-0.1, 0.2]", "[0.1, 11]"})
         EXPECT_THAT(error_of(std::string("[comfort]\nnear_fade = ") + wrong),
                     HasSubstr("lab.toml:2: comfort.near_fade"))

@@ -62,9 +62,11 @@ TEST(DisplayConfig, ViewersWindowsAndViewportsArrive) {
     EXPECT_TRUE(lab.windows[0].viewports[0].screen.carried_by_head);
     EXPECT_EQ(lab.windows[0].viewports[1].viewer, 0u);
     EXPECT_EQ(lab.windows[1].name, "window 2");
-    EXPECT_EQ(config.places.viewers, (std::vector{2, 6}));
-    EXPECT_EQ(config.places.windows[0].line, 10);
-    EXPECT_EQ(config.places.windows[0].viewports, (std::vector{20, 25}));
+    EXPECT_EQ(lab.viewers[0].line.number, 2);
+    EXPECT_EQ(lab.viewers[1].line.number, 6);
+    EXPECT_EQ(lab.windows[0].line.number, 10);
+    EXPECT_EQ(lab.windows[0].viewports[0].screen.line.number, 20);
+    EXPECT_EQ(lab.windows[0].viewports[1].screen.line.number, 25);
 }
 
 TEST(DisplayConfig, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {

@@ -41,7 +41,7 @@ void expect_as_now(const std::string& text) {
     const Config now = parse_config(kNow, "now.toml"), config = parse_config(text, "old.toml");
     EXPECT_EQ(config.rendering.surface_color, now.rendering.surface_color) << text;
     EXPECT_EQ(config.rendering.cell_shape, now.rendering.cell_shape) << text;
-    EXPECT_EQ(config.coloring, now.coloring) << text;
+    EXPECT_EQ(config.start.coloring, now.start.coloring) << text;
     ASSERT_EQ(config.surfaces.size(), 1u) << text;
     EXPECT_EQ(config.surfaces[0].color, now.surfaces[0].color) << text;
     EXPECT_EQ(config.surfaces[0].isovalue, now.surfaces[0].isovalue) << text;
@@ -51,7 +51,7 @@ TEST(OldSpellings, GiveTheSameConfiguration) {
     const Config now = parse_config(kNow, "now.toml");
     EXPECT_EQ(now.rendering.surface_color, glm::vec3(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(now.rendering.cell_shape, render::CellShape::voxel);
-    EXPECT_EQ(now.coloring.map, "gray");
+    EXPECT_EQ(now.start.coloring.map, "gray");
     EXPECT_EQ(now.surfaces.at(0).color, glm::vec3(0.4f, 0.5f, 0.6f));
     std::string all = kNow;
     for (const auto& [word, old] : kOld) {

@@ -2,8 +2,8 @@
 #include "app/config/pvx_file.h"
 
 #include "app/config/check_config.h"
+#include "app/config/config_problem.h"
 #include "app/config/display_config_text.h"
-#include "app/config/toml_reader.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // The JSON schema of configurations: it is made from the readers, and shipped files conform to it.
 #include "app/config/config.h"
-#include "app/config/toml_reader.h"
+#include "app/config/toml_table.h"
 #include "tests/app/config/config_error.h"
 #include "tests/support/paths.h"
 
@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -172,46 +171,6 @@ TEST(ConfigSchema, WhatTheReadersRefuseIsRefused) {
         EXPECT_EQ(checker.complaint(text), "") << text;
         EXPECT_EQ(error_of(text), "no error") << text;
     }
-}
-
-/// The keys that the error about an unknown one in this table lists.
-std::set<std::string> known_keys(const std::string& header) {
-    const std::string error = error_of(header + "\nqqqqqqqqqqqqqqqqqqqqqqqq = 1\n");
-    const std::string intro = "; known: ";
-    std::set<std::string> keys;
-    if (const auto at = error.find(intro); at != std::string::npos)
-        for (auto from = at + intro.size(); from < error.size();) {
-            const auto to = std::min(error.find(", ", from), error.size());
-            keys.insert(error.substr(from, to - from));
-            from = to + 2;
-        }
-    return keys;
-}
-
-TEST(ConfigSchema, EveryTableHasTheKeysThatItsReaderKnows) {
-    const json schema = json::parse(config_schema());
-    const auto keys_of = [](const json& table) {
-        std::set<std::string> keys;
-        for (const auto& [key, value] : table.at("properties").items())
-            keys.insert(key);
-        return keys;
-    };
-    EXPECT_EQ(keys_of(schema), known_keys(""));
-    int tables = 0;
-    for (const auto& [name, table] : schema.at("properties").items()) {
-        const bool object = table.value("type", "") == "object";
-        if (!object && !table.contains("items"))
-            continue;
-        EXPECT_EQ(keys_of(object ? table : table["items"]),
-                  known_keys(object ? "[" + name + "]" : "[[" + name + "]]"))
-            << name;
-        ++tables;
-    }
-    EXPECT_GE(tables, 14);
-    const json& device =
-        schema.at("definitions").at("vrpn").at("properties").at("devices").at("items");
-    EXPECT_EQ(keys_of(device), known_keys("[vrpn]\n[[vrpn.devices]]\nname = \"wand\"\n"
-                                          "tracker = \"Tracker0@host\""));
 }
 
 TEST(ConfigSchema, OldSpellingsStayOutOfIt) {

@@ -21,7 +21,7 @@ constexpr glm::ivec2 kSize(160, 120);
 Config config_with(int samples, int picture_samples, int scale = 1) {
     Config config = small_config(stereo::StereoMode::mono);
     config.installation.windows.front().size = scale * kSize;
-    config.rendering.bounding_box = config.rendering.wand_ray = false;
+    config.start.bounding_box = config.rendering.wand_ray = false;
     config.quality.settled = render::Footprint::surface;
     config.rendering.blending = Blending::display;
     config.rendering.samples = samples;
@@ -106,7 +106,7 @@ TEST_P(KeptPicturesTest, HaveSmoothOutlinesAndLeaveTheDisplayAsItIs) {
 TEST_P(KeptPicturesTest, HaveThePartsAndTheSizeThatTheUserHasChosen) {
     const auto small = context();
     Config config = config_with(1, 1);
-    config.rendering.bounding_box = true;
+    config.start.bounding_box = true;
     Session session(config, file_, *small);
     settle(session);
     const Image whole = session.outputs().display().read_window();

@@ -11,7 +11,7 @@ class PickBetweenSteps : public RoomPanelTest {};
 
 TEST_P(PickBetweenSteps, AMarkKeepsTheMoment) {
     Config config = panel_config(kWindow);
-    config.panel.room = false;
+    config.start.room_panel.shown = false;
     Session session(config, file_, *context_);
     settle(session, {}, std::nullopt);
     interaction::Commands commands;

@@ -20,7 +20,7 @@ inline Config panel_config(glm::ivec2 window) {
     stereo::Screen& screen = config.installation.windows.front().viewports.front().screen;
     screen = {{-1, 0.5f, -1}, {-1, 2.5f, -1}, {1, 2.5f, -1}, false, false};
     config.installation.viewers.front().position = {0.0f, 1.5f, 0.0f};
-    config.panel.room = true;
+    config.start.room_panel.shown = true;
     config.rendering.samples = 1;
     config.rendering.blending = Blending::display;
     return config;

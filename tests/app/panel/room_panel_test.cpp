@@ -187,7 +187,7 @@ Image window_of(const Session& session) {
 TEST_P(RoomPanelTest, AWandsRayMovesTheIsovalueAndAReplayFromDevicesRepeatsItAndItsPictures) {
     const auto small = [] {
         Config config = panel_config({400, 200});
-        config.quality.mode = interaction::QualityMode::fast;
+        config.start.quality = interaction::QualityMode::fast;
         return config;
     };
     const auto context = stereo::make_context(GetParam(), {.size = {400, 200}});
@@ -283,7 +283,7 @@ class PickTest : public RoomPanelTest {
   protected:
     PickTest() {
         Config config = panel_config(kWindow);
-        config.panel.room = false;
+        config.start.room_panel.shown = false;
         session_.emplace(config, file_, *context_);
         settle(*session_, {}, std::nullopt);
     }

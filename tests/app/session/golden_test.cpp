@@ -136,7 +136,7 @@ TEST_P(GoldenPictures, EveryWallOfACaveToEitherEye) {
     Config config = read_config("cave4");
     draw_as_in_software(config);
     config.quality.settled = Footprint::surface;
-    config.comfort.near_gone = config.comfort.near_whole = 0; // the sphere comes within reach
+    config.comfort.near_fade = {}; // the sphere comes within reach
     for (stereo::Window& window : config.installation.windows) {
         window.size = kWall;
         window.viewports.front().position = {0, 0};

@@ -228,7 +228,7 @@ TEST_P(Parts, AreNotMadeWithoutABudgetAtRestNorInFastAndPaperModeNorInAReplay) {
          {interaction::QualityMode::automatic, interaction::QualityMode::fast,
           interaction::QualityMode::paper}) {
         Config config = partial();
-        config.quality.mode = mode;
+        config.start.quality = mode;
         if (mode == interaction::QualityMode::automatic)
             config.quality.still_budget_ms = 0;
         Session session(config, file_, *context_);

@@ -40,7 +40,7 @@ class RandomUser : public SessionTest {
         Config config = small_config(modes[any(unsigned(modes.size()))]);
         stereo::Window& window = config.installation.windows.front();
         window.size = {int(16 + any(120)), int(16 + any(90))};
-        config.quality.mode = interaction::QualityMode(any(4));
+        config.start.quality = interaction::QualityMode(any(4));
         config.rendering.samples = int(1 + any(2) * 3);
         return config;
     }

@@ -38,7 +38,7 @@ class SessionArrays : public SessionTest {
     }
     static Config without_titles() {
         Config config = small_config();
-        config.rendering.bounding_box = false;
+        config.start.bounding_box = false;
         return config;
     }
     static bool same(const render::Image& a, const render::Image& b) { return a.rgba == b.rgba; }

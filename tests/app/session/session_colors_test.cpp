@@ -62,7 +62,7 @@ class SessionColors : public SessionTest {
 
     static Config without_box() {
         Config config = small_config();
-        config.rendering.bounding_box = false;
+        config.start.bounding_box = false;
         return config;
     }
     static Commands colored(ColorBy by, std::uint32_t step) {

@@ -159,7 +159,7 @@ double lit_of(const Session& session) {
 TEST_P(SessionDetail, FewerPixelsOfTheCellsKeepTheirRimsAndAreGivenUpBeforeCells) {
     Config config = config_with(1e-6);
     config.installation.windows.front().stereo = stereo::StereoMode::mono;
-    config.rendering.bounding_box = false;
+    config.start.bounding_box = false;
     const auto moving = [&](double budget_ms, std::size_t& resolution) {
         Config own = config;
         own.quality.frame_budget_ms = budget_ms;

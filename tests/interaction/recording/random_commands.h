@@ -55,9 +55,11 @@ struct RandomValue {
         for (int i = 0; i < 3; ++i)
             (*this)(field, into[i]);
     }
-    void operator()(const Field&, std::array<double, 2>& into) {
+    void operator()(const Field& field, std::array<double, 2>& into) {
         into[0] = uniform(random, -9, 9);
         into[1] = into[0] + uniform(random, 1e-3, 9);
+        if (field.any_order && sometimes())
+            std::swap(into[0], into[1]);
     }
     void operator()(const Field&, Pose& into) { into = {{1e-30f, 2, -3}, random_rotation(random)}; }
     void operator()(const Field&, Similarity& into) { into = random_similarity(random); }

@@ -210,7 +210,8 @@ TEST(TrackedDevice, NothingStaysPressedWhenTheTrackerStops) {
 TEST(TrackedDevice, ButtonsAndValuatorsAreChosenAndScaled) {
     DeviceOptions options = head_options();
     options.buttons = {4, 0};
-    options.valuators = {{1, 1.0f}, {0, -2.0f}, {9, 1.0f}};
+    options.valuators = {1, 0, 9};
+    options.valuator_factors = {1.0f, -2.0f, 1.0f};
     TrackedDevice device(options);
     device.heard(Seconds(0));
     device.set_button(0, true);

@@ -280,7 +280,7 @@ TEST(SessionFile, ARestoredSessionShowsTheSamePixels) {
     const auto context = stereo::make_context(stereo::ContextKind::egl, {.size = {256, 128}});
     const auto path = folder.path() / "a.isochron-session";
     Config config = small_config();
-    config.quality.mode = interaction::QualityMode::quality;
+    config.start.quality = interaction::QualityMode::quality;
     const auto settled = [](Session& session) {
         for (int frame = 1; frame < 3; ++frame)
             session.frame(head_at_rest(frame / 60.0), {}, Waiting::for_cells);

@@ -41,11 +41,8 @@ class MarkRows {
   public:
     void at(std::optional<double> seconds) { seconds_ = seconds; }
     void add(const interaction::Commands& commands) {
-        if (commands.step) {
-            step_ = *commands.step;
-            fraction_ = 0;
-        }
-        fraction_ = commands.fraction.value_or(fraction_);
+        instant_ = commands.instant.value_or(instant_);
+        instant_.fraction = commands.fraction.value_or(instant_.fraction);
         for (const interaction::ToolRow& tool : interaction::tool_table())
             for (const interaction::MarkedRow& row :
                  tool.rows ? tool.rows(commands) : std::vector<interaction::MarkedRow>())
@@ -67,19 +64,18 @@ class MarkRows {
                 push("bookmark", each.instant, each.name);
         known_ = all;
     }
-    Json& push(std::string_view what, std::uint32_t step, std::uint32_t fraction,
-               const std::string& name) {
-        Json row{{"what", what},         {"seconds", nullptr}, {"step", step},
-                 {"fraction", fraction}, {"name", name},       {"x", nullptr},
-                 {"y", nullptr},         {"z", nullptr},       {"value", nullptr}};
+    Json& push(std::string_view what, index::Instant at, const std::string& name) {
+        Json row{
+            {"what", what},    {"seconds", nullptr}, {"step", at.step}, {"fraction", at.fraction},
+            {"name", name},    {"x", nullptr},       {"y", nullptr},    {"z", nullptr},
+            {"value", nullptr}};
         if (seconds_)
             row["seconds"] = *seconds_;
         rows_.push_back(std::move(row));
         return rows_.back();
     }
     void push(std::string_view what, const interaction::MarkedRow& made) {
-        const interaction::Moment at = made.at.value_or(interaction::Moment(step_, fraction_));
-        Json& row = push(what, at.step, at.fraction, "");
+        Json& row = push(what, made.at.value_or(instant_), "");
         row["x"] = made.position.x;
         row["y"] = made.position.y;
         row["z"] = made.position.z;

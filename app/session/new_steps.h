@@ -32,7 +32,7 @@ class NewSteps final : public Companion {
         session.show_messages({fmt::format("{} steps now", steps)});
         asked.steps = steps;
         if (session.state().follow)
-            asked.step = steps - 1;
+            asked.instant.emplace(steps - 1);
     }
 
   private:

@@ -93,10 +93,10 @@ std::optional<glm::dvec3> Picker::place_to_read(const InputState& input, const E
 }
 
 Picker::Read Picker::read(const Place& place, const Asking&) {
-    const auto value = index::value_in(*place.file, place.step, place.at);
+    const auto value = index::value_in(*place.file, place.instant, place.at);
     if (!value)
         return {Mark{}, "no data there"};
-    return {Mark{MarkedPoint{place.at, place.step.step, *value, place.step.fraction}}, ""};
+    return {Mark{MarkedPoint{place.at, place.instant, *value}}, ""};
 }
 
 void Picker::update(const InputState& input, const ExplorerState& state,
@@ -105,7 +105,7 @@ void Picker::update(const InputState& input, const ExplorerState& state,
     before_ = now.levels();
     if (now.pressed(Action::probe) || now.pressed(WandButton::probe)) {
         if (const auto place = place_to_read(input, state, shown))
-            reading_.ask({file_, *place, state.instant()});
+            reading_.ask({file_, *place, state.shown_instant()});
         else
             messages_.emplace_back("no data there");
     }

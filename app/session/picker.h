@@ -59,7 +59,7 @@ class Picker {
     struct Place {
         std::shared_ptr<const index::IndexFile> file;
         glm::dvec3 at;
-        index::Instant step;
+        index::Instant instant;
     };
     struct Read {
         std::optional<interaction::Mark> mark; ///< empty: reading has failed

@@ -119,9 +119,9 @@ StepView part_of_step(const IndexFile& file, Instant at) {
     if (at.within(file.info().steps()).between())
         return step_of(file, at);
     const ChunkStore& store = file.chunks();
-    const bool there = file.referral() || store.holds_whole(at);
-    return there || (store.is_small() && file.better_whole(at)) ? as_a_whole(file, at)
-                                                                : step_in_chunks(file, at);
+    const bool there = file.referral() || store.holds_whole(at.step);
+    return there || (store.is_small() && file.better_whole(at.step)) ? as_a_whole(file, at)
+                                                                     : step_in_chunks(file, at);
 }
 
 StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level,

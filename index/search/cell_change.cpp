@@ -67,11 +67,11 @@ std::optional<CellChange> ChangeSearch::where_chunks_change(const Query& from, c
 
 CellChange ChangeSearch::operator()(const Query& from, const Query& to) {
     const std::size_t steps = file_->info().steps();
-    if (const std::uint32_t last = std::max(from.step, to.step); last >= steps)
+    if (const std::uint32_t last = std::max(from.instant.step, to.instant.step); last >= steps)
         throw Error(fmt::format("step {}: expected 0 to {}", last, steps - 1));
     if (from == to)
         return {};
-    if (from.step != to.step && !from.step.between() && !to.step.between() &&
+    if (from.instant != to.instant && !from.instant.between() && !to.instant.between() &&
         from.isovalue == to.isovalue && file_->has_since() &&
         can_search(*file_, SearchMethod::bricks))
         if (const auto change = where_chunks_change(from, to))

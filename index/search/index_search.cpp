@@ -44,7 +44,7 @@ class IndexSearch {
             return false;
         }
         if (!step.between())
-            file_->chunks().worked_on(step.at());
+            file_->chunks().worked_on(step.at().step);
         return true;
     }
 

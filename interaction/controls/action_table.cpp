@@ -37,7 +37,7 @@ void follow_last_step(const Press& p) {
     const std::vector<double>* times = p.context.series.times;
     p.commands.follow = !p.context.settings.follow;
     if (*p.commands.follow && times && !times->empty())
-        p.commands.step = static_cast<std::uint32_t>(times->size()) - 1;
+        p.commands.instant.emplace(static_cast<std::uint32_t>(times->size()) - 1);
 }
 
 /// Saves the volume's place in this frame under the next free name; drops the oldest view if there

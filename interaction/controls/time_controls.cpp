@@ -156,11 +156,8 @@ void TimeControls::update(const Reading& now, const ControlContext& context, Sec
         playback_.advance(times, to, state, elapsed, range, blended(context));
     state.playing = reached.playing;
     state.reverse = reached.reverse;
-    if (Moment(reached.step, reached.fraction) != from) {
-        commands.step = reached.step;
-        if (settings.blends())
-            commands.fraction = reached.fraction;
-    }
+    if (reached.instant != from)
+        commands.instant = reached.instant;
     if (state != settings.playback)
         commands.playback = state;
     if (range != settings.play_range)

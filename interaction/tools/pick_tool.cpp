@@ -29,7 +29,7 @@ std::vector<MarkedRow> mark_rows(const Commands& commands) {
     if (!commands.mark || !commands.mark->point)
         return {};
     const MarkedPoint& point = *commands.mark->point;
-    return {{point.position, point.value, Moment(point.step, point.fraction)}};
+    return {{point.position, point.value, point.instant}};
 }
 
 } // namespace isochron::interaction

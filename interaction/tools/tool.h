@@ -61,7 +61,7 @@ struct ToolDrawing {
 struct MarkedRow {
     glm::dvec3 position; ///< physical space
     std::optional<double> value = {};
-    std::optional<Moment> at = {}; ///< nothing: the moment that was shown
+    std::optional<Instant> at = {}; ///< nothing: the instant that was shown
 };
 
 /// Turns the readings of the hands that hold it into commands. It depends only on the frames that

@@ -98,7 +98,7 @@ ChangeTime time_change(const render::Gl& gl, const fs::path& path, const ChangeU
     before.coloring = after.coloring = use.coloring;
     // A step that is looked at again, or often with other isovalues, may be decoded as a whole; that
     // is not measured.
-    const int looks = of.before.step == of.after.step ? kDragged : 2;
+    const int looks = of.before.instant == of.after.instant ? kDragged : 2;
     for (int i = 0; again && i < looks; ++i)
         for (const index::SurfacesQuery& query : {before, after})
             extract(query, {});

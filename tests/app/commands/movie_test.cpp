@@ -200,7 +200,7 @@ TEST_F(MovieTest, OfAnIndexHasEveryStepOnceAsTheExplorerShowsItFirst) {
     ASSERT_GE(all.size(), 6u);
     std::set<std::uint32_t> steps;
     for (const PictureNote& note : all) {
-        steps.insert(note.state.step.value_or(999));
+        steps.insert(note.state.instant.value_or(index::Instant(999)).step);
         EXPECT_EQ(note.state.isosurfaces->front().isovalue, 12.5);
         EXPECT_EQ(note.footprint, "surface");
     }
@@ -210,7 +210,7 @@ TEST_F(MovieTest, OfAnIndexHasEveryStepOnceAsTheExplorerShowsItFirst) {
     EXPECT_EQ(movie({"-o", "some/", "--steps", "1:3:2"}).status, 0);
     steps.clear();
     for (const PictureNote& note : frames_in("some"))
-        steps.insert(note.state.step.value_or(999));
+        steps.insert(note.state.instant.value_or(index::Instant(999)).step);
     EXPECT_EQ(steps, (std::set<std::uint32_t>{1, 3}));
     for (const auto& [wrong, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--steps", "0:999"}, "--steps 0:999: "},

@@ -205,7 +205,7 @@ TEST(SessionKeeper, LeavesAnEarlierSessionThatCannotBeRenamed) {
     state.instant = index::Instant(3);
     SessionKeeper keeper(path, kept_of({}), false);
     for (int twice = 0; twice < 2; ++twice) {
-        state.step++;
+        state.instant.step++;
         EXPECT_THROW(keeper.finish(state, kept_of({}).head), index::Error);
         EXPECT_EQ(back_from(path).instant, index::Instant(0));
     }
@@ -221,7 +221,7 @@ TEST(KeptSession, EveryEarlierOneIsFoundAndTheLastComesFirst) {
     EXPECT_TRUE(earlier_sessions(options, *file).empty());
     ExplorerState state;
     for (int day = 0; day < 3; ++day) {
-        state.step++;
+        state.instant.step++;
         explore_once(path, state);
         make_older(path, static_cast<std::size_t>(day));
     }

@@ -90,7 +90,8 @@ class Reader {
                                    const toml::node& node) {
             TomlTable item = at.item(key, node);
             read(item, into.back());
-            refuse_twin(item, into);
+            if (&into != &list)
+                refuse_twin(item, into);
             item.finish();
         };
         const auto add = [&](std::vector<T>& into) {
@@ -103,7 +104,7 @@ class Reader {
         };
         const toml::node* node = at.take(field.key);
         const toml::node* one = field.one ? at.take(field.one) : nullptr;
-        if (one && (one != node || one->is_table())) {
+        if (one && !(one == node && one->is_array())) {
             if (list.empty())
                 add(list);
             read_item(list, field.one, *one);

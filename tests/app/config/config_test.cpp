@@ -1,6 +1,6 @@
 // Configuration files: what is shipped is valid, and what is wrong is named with its place.
 #include "app/config/color_map_file.h"
-#include "app/config/config.h"
+#include "app/config/config_fields.h"
 #include "app/text.h"
 #include "tests/app/config/config_error.h"
 #include "tests/support/paths.h"
@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 namespace isochron::app {
 namespace {
@@ -26,6 +27,21 @@ TEST(Config, EveryShippedFileIsValid) {
             ++files;
         }
     EXPECT_GE(files, 3);
+}
+
+TEST(ConfigFields, EachHasAKeyAndAMemberOfItsOwn) {
+    Config config;
+    std::set<std::string> keys;
+    std::set<const void*> members;
+    each_field(
+        [&](const Field& field, const auto& member) {
+            EXPECT_TRUE(members.insert(&member).second) << field.key;
+            if (!Table<std::remove_cvref_t<
+                    decltype(member)>>) // whose keys may stand in one table with others
+                EXPECT_TRUE(keys.insert(field.key).second) << field.key;
+        },
+        config);
+    EXPECT_GT(keys.size(), 80u);
 }
 
 TEST(Config, LooksArrive) {

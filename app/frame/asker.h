@@ -2,7 +2,7 @@
 //
 //     Asker<index::Instant, std::string> asker(words_of, why_not);
 //     asker.set_wake(wake);      // brings the next frame
-//     asker.ask({7});            // in one frame
+//     asker.ask(index::Instant(7));            // in one frame
 //     messages = asker.take();   // in a later one
 #pragma once
 

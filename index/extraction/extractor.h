@@ -2,7 +2,8 @@
 // making the caller wait.
 //
 //     index::Extractor extractor(index::extract_from(file));
-//     extractor.request({.query = {step, {isovalue}}, .ahead = index::StepsAhead{step + 1}});
+//     extractor.request({.query = {index::Instant(step), {isovalue}},
+//                        .ahead = index::StepsAhead{step + 1}});
 //     if (const auto newest = extractor.newest())              // every frame, never blocks
 //         show(newest);
 #pragma once

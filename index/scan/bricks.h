@@ -4,7 +4,7 @@
 //     const index::BrickGrid grid(values.grid);
 //     std::vector<std::uint8_t> bricks(grid.bytes_per_step());        // for each step
 //     index::build_bricks(values, levels, step, bricks);
-//     index::search_bricks(values, levels, bricks, {step, isovalue}, ids);
+//     index::search_bricks(values, levels, bricks, {index::Instant(step), isovalue}, ids);
 //
 // They take two bytes for 128 cells: 0.065 % of 24 bytes for each cell. Any levels give exact
 // results, since all cells of a brick that may hold active ones are tested in the volume.

@@ -1,6 +1,6 @@
 // The isosurface of a query as triangles, in plain vectors, for whoever wants to keep or export it.
 //
-//     const index::SurfaceMesh surface = index::mesh_of(file, {step, isovalue}, {.normals = true});
+//     const index::SurfaceMesh surface = index::mesh_of(file, {index::Instant(step), isovalue}, {.normals = true});
 //     for (const auto& [a, b, c] : surface.triangles)
 //         write(surface.points[a], surface.points[b], surface.points[c]);
 #pragma once

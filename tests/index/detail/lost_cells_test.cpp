@@ -86,7 +86,7 @@ TEST_F(LostCellsTest, OfTooManyChunksThoseWithNothingDrawnAreReadOrSomeOfThem) {
     const DetailRegions regions(file_->info().grid);
     const std::vector<std::uint8_t> levels(regions.size(), 2);
     CellSet coarse;
-    coarse.query = {0, 0.0};
+    coarse.query = {Instant(0), 0.0};
     ASSERT_TRUE(
         LayerSearch(file_).search(step_in_chunks(*file_, Instant(0), 2), coarse, true, true, {}));
     ASSERT_FALSE(coarse.points.empty());

@@ -294,7 +294,7 @@ TEST(Extraction, IsMadeByTheWorkerAndReadByOthers) {
     Extractor extractor(extract_from(indexed(folder, field.view())));
     for (std::uint32_t i = 0; i < 60; ++i) {
         extractor.request(
-            {.query = {i % 6, {100.0, 150.0 + i % 3}}, .ahead = StepsAhead{(i + 1) % 6}});
+            {.query = {Instant(i % 6), {100.0, 150.0 + i % 3}}, .ahead = StepsAhead{(i + 1) % 6}});
         if (const ExtractionPtr newest = extractor.newest()) {
             ASSERT_EQ(newest->surfaces.size(), 2u);
             ASSERT_EQ(newest->blocks.digests.size(), newest->blocks.ids.size());

@@ -46,7 +46,7 @@ TEST(Extractor, AnswersWhatIsAsked) {
     EXPECT_EQ(extractor.newest(), nullptr);
     EXPECT_FALSE(extractor.busy());
     extractor.wait(); // nothing asked: nothing to wait for
-    extractor.request({.query = {7, {1.5}}, .ahead = {}});
+    extractor.request({.query = {Instant(7), {1.5}}, .ahead = {}});
     extractor.wait();
     ASSERT_NE(extractor.newest(), nullptr);
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(7), {1.5}}));
@@ -56,7 +56,7 @@ TEST(Extractor, AnswersWhatIsAsked) {
 TEST(Extractor, WhatIsForgottenIsAnsweredAnewAlsoWhileItIsBeingFound) {
     HeldExtraction held(false); // gives what it found although it was stopped
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(3), {1.0}}, .ahead = {}});
     held.wait_until_started();
     held.let_go();
     extractor.wait();
@@ -87,10 +87,10 @@ TEST(Extractor, FinishesWhatIsNearlyDoneWhereTheLastSearchIsAMeasure) {
 TEST(Extractor, TheLatestRequestWins) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {0, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(0), {1.0}}, .ahead = {}});
     held.wait_until_started();
     for (std::uint32_t step = 1; step <= 5; ++step)
-        extractor.request({.query = {step, {1.0}}, .ahead = {}});
+        extractor.request({.query = {Instant(step), {1.0}}, .ahead = {}});
     held.let_go(2);
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query.instant, Instant(5));
@@ -101,13 +101,13 @@ TEST(Extractor, TheLatestRequestWins) {
 TEST(Extractor, AfterAnAbandonedSearchTheNextIsFinishedAndShown) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {0, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(0), {1.0}}, .ahead = {}});
     held.wait_until_started();
-    extractor.request({.query = {1, {1.0}}, .ahead = {}}); // abandons step 0
+    extractor.request({.query = {Instant(1), {1.0}}, .ahead = {}}); // abandons step 0
     held.let_go();
     held.wait_until_started(); // step 1
     EXPECT_EQ(extractor.newest(), nullptr);
-    extractor.request({.query = {2, {1.0}}, .ahead = {}}); // does not abandon step 1
+    extractor.request({.query = {Instant(2), {1.0}}, .ahead = {}}); // does not abandon step 1
     held.let_go();
     held.wait_until_started(); // step 2; step 1 is shown meanwhile
     ASSERT_NE(extractor.newest(), nullptr);
@@ -121,15 +121,15 @@ TEST(Extractor, AfterAnAbandonedSearchTheNextIsFinishedAndShown) {
 TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .ahead = StepsAhead{4}});
+    extractor.request({.query = {Instant(3), {1.0}}, .ahead = StepsAhead{4}});
     held.let_go(2);
     held.wait_until_started();
     held.wait_until_started(); // the prefetch
-    extractor.request({.query = {4, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(4), {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query.instant, Instant(4));
     EXPECT_EQ(held.calls(4), 1);
-    extractor.request({.query = {3, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(3), {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query.instant, Instant(3));
     EXPECT_EQ(held.calls(3), 1) << "stepping back is answered from the recent sets too";
@@ -138,11 +138,11 @@ TEST(Extractor, APrefetchedStepIsAnsweredWithoutAnotherSearch) {
 TEST(Extractor, ARunningPrefetchOfTheRequestedStepGoesOn) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .ahead = StepsAhead{4}});
+    extractor.request({.query = {Instant(3), {1.0}}, .ahead = StepsAhead{4}});
     held.let_go();
     held.wait_until_started();
     held.wait_until_started(); // the prefetch is now held
-    extractor.request({.query = {4, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(4), {1.0}}, .ahead = {}});
     EXPECT_TRUE(extractor.busy());
     held.let_go();
     extractor.wait();
@@ -153,11 +153,11 @@ TEST(Extractor, ARunningPrefetchOfTheRequestedStepGoesOn) {
 TEST(Extractor, APrefetchGivesWayToARequest) {
     HeldExtraction held;
     Extractor extractor(held.extract());
-    extractor.request({.query = {3, {1.0}}, .ahead = StepsAhead{4}});
+    extractor.request({.query = {Instant(3), {1.0}}, .ahead = StepsAhead{4}});
     held.let_go();
     held.wait_until_started();
     held.wait_until_started(); // the prefetch is now held
-    extractor.request({.query = {9, {2.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(9), {2.0}}, .ahead = {}});
     held.let_go(2);
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(9), {2.0}}));
@@ -175,18 +175,18 @@ TEST(Extractor, WhatIsAtHandIsNotReplacedByAnOlderSearch) {
     Extractor extractor(held.extract());
     held.let_go(2);
     for (const std::uint32_t step : {1u, 2u}) {
-        extractor.request({.query = {step, {1.0}}, .ahead = {}});
+        extractor.request({.query = {Instant(step), {1.0}}, .ahead = {}});
         extractor.wait();
         held.wait_until_started();
     }
-    extractor.request({.query = {3, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(3), {1.0}}, .ahead = {}});
     held.wait_until_started();
-    extractor.request({.query = {1, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(1), {1.0}}, .ahead = {}});
     EXPECT_EQ(extractor.newest()->query.instant, Instant(1));
     held.let_go();
     ASSERT_TRUE(comes_to_hand(extractor, 3));
     EXPECT_EQ(extractor.newest()->query.instant, Instant(1));
-    extractor.request({.query = {4, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(4), {1.0}}, .ahead = {}});
     held.wait_until_started();
     held.let_go();
     extractor.wait();
@@ -198,7 +198,7 @@ TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
     Extractor extractor(held.extract());
     held.let_go(1000);
     for (std::uint32_t step = 0; step < 50; ++step) {
-        extractor.request({.query = {step, {1.0 + step}}, .ahead = StepsAhead{100 + step}});
+        extractor.request({.query = {Instant(step), {1.0 + step}}, .ahead = StepsAhead{100 + step}});
         extractor.wait();
         if (step == 0) {
             ASSERT_TRUE(held.is_searched(100)) << "nothing says that it is dragged";
@@ -212,11 +212,11 @@ TEST(Extractor, NothingIsPrefetchedWhileIsovaluesAreDragged) {
         EXPECT_TRUE(held.is_searched(step));
         EXPECT_EQ(held.calls(step), 1);
     };
-    extractor.request({.query = {49, {50.0}}, .ahead = StepsAhead{149}});
+    extractor.request({.query = {Instant(49), {50.0}}, .ahead = StepsAhead{149}});
     expect_prefetch_of(149);
-    extractor.request({.query = {50, {51.0}}, .ahead = StepsAhead{150}});
+    extractor.request({.query = {Instant(50), {51.0}}, .ahead = StepsAhead{150}});
     extractor.wait();
-    extractor.request({.query = {51, {51.0}}, .ahead = StepsAhead{151}});
+    extractor.request({.query = {Instant(51), {51.0}}, .ahead = StepsAhead{151}});
     expect_prefetch_of(151);
     EXPECT_EQ(held.calls(150), 0);
 }
@@ -226,14 +226,14 @@ TEST(Extractor, AskingAgainForWhatIsAskedDoesNothing) {
     Extractor extractor(held.extract());
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double isovalue : {1.0, nan}) {
-        extractor.request({.query = {1, {isovalue}}, .ahead = {}});
+        extractor.request({.query = {Instant(1), {isovalue}}, .ahead = {}});
         held.wait_until_started();
         for (int i = 0; i < 10; ++i)
-            extractor.request({.query = {1, {isovalue}}, .ahead = {}});
+            extractor.request({.query = {Instant(1), {isovalue}}, .ahead = {}});
         held.let_go();
         extractor.wait();
         const ExtractionPtr shown = extractor.newest();
-        extractor.request({.query = {1, {isovalue}}, .ahead = {}});
+        extractor.request({.query = {Instant(1), {isovalue}}, .ahead = {}});
         EXPECT_FALSE(extractor.busy());
         EXPECT_EQ(extractor.newest(), shown);
     }
@@ -250,10 +250,10 @@ TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
             return nullptr;
         return empty_extraction(query);
     });
-    extractor.request({.query = {0, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(0), {1.0}}, .ahead = {}});
     extractor.wait();
     for (const std::uint32_t step : {1u, 2u, 3u}) {
-        extractor.request({.query = {step, {1.0}}, .ahead = {}});
+        extractor.request({.query = {Instant(step), {1.0}}, .ahead = {}});
         extractor.wait();
         EXPECT_TRUE(extractor.failure());
         EXPECT_EQ(extractor.newest()->query.instant, Instant(0)) << "the last picture stays";
@@ -261,7 +261,7 @@ TEST(Extractor, AFailureIsReportedUntilALaterQuerySucceeds) {
             EXPECT_EQ(*extractor.failure(), "step 1 cannot be read");
         }
     }
-    extractor.request({.query = {4, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(4), {1.0}}, .ahead = {}});
     extractor.wait();
     EXPECT_FALSE(extractor.failure());
     EXPECT_EQ(extractor.newest()->query.instant, Instant(4));
@@ -279,11 +279,11 @@ TEST(Extractor, AFailedPrefetchIsSilentUntilItsStepIsAsked) {
         }
         throw std::runtime_error("bad step, asked");
     });
-    extractor.request({.query = {0, {1.0}}, .ahead = StepsAhead{1}});
+    extractor.request({.query = {Instant(0), {1.0}}, .ahead = StepsAhead{1}});
     extractor.wait();
     prefetched.get_future().wait();
     EXPECT_FALSE(extractor.failure());
-    extractor.request({.query = {1, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(1), {1.0}}, .ahead = {}});
     extractor.wait();
     ASSERT_TRUE(extractor.failure());
     EXPECT_EQ(extractor.failure()->substr(0, 8), "bad step");
@@ -294,10 +294,10 @@ TEST(Extractor, NoCallWaitsForASearchThatIgnoresItsStop) {
     // search, the test would not come to an end.
     HeldExtraction held(false);
     Extractor extractor(held.extract());
-    extractor.request({.query = {0, {1.0}}, .ahead = StepsAhead{1}});
+    extractor.request({.query = {Instant(0), {1.0}}, .ahead = StepsAhead{1}});
     held.wait_until_started();
     for (std::uint32_t i = 0; i < 1000; ++i) {
-        extractor.request({.query = {i % 7, {double(i)}}, .ahead = StepsAhead{i % 5}});
+        extractor.request({.query = {Instant(i % 7), {double(i)}}, .ahead = StepsAhead{i % 5}});
         EXPECT_EQ(extractor.newest(), nullptr);
         EXPECT_TRUE(extractor.busy());
         EXPECT_FALSE(extractor.failure());
@@ -318,7 +318,7 @@ TEST(Extractor, DestructionStopsTheSearchAndJoins) {
                 ended = true;
                 return nullptr;
             });
-        extractor.request({.query = {0, {1.0}}, .ahead = {}});
+        extractor.request({.query = {Instant(0), {1.0}}, .ahead = {}});
         started.wait();
     }
     EXPECT_TRUE(ended);
@@ -356,14 +356,14 @@ TEST(Extractor, RandomRequestsFromOneThreadAndReadersOnOthersEndWithTheLastAnswe
     std::thread reader_a(look), reader_b(look);
     for (int i = 0; i < 3000; ++i) {
         const auto step = static_cast<std::uint32_t>(random() % 20);
-        Request request{.query = {step, {double(random() % 3)}}, .ahead = {}};
+        Request request{.query = {Instant(step), {double(random() % 3)}}, .ahead = {}};
         if (random() % 2)
             request.ahead = StepsAhead{step + 1};
         extractor.request(request);
         if (random() % 8 == 0)
             extractor.wait();
     }
-    extractor.request({.query = {5, {99.0}}, .ahead = StepsAhead{6}});
+    extractor.request({.query = {Instant(5), {99.0}}, .ahead = StepsAhead{6}});
     extractor.wait();
     EXPECT_EQ(extractor.newest()->query, (SurfacesQuery{Instant(5), {99.0}}));
     EXPECT_FALSE(extractor.failure());

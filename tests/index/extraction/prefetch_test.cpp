@@ -60,18 +60,18 @@ TEST(Prefetch, AsManyStepsArePrefetchedAsThereIsRoomForAlongThePlayback) {
     constexpr std::size_t kBytes = 1 << 20;
     SizedExtraction made(kBytes);
     Extractor extractor(made.extract(), 5 * kBytes + kBytes / 2);
-    extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
+    extractor.request({.query = {Instant(8), {1.0}}, .ahead = StepsAhead{9, 10}});
     made.await(extractor, 6);
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 9}));
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3}));
-    extractor.request({.query = {9, {1.0}}, .ahead = StepsAhead{0, 10}});
+    extractor.request({.query = {Instant(9), {1.0}}, .ahead = StepsAhead{0, 10}});
     EXPECT_EQ(extractor.newest()->query.instant, Instant(9)) << "at once";
     EXPECT_FALSE(extractor.busy());
     made.await(extractor, 7);
     EXPECT_EQ(made.steps().back(), 4u);
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
     // Backwards, what is nearest comes first.
-    extractor.request({.query = {7, {1.0}}, .ahead = StepsAhead{6, 10, true}});
+    extractor.request({.query = {Instant(7), {1.0}}, .ahead = StepsAhead{6, 10, true}});
     made.await(extractor, 10);
     EXPECT_EQ(made.steps(), (std::vector<std::uint32_t>{8, 9, 0, 1, 2, 3, 4, 7, 6, 5}));
     EXPECT_EQ(extractor.at_hand(), (std::vector<std::uint32_t>{2, 3, 4, 5, 6}));
@@ -119,10 +119,10 @@ TEST(Prefetch, WhatHasAMeshAnswersWhoNeedsNoneAndNotTheOtherWayRound) {
 TEST(Prefetch, WithoutRoomIsOfTheNextStepAlone) {
     SizedExtraction made(1000);
     Extractor extractor(made.extract());
-    extractor.request({.query = {8, {1.0}}, .ahead = StepsAhead{9, 10}});
+    extractor.request({.query = {Instant(8), {1.0}}, .ahead = StepsAhead{9, 10}});
     made.await(extractor, 2);
     for (std::uint32_t step = 9; step < 30; ++step) {
-        extractor.request({.query = {step % 10, {1.0}}, .ahead = StepsAhead{(step + 1) % 10, 10}});
+        extractor.request({.query = {Instant(step % 10), {1.0}}, .ahead = StepsAhead{(step + 1) % 10, 10}});
         EXPECT_EQ(extractor.newest()->query.instant, Instant(step % 10));
         made.await(extractor, step - 6);
         EXPECT_EQ(made.steps().back(), (step + 1) % 10);
@@ -144,12 +144,12 @@ TEST(Prefetch, OfAStepThatFailsEndsThere) {
             return extraction;
         },
         1 << 20);
-    extractor.request({.query = {1, {1.0}}, .ahead = StepsAhead{2, 6}});
+    extractor.request({.query = {Instant(1), {1.0}}, .ahead = StepsAhead{2, 6}});
     ASSERT_TRUE(eventually([&] {
         const std::scoped_lock lock(mutex);
         return !asked.empty() && asked.back() == 3;
     }));
-    extractor.request({.query = {2, {1.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(2), {1.0}}, .ahead = {}});
     EXPECT_EQ(extractor.newest()->query.instant, Instant(2));
     EXPECT_FALSE(extractor.failure());
     const std::scoped_lock lock(mutex);

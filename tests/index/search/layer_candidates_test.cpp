@@ -139,7 +139,7 @@ TEST(LayersOfAStep, AreReadInOneGoEachWhereMostOfThemIsNeeded) {
             whole += store.layer(0, layer)->offsets.back() - store.layer(0, layer)->offsets.front();
         const std::uint32_t in_one_go = bytes == whole ? source.requests : 0;
         CellSet set;
-        set.query = {0, isovalue};
+        set.query = {Instant(0), isovalue};
         EXPECT_TRUE(
             LayerSearch(file).search(step_in_chunks(*file, Instant(0)), set, true, true, {}));
         EXPECT_EQ(set.ids, BruteForce(field.view(), 0).active(isovalue));

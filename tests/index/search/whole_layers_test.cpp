@@ -105,7 +105,7 @@ TEST_F(WholeLayersTest, GiveTheCellsAndPlanesOfAWholeStepForEveryTypeAndGrid) {
             index(field);
             const double isovalue = quantiles(sorted_values(field.view()), 3)[1];
             CellSet found, wanted;
-            found.query = wanted.query = {0, isovalue};
+            found.query = wanted.query = {Instant(0), isovalue};
             wanted.ids = BruteForce(field.view(), 0).active(isovalue);
             ASSERT_EQ(!worth(isovalue), wanted.ids.empty());
             const std::uint64_t before = file_->reading().held;
@@ -131,7 +131,7 @@ TEST_F(WholeLayersTest, AreReadOnceAndOnlyTheFirstTimeThatAStepIsLookedAt) {
     const TestField field({60, 60, 90}, 1, ValueType::u8, scaled(white_noise(random_), 100, 128));
     index(field);
     CellSet set;
-    set.query = {0, 128.5};
+    set.query = {Instant(0), 128.5};
     ASSERT_TRUE(worth(128.5));
     for (auto& reads : source_->reads)
         reads = 0;
@@ -152,7 +152,7 @@ TEST_F(WholeLayersTest, AreAnnouncedOnceEachAndNothingBehindTheirStep) {
                           scaled(white_noise(random_), 10'000, 30'000));
     index(field);
     CellSet set;
-    set.query = {0, 30'000.5};
+    set.query = {Instant(0), 30'000.5};
     ASSERT_TRUE(worth(30'000.5));
     const ChunkStore& store = file_->chunks();
     const std::uint32_t layers = store.grid().layers();
@@ -244,7 +244,7 @@ TEST_F(WholeLayersTest, EndWhenTheyAreStoppedAtAnyReadOrTheFileFails) {
     const auto wanted = BruteForce(field.view(), 0).active(0.1);
     const auto search = [&](const std::stop_token& stop) {
         CellSet set;
-        set.query = {0, 0.1};
+        set.query = {Instant(0), 0.1};
         source_->requests = 0;
         const bool finished = this->search(set, stop);
         if (finished) {
@@ -289,7 +289,7 @@ TEST_F(WholeLayersTest, ADamagedChunkIsOneLine) {
     const auto damaged = folder_.path() / "b.isochron";
     std::ofstream(damaged, std::ios::binary) << bytes;
     CellSet set;
-    set.query = {0, 128.5};
+    set.query = {Instant(0), 128.5};
     try {
         const auto file = IndexFile::open(damaged);
         LayerSearch(file).search(step_in_chunks(*file, Instant(0)), set, true, true, {});

@@ -81,7 +81,7 @@ glm::dvec2 on_octahedron(const glm::dvec3& n) {
 
 CellSet all_cells(const StepValues& values, std::uint32_t step, double isovalue = 0.0) {
     CellSet set;
-    set.query = {step, isovalue};
+    set.query = {Instant(step), isovalue};
     set.ids.resize(values.grid.cell_count());
     std::iota(set.ids.begin(), set.ids.end(), CellId{0});
     EXPECT_TRUE(shade_cells(values, set));
@@ -263,7 +263,7 @@ TEST(CellSet, NormalsOfASphereThatIsBrightInsidePointOutwards) {
     const TestField field({40, 40, 40}, 1, ValueType::f32, moving_sphere);
     const StepValues values = field.view();
     CellSet set;
-    set.query = {0, 112.5};
+    set.query = {Instant(0), 112.5};
     scan(values, set.query, set.ids);
     ASSERT_GT(set.ids.size(), 1000u);
     ASSERT_TRUE(shade_cells(values, set));

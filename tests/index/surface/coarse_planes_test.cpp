@@ -33,7 +33,7 @@ std::vector<CellPoint> cells_of_ball(unsigned level, double side) {
     MemorySeries series(field.view());
     build_index(series, folder.path() / "a.isochron", {.tiers = TierSet().with(Tier::bricks)});
     CellSet set;
-    set.query = {0, 0.0};
+    set.query = {Instant(0), 0.0};
     const auto file = IndexFile::open(folder.path() / "a.isochron", 1);
     EXPECT_TRUE(
         LayerSearch(file).search(step_in_chunks(*file, Instant(0), level), set, true, true, {}));

@@ -106,12 +106,12 @@ TEST_F(ByteSourceTest, AFailureIsOneLineOfEveryMethodAndTheNextSearchIsRight) {
 TEST_F(ByteSourceTest, AFileThatIsMadeShorterIsOneLineAndTheLastPictureStays) {
     const auto file = IndexFile::open(path_, 1);
     Extractor extractor(extract_from(file));
-    extractor.request({.query = {0, {100.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(0), {100.0}}, .ahead = {}});
     extractor.wait();
     const ExtractionPtr shown = extractor.newest();
     ASSERT_NE(shown, nullptr);
     std::filesystem::resize_file(path_, 5000);
-    extractor.request({.query = {1, {120.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(1), {120.0}}, .ahead = {}});
     extractor.wait();
     ASSERT_TRUE(extractor.failure());
     EXPECT_THAT(*extractor.failure(), HasSubstr("a.isochron: truncated: nothing at byte "));
@@ -123,7 +123,7 @@ TEST_F(ByteSourceTest, ASlowDiskHoldsNobodyUpWhoAsks) {
     test_support::Gate disk;
     source_->at_read = [&] { disk.pass(); };
     Extractor extractor(extract_from(file_));
-    extractor.request({.query = {0, {100.0}}, .ahead = {}});
+    extractor.request({.query = {Instant(0), {100.0}}, .ahead = {}});
     EXPECT_EQ(extractor.newest(), nullptr);
     EXPECT_TRUE(extractor.busy());
     disk.open();

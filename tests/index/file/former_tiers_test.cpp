@@ -184,7 +184,11 @@ INSTANTIATE_TEST_SUITE_P(
         FormerFile{"former_grown.isochron", TierSet().with(Tier::bricks), SearchMethod::bricks},
         FormerFile{"former_alone.isochron", TierSet(), SearchMethod::scan},
         FormerFile{"former_f32.isochron", TierSet().with(Tier::bricks), SearchMethod::bricks},
-        FormerFile{"version3_u8.isochron", TierSet().with(Tier::bricks), SearchMethod::bricks}));
+        FormerFile{"version3_u8.isochron", TierSet().with(Tier::bricks), SearchMethod::bricks}),
+    [](const auto& one) {
+        const std::string name = one.param.name;
+        return name.substr(0, name.find('.'));
+    });
 
 } // namespace
 } // namespace isochron::index

@@ -10,7 +10,8 @@ constexpr float kTop = 36.0f, kTime = 52.0f, kTimeOfTwoRows = 84.0f;
 constexpr float kColumn = 300.0f, kIcons = 40.0f;
 constexpr float kFoldedBelow = 800.0f; ///< width of the picture's window
 constexpr float kOneRow = 560.0f;      ///< width of the bar of the time, at least
-constexpr float kTitle = 24.0f;        ///< of the panel in the room: a hand carries it by this
+/// Bar at the top of the panel in the room, by which a hand carries it.
+constexpr float kTitle = 24.0f;
 
 } // namespace
 

@@ -22,7 +22,7 @@ struct PanelBox {
 struct PanelPlaces {
     PanelBox top, column, time, picture;
     bool folded = false; ///< the column shows only icons, which open the sections over the picture
-    bool two_rows = false; ///< of the bar of the time: its buttons stand above its track
+    bool two_rows = false; ///< in the bar of the time the buttons stand above the track
 
     /// Whether a part that is always there covers a place.
     bool covers(glm::vec2 at) const {

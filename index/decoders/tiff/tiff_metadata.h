@@ -27,7 +27,7 @@ struct TiffStack {
     glm::dvec3 spacing{1.0}, origin{0.0};
     Scaling scaling = {};
     std::string value_unit = {};
-    std::vector<double> times = {}; ///< of frames, where they are said one by one
+    std::vector<double> times = {}; ///< times of frames, where they are said one by one
     std::string length_unit = {}, time_unit = {};
     double time_step = 0; ///< 0: not said
     /// Channel fastest, then slice, then frame; empty: in this order.

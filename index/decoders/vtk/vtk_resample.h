@@ -32,7 +32,7 @@ vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
                                          const std::array<std::uint32_t, 3>& vertices,
                                          const std::string& file);
 
-/// The same onto the vertices of another image.
+/// Resamples the data onto the vertices of another image.
 vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData& like,
                                               const std::string& file);
 

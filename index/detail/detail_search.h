@@ -25,7 +25,7 @@ struct DetailCells {
     std::vector<std::uint16_t> colors;
     std::vector<std::uint8_t> levels; ///< by region
     unsigned coarsest = 0;            ///< level of the largest cells
-    std::size_t cells() const;        ///< of all surfaces
+    std::size_t cells() const;        ///< cells of all surfaces
 };
 
 /// Every region gets the level that the query wishes. While that makes too many cells, all wishes
@@ -96,9 +96,9 @@ class DetailSearch {
     unsigned counted_ = 0;               ///< the finest level of which all is known
     std::vector<std::size_t> in_region_; ///< cells of that level
     double level_zero_ = 1; ///< expected cells of level 0, divided by those in in_region_
-    std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface
-    CellColoring coloring_ = CellColoring::none;     ///< of the query
-    std::optional<ColorSource> source_;              ///< of the colors, where they are values
+    std::vector<std::vector<std::uint16_t>> colors_; ///< colors of the result, by surface
+    CellColoring coloring_ = CellColoring::none;     ///< coloring that the query asks for
+    std::optional<ColorSource> source_; ///< source of the colors, where they are values
     std::map<std::pair<double, unsigned>, FirstCrossingsPtr> crossings_; ///< by isovalue and level
 };
 

@@ -32,9 +32,9 @@ struct MeshPacking {
 /// What all steps of an export have in common.
 struct ExportPlan {
     std::string note;              ///< one line: who wrote the file, of which data
-    std::string length_unit;       ///< of the coordinates in the file; empty: not known
-    std::string values_name;       ///< of the values at the vertices; empty: there are none
-    std::string time_unit;         ///< of `ExportedStep::time`; empty: not known
+    std::string length_unit;       ///< unit of the coordinates in the file; empty: not known
+    std::string values_name;       ///< name of the values at the vertices; empty: there are none
+    std::string time_unit;         ///< unit of `ExportedStep::time`; empty: not known
     double unit_factor = 1;        ///< from the data's unit of length to that of the file
     double meters = 1;             ///< in a unit of length of the file; 1 where it is not known
     bool double_precision = false; ///< coordinates have 64 bits
@@ -69,7 +69,7 @@ struct ExportedSurface {
 
 struct ExportedStep {
     std::uint32_t step = 0;
-    std::uint32_t fraction = 0; ///< of the way to the next step, in 65536ths
+    std::uint32_t fraction = 0; ///< share of the way to the next step, in 65536ths
     double time = 0;
     const Grid* grid = nullptr;
     std::vector<ExportedSurface> surfaces;

@@ -35,8 +35,8 @@ struct Extraction {
     /// Where cells of the volume itself are colored by values: the fine color coordinates
     /// (cell_colors.h) at the eight vertices of each cell, in the same order.
     std::vector<std::uint16_t> corner_colors;
-    VolumeBlocks blocks;           ///< of the step, for all surfaces
-    SurroundingField surroundings; ///< of all surfaces; none where there are no cells
+    VolumeBlocks blocks;           ///< blocks of the step, for all surfaces
+    SurroundingField surroundings; ///< field of all surfaces; none where there are no cells
     /// The level of each region's cells (detail_regions.h). Empty: all cells are the volume's own.
     /// Else cells come as points only, as detail_regions.h has them, and without the volume around
     /// them.
@@ -50,7 +50,8 @@ struct Extraction {
     /// The worker puts them there if they were asked for.
     std::shared_ptr<LaterMeshes> later = std::make_shared<LaterMeshes>();
 
-    std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice
+    /// Number of cells of all surfaces: a cell that is active in two counts twice.
+    std::size_t cells() const;
     bool coarse() const { return !detail.empty(); } ///< whether some cells are of coarser levels
     bool shaded() const; ///< whether every cell has its point, with its normal
     bool meshed() const; ///< whether it came with a mesh of every surface that has cells
@@ -87,7 +88,7 @@ class NewestIndex {
     std::shared_ptr<const IndexFile> file_;
 };
 
-/// The same as `extract_from`, at each call from the array that the query names of the index that
+/// Like `extract_from`, but at each call from the array that the query names of the index that
 /// `newest` holds.
 Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading);
 

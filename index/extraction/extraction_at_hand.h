@@ -58,7 +58,7 @@ class ExtractionAtHand {
     KnownColors colors() const;
     /// The surroundings that are taken over where the volume stays; null: none.
     const SurroundingField* surroundings() const;
-    /// Of the extraction at hand, which must be there.
+    /// The step of the extraction at hand, which must be there.
     Instant earlier_step() const { return from_->query.step; }
     /// The blocks that are taken over. @param only_if_same_levels for other isovalues they differ
     KnownBlocks blocks(bool only_if_same_levels) const;
@@ -82,14 +82,14 @@ class ExtractionAtHand {
     unsigned looks_ = 0;      ///< at the same step, one after the other
     std::optional<StepView> step_;
     std::optional<StayingCells> staying_; ///< none if nothing is taken over
-    /// Of the array to color by; none if no colors are taken over.
+    /// What stays of the array to color by; none if no colors are taken over.
     std::optional<StayingCells> staying_colors_;
-    CellMeshPtr mesh_;                ///< of the last surface that was found
-    CellsOfMesh cells_;               ///< of that mesh
+    CellMeshPtr mesh_;                ///< mesh of the last surface that was found
+    CellsOfMesh cells_;               ///< cells of that mesh
     std::vector<std::uint8_t> inner_; ///< EarlierMesh, of the surface that was found
-    /// By surface: EarlierMesh::places; empty where nothing is kept, or nobody asks.
+    /// EarlierMesh::places of each surface; empty where nothing is kept, or nobody asks.
     std::vector<std::vector<std::uint32_t>> places_;
-    /// Likewise EarlierMesh::colored, also without a mesh.
+    /// EarlierMesh::colored of each surface, also without a mesh.
     std::vector<std::vector<std::uint32_t>> colored_;
     std::size_t found_ = 0; ///< the last surface that was found
 };

@@ -23,7 +23,8 @@ struct StepsAhead {
     bool reverse = false;
     bool to_and_fro =
         false; ///< playback turns at both ends instead; the step before `next` is shown
-    std::uint32_t first = 0, every = 1; ///< of the series, those that are played
+    /// Steps of the series that are played: from `first` on, every so manieth.
+    std::uint32_t first = 0, every = 1;
     bool operator==(const StepsAhead&) const = default;
 
     std::uint32_t count() const { return steps == 0 ? 1 : steps - 1; }

@@ -44,7 +44,7 @@ struct BlockMemory {
 
 /// Some blocks of one step.
 struct VolumeBlocks {
-    ValueType held = ValueType::f32;  ///< of the values in `bytes`
+    ValueType held = ValueType::f32;  ///< type of the values in `bytes`
     float factor = 1;                 ///< see BlockValues
     float range = 1;                  ///< width of the data set's range, in block units
     std::vector<BlockId> ids;         ///< ascending
@@ -86,7 +86,7 @@ class BlockGatherer {
                 const std::stop_token& stop = {}, const KnownBlocks& known = {});
     /// Whether blocks of other isovalues are the same.
     bool without_levels() const { return values_.stored() == values_.held(); }
-    /// The same from values in memory.
+    /// Gathers the blocks from values in memory.
     bool gather(const StepValues& step, Instant at, const BlockLevels& levels, VolumeBlocks& blocks,
                 const std::stop_token& stop = {});
 
@@ -114,9 +114,10 @@ class BlockGatherer {
     Grid grid_;
     BlockTiling tiling_;
     BlockValues values_;
-    std::size_t row_words_;                            ///< of 64 bits, for the blocks along x
-    std::vector<std::uint64_t> needed_;                ///< rows of blocks, a bit for each block
-    std::vector<std::uint64_t> row_inner_, row_outer_; ///< of a row of cells, by block along x
+    std::size_t row_words_;             ///< words of 64 bits in a row of blocks along x
+    std::vector<std::uint64_t> needed_; ///< rows of blocks, a bit for each block
+    /// Bits of the blocks along x that a row of cells needs.
+    std::vector<std::uint64_t> row_inner_, row_outer_;
 };
 
 } // namespace isochron::index

@@ -86,9 +86,9 @@ const Format& format_named(std::string_view name);
 /// What a name stands for.
 struct KnownFile {
     std::filesystem::path given;
-    std::filesystem::path path;     ///< of a folder that a file in it describes, this file
+    std::filesystem::path path;     ///< for a folder that a file in it describes: this file
     const Format* format = nullptr; ///< null: unknown, or it cannot be read
-    const NameEnd* end = nullptr;   ///< of its name; null: its content told
+    const NameEnd* end = nullptr;   ///< ending of its name; null: its content told
 };
 
 /// Asks the formats for a file, by the end of its name in upper or lower case, and then by its first

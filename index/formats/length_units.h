@@ -19,8 +19,8 @@ std::string tidy_length_unit(const std::string& unit);
 
 /// What turns lengths in units of their own into lengths in one.
 struct OneLengthUnit {
-    std::string unit;               ///< that of the first axis that has any
-    glm::dvec3 factor{1.0};         ///< of each axis
+    std::string unit;               ///< unit of the first axis that has any
+    glm::dvec3 factor{1.0};         ///< factor of each axis to this unit
     std::vector<std::string> notes; ///< one sentence, where units differ
 };
 

@@ -369,9 +369,9 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo info_;
     SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
-    std::vector<StepPlace> places_;     ///< of every step
-    std::vector<Found> found_;          ///< of every file
-    std::optional<std::uint64_t> head_; ///< of the first file, see `telling_head`
+    std::vector<StepPlace> places_;     ///< place of every step
+    std::vector<Found> found_;          ///< what was found in every file
+    std::optional<std::uint64_t> head_; ///< head of the first file, see `telling_head`
     std::unique_ptr<VolumeFile> open_;
     std::size_t open_index_ = 0;
 };

@@ -55,7 +55,7 @@ bool natural_less(const NumberedName& a, const NumberedName& b);
 /// Names read together.
 struct ReadNames {
     std::vector<NumberedName> names; ///< in the order given
-    std::vector<std::size_t> order;  ///< of the names, by their numbers
+    std::vector<std::size_t> order;  ///< order of the names by their numbers
     /// One sentence for the user, where the other reading would give another order.
     std::optional<std::string> note;
 };

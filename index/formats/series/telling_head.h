@@ -14,7 +14,7 @@ namespace isochron::index {
 /// somebody else's to say.
 std::optional<std::uint64_t> head_of_file(const std::filesystem::path& file, std::uint64_t size);
 
-/// Of the first bytes of such a file.
+/// The head of a file that begins with these bytes.
 std::optional<std::uint64_t> telling_head(std::string_view start, std::uint64_t size);
 
 } // namespace isochron::index

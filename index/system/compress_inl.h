@@ -41,7 +41,7 @@ constexpr std::array<std::uint32_t, 256> kChosenOfEight = [] {
     return chosen;
 }();
 
-/// The same for lanes of 16 bits, as numbers of bytes.
+/// Shuffles for lanes of 16 bits, as numbers of bytes.
 constexpr std::array<std::array<std::uint8_t, 16>, 256> kBytesOfEight = [] {
     std::array<std::array<std::uint8_t, 16>, 256> chosen{};
     for (std::size_t bits = 0; bits < 256; ++bits)

@@ -30,7 +30,8 @@ class PageChoice {
 
   private:
     std::mutex mutex_;
-    std::array<std::optional<std::chrono::nanoseconds>, 2> times_; ///< of late, by kind
+    /// How long reads took of late, by kind.
+    std::array<std::optional<std::chrono::nanoseconds>, 2> times_;
     Pages better_ = Pages::small;
     unsigned between_ = kBetweenTrials, until_trial_ = kBetweenTrials;
 };

@@ -34,7 +34,7 @@ class Blend {
     /// What blended values are stored as.
     ValueType type() const { return type_; }
     const Scaling& scaling() const { return scaling_; }
-    /// Those that it was made for, finite and each once; empty: any.
+    /// The isovalues that it was made for, finite and each once; empty: any.
     std::span<const double> isovalues() const { return std::span(isovalues_).first(count_); }
 
     /// @param a, b aligned stored values of the two steps, equally many
@@ -56,7 +56,7 @@ class Blend {
     std::uint32_t n_;
     std::array<double, kMostIsovalues> isovalues_{};
     std::size_t count_ = 0;
-    std::array<Side, kMostIsovalues> sides_{}; ///< of the isovalues, if f32 stays f32
+    std::array<Side, kMostIsovalues> sides_{}; ///< sides of the isovalues, if f32 stays f32
 };
 
 } // namespace isochron::index

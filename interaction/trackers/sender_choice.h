@@ -37,7 +37,7 @@ class SenderChoice {
   private:
     struct Current {
         Endpoint sender;
-        Seconds arrival;     ///< of its last datagram that made sense, or of its first one
+        Seconds arrival;     ///< when its last datagram that made sense arrived, or its first one
         bool proven = false; ///< a datagram of it has made sense
     };
     std::optional<Endpoint> from_;

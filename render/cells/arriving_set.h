@@ -48,17 +48,18 @@ class ArrivingSet {
     /// For a set without points, when all changes are sent.
     SlotPlan& plan() { return *plan_; }
     const DeviceArray& message() const { return message_; } ///< changed cells, for CellCompute
-    const DeviceArray& styles() const { return styles_; }   ///< likewise, of all cells by slot
+    /// Styles of all cells, by slot, for CellCompute.
+    const DeviceArray& styles() const { return styles_; }
 
-    static DeviceArray points_array(const Gl& gl); ///< of index::CellPoint
+    static DeviceArray points_array(const Gl& gl); ///< a buffer of index::CellPoint
 
   private:
     bool send_message(StagingRing& ring, SendBudget& budget, UploadCount& count);
     bool send_styles(StagingRing& ring, SendBudget& budget, UploadCount& count);
 
     const Gl* gl_;
-    DeviceArray points_;  ///< of a set that comes with its points
-    DeviceArray message_; ///< of another set
+    DeviceArray points_;  ///< points of a set that comes with its points
+    DeviceArray message_; ///< changed cells of another set
     DeviceArray styles_;
     index::ExtractionPtr set_;
     std::unique_ptr<RankedPoints> ranked_; ///< if the set comes with its points

@@ -62,7 +62,7 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
 
 void CellBuffers::prepare(index::ValueType held) {
     blocks_.emplace(*gl_, grid_, held);
-    volume_version_ = 0; // of no set
+    volume_version_ = 0; // no set's volume
     held_ = held;
     const auto [made, is_new] = computes_.try_emplace(held, *gl_, grid_, *axes_, held);
     compute_ = &made->second;
@@ -135,7 +135,7 @@ void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& wh
     colors_sent_ = 0;
     for (KeptMeshes& meshes : meshes_)
         meshes.sending = false;
-    volume_version_ = 0; // of no set
+    volume_version_ = 0; // no set's volume
     if (blocks_)         // which may have got only a part
         blocks_.emplace(*gl_, grid_, held_);
 }
@@ -161,7 +161,7 @@ bool CellBuffers::make_room_for(const index::VolumeBlocks& blocks) {
         return false;
     if (!blocks_->has_room_for(blocks)) {
         blocks_->forget();
-        volume_version_ = 0; // of no set
+        volume_version_ = 0; // no set's volume
     }
     return true;
 }

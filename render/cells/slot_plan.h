@@ -94,7 +94,7 @@ class SlotPlan {
     const index::Extraction* from_;
     const Slots* slots_;
     const index::Extraction* to_;
-    std::size_t cells_; ///< of the new set
+    std::size_t cells_; ///< number of cells in the new set
     // Position of the walk: a surface, and in it the next cell of the old set and of the new one.
     std::size_t surface_ = 0, old_at_ = 0, new_at_ = 0;
     std::size_t old_rank_ = 0, new_rank_ = 0;

@@ -12,7 +12,7 @@ namespace isochron::render {
 /// A square of whole pixels of the viewport.
 struct PixelSquare {
     std::uint32_t corner = 0; ///< its lower left pixel: x, and y from bit 16 on
-    std::uint32_t size = 0;   ///< of its sides [pixel]; 0 where it is not known
+    std::uint32_t size = 0;   ///< length of its sides [pixel]; 0 where it is not known
 };
 
 /// The cells from number `first`, a multiple of `CellSquares::kBlock`, to `end`.
@@ -28,7 +28,7 @@ struct CellRange {
 std::size_t find_squares(const CellSquares& squares, const TileNumbers& tiles, CellRange range,
                          std::uint32_t* seen);
 
-/// The same for quads that are cut at their cells.
+/// Finds which quads that are cut at their cells are seen.
 /// @param parts takes a square around what is seen of each
 std::size_t find_cuts(const CellSquares& cuts, const TileNumbers& tiles, CellRange range,
                       std::uint32_t* seen, PixelSquare* parts);

@@ -45,7 +45,7 @@ HWY_INLINE V3 select(Mask which, const V3& yes, const V3& no) {
 struct Planes {
     Mask are_there; ///< cells with a plane
     V3 normal;      ///< (0, 0, 1) if there is none
-    V3 size;        ///< of the normal's components, a little above 0
+    V3 size;        ///< absolute values of the normal's components, a little above 0
     V3 middle;      ///< from the cell's [voxels]; zero if there is none
     V rest;
 };

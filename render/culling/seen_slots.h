@@ -44,8 +44,9 @@ class SeenSlots {
         begin(view, placement, shape, slots, falloff);
         return advance(work(), slots, back_to_front);
     }
-    /// Of each visible quad that is cut at its cell, once all is done, a square around all that
-    /// others do not hide of it; empty for other cells. Valid as long as the slots.
+    /// What is seen of each quad that is cut at its cell, once all slots are done: a square around
+    /// the part of the quad that nearer cells do not hide; empty for other cells. Valid as long as
+    /// the slots.
     std::span<const PixelSquare> parts() const {
         return kind_ == Kind::cuts ? std::span<const PixelSquare>(parts_).first(seen_.size())
                                    : std::span<const PixelSquare>();

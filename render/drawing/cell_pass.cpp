@@ -24,8 +24,8 @@
 namespace isochron::render {
 namespace {
 
-constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl
-constexpr GLuint kSurroundingsUnit = 9; ///< of surroundings.glsl
+constexpr GLuint kColorMapUnit = 7;     ///< texture unit of appearance.glsl
+constexpr GLuint kSurroundingsUnit = 9; ///< texture unit of surroundings.glsl
 
 /// Whether only as many cells are drawn at once as a window of corners holds.
 bool comes_in_windows(Footprint footprint, bool blended) {

@@ -30,7 +30,7 @@ constexpr const char* kScreenKey = "windows.viewports.projection";
 struct PlacedViewport {
     const stereo::Window& window;
     const stereo::Viewport& viewport;
-    std::size_t number; ///< of the viewport in its window, from 1
+    std::size_t number; ///< number of the viewport in its window, from 1
     int line;
 };
 

@@ -20,9 +20,9 @@ int line_in(const std::vector<int>& lines, std::size_t index) {
 /// Every device of every tracker, in one form.
 struct ListedDevice {
     const interaction::DeviceOptions& options;
-    std::string key;    ///< of the tracker's table
+    std::string key;    ///< key of the tracker's table
     std::string source; ///< the tracked body, sensor or channel that it reads
-    int line;           ///< of the tracker
+    int line;           ///< line of the tracker
 };
 
 std::vector<ListedDevice> listed(const DeviceConfig& devices) {

@@ -28,7 +28,7 @@ constexpr double kFirstQuantile = 0.95;
 /// An isosurface to start with, given as an isovalue or else as a quantile of the data's values.
 struct ConfiguredSurface {
     std::optional<double> isovalue;
-    double quantile; ///< of all values, 0 to 1; used if there is no isovalue
+    double quantile; ///< share of all values below it, 0 to 1; used if there is no isovalue
     glm::vec3 color; ///< sRGB
     float opacity = 1.0f;
 };
@@ -68,7 +68,8 @@ struct RenderingConfig {
     render::CellAppearance appearance;            ///< light and material
     Blending blending = Blending::automatic;
     render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
-    int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
+    /// Samples of each pixel; 0: 4 where the GPU draws, 1 where the processor does.
+    int samples = 0;
     bool level_of_detail = true; ///< coarser levels while too many cells move
     bool bounding_box = true;    ///< with ticks and numbers
     bool wand_ray = true;
@@ -88,9 +89,10 @@ struct PictureConfig {
 
 /// The table `memory`.
 struct MemoryConfig {
-    int cache_megabytes = 0;    ///< most kept of the index; 0: a quarter of the usable memory
-    int mesh_megabytes = 96;    ///< most for the triangles of a set; 0: no triangles are made
-    int most_cells = 8'000'000; ///< of a set; where there are more, coarser levels take their place
+    int cache_megabytes = 0; ///< most kept of the index; 0: a quarter of the usable memory
+    int mesh_megabytes = 96; ///< most for the triangles of a set; 0: no triangles are made
+    /// Cells of a set; where there are more, coarser levels take their place.
+    int most_cells = 8'000'000;
 
     /// As IndexFile::open takes it.
     std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }

@@ -41,7 +41,8 @@ ordered_json object_of(const ordered_json& properties) {
 
 struct TableSchema::Properties {
     ordered_json by_key = ordered_json::object();
-    ordered_json definitions = ordered_json::object(); ///< of tables that may also be arrays
+    /// Schemas of tables that may also be arrays.
+    ordered_json definitions = ordered_json::object();
     void note(std::string_view key, ordered_json schema) {
         by_key[std::string(key)] = std::move(schema);
     }

@@ -30,7 +30,7 @@ class ConfigError : public std::runtime_error {
 /// Reads one table. Each call names a key; if the key is absent, its target stays as it is.
 /// `finish` then refuses every key that no call named.
 ///
-/// The same calls can also describe a table instead of reading one: then no key is present, nothing
+/// A reader can also describe a table instead of reading one: then no key is present, nothing
 /// fails, the reader of every inner table runs once, and the schema notes all keys.
 class TomlReader {
   public:
@@ -62,7 +62,7 @@ class TomlReader {
     void given_word(std::string_view key, const std::vector<std::string>& words,
                     const std::function<void(const std::string&)>& take);
 
-    int line() const { return static_cast<int>(table_.source().begin.line); } ///< of the table
+    int line() const { return static_cast<int>(table_.source().begin.line); } ///< line of the table
     bool has(std::string_view key) const { return find(key) != nullptr; }
 
     /// A sub-table, or an array of tables. `read` reads each of them; `finish` follows.

@@ -20,8 +20,9 @@ namespace isochron::app {
 inline constexpr std::size_t kMostUnsent = 256 * 1024; ///< [byte] of lines; then nothing is read
 inline constexpr std::size_t kMostBehind = 16 << 20;   ///< [byte] behind lines; likewise
 inline constexpr std::size_t kMostUnanswered = 1024;   ///< requests of a client; likewise
-inline constexpr double kMostRequestsASecond = 20'000; ///< of a client; more wait
-inline constexpr double kMostAtOnce = 2'000;           ///< requests, after a pause
+/// Requests that a client gets answered; more wait.
+inline constexpr double kMostRequestsASecond = 20'000;
+inline constexpr double kMostAtOnce = 2'000; ///< requests, after a pause
 
 /// How many requests a client may make now: some at once after a pause, and then at a rate.
 class RequestRate {
@@ -40,8 +41,8 @@ class RequestRate {
 struct Unanswered {
     enum class For { frame, picture_now, picture_final, search };
     For what = For::frame;
-    std::uint64_t number = 0; ///< of the request at the desk
-    std::string id;           ///< of the request, as JSON
+    std::uint64_t number = 0; ///< number of the request at the desk
+    std::string id;           ///< id of the request, as JSON
 };
 
 /// Not thread-safe. Sockets are never waited for.
@@ -95,9 +96,9 @@ class ControlConnection {
     std::string received_; ///< bytes before `read_` are done with
     std::size_t read_ = 0;
     std::deque<ControlAnswer> unsent_;
-    std::size_t unsent_bytes_ = 0;  ///< of lines
+    std::size_t unsent_bytes_ = 0;  ///< bytes of the lines
     std::size_t unsent_behind_ = 0; ///< bytes behind them
-    std::size_t sent_ = 0;          ///< of the first answer, line and bytes together
+    std::size_t sent_ = 0;          ///< bytes sent of the first answer, line and bytes together
     bool ends_ = false, over_ = false;
 };
 

@@ -18,7 +18,7 @@ namespace isochron::app {
 /// A search, for whom it is, and what it is asked of.
 struct ControlSearch {
     std::uint64_t client = 0;
-    std::string id; ///< of the request, as JSON
+    std::string id; ///< id of the request, as JSON
     ControlRequest request;
     std::shared_ptr<const index::IndexFile> file;
     std::shared_ptr<const ExplorerState> shown;

@@ -66,7 +66,7 @@ class Exploration {
     Config config_;
     std::shared_ptr<const index::IndexFile> file_; ///< null: the user left before it was there
     interaction::CompositeInput trackers_;
-    std::unique_ptr<Indexing> indexing_; ///< of these data, while they are shown
+    std::unique_ptr<Indexing> indexing_; ///< index of these data, while they are shown and indexed
     std::unique_ptr<stereo::Headset> headset_;
     std::optional<stereo::Windows> windows_;
     std::optional<Session> session_;

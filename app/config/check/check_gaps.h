@@ -16,7 +16,7 @@ struct ScreenGap {
     const stereo::Screen* a;
     const stereo::Screen* b;
     std::string name_a, name_b;
-    int line = 0;    ///< of b
+    int line = 0;    ///< line of b
     float width = 0; ///< [m]
 };
 

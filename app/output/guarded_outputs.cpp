@@ -127,7 +127,7 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
     if (found.marked)
         return std::nullopt;
     fs::path folder = folder_described_by(index::known_file(input).path);
-    // Of other folders, files of values are read.
+    // In other folders, files of values are read.
     if (folder.empty() && fs::is_directory(input, ignored) &&
         !(found.known && !index::known_file(found.path).format))
         folder = input;
@@ -167,7 +167,7 @@ std::vector<fs::path> sources_near(const index::IndexFile& index, const fs::path
     if (const auto& referral = index.referral())
         for (const fs::path& file : referral->files)
             near.push_back(fs::path(index.name()).parent_path() / file);
-    constexpr int kDeepest = 6; // of folders in a store
+    constexpr int kDeepest = 6; // levels of folders in a store
     const auto& names = index.info().sources;
     if (names.empty())
         return near;

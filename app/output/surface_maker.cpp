@@ -22,7 +22,7 @@ using interaction::ExportWork;
 
 /// What an export does, and where.
 struct ExportTask {
-    std::shared_ptr<const index::IndexFile> array; ///< of the surfaces
+    std::shared_ptr<const index::IndexFile> array; ///< array of the surfaces
     index::ExportRequest request;
     const index::SurfaceFormat* format;
     fs::path folder;
@@ -71,7 +71,7 @@ struct SurfaceMaker::Export {
     std::stop_source stop;
     std::atomic<std::uint32_t> percent = 0;
     std::atomic<bool> done = false;
-    std::uint32_t told = 0; ///< of the thread that asks
+    std::uint32_t told = 0; ///< percent that the asking thread has told
 };
 
 SurfaceMaker::SurfaceMaker(std::shared_ptr<const index::IndexFile> file, fs::path folder,

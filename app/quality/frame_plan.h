@@ -21,17 +21,18 @@ struct FramePlan {
     index::DetailQuery detail{}; ///< of the sets asked for from now on
     /// Footprint of the picture at rest while it is made in parts, or shown; empty: there is none.
     std::optional<render::Footprint> in_parts{};
-    bool shows_parts = false; ///< parts are whole everywhere, and shown
+    bool shows_parts = false; ///< detail of the sets asked for from now on
     bool holds_finer = false; ///< finer cells of the same picture come in parts alone
     bool all_at_rest = false; ///< all cells are wanted for this picture at rest
     /// The set for pictures at rest is drawn while the picture moves, too: it fits.
     bool moves_finest = false;
-    std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
+    std::size_t resolution = 0; ///< number of the cells' resolution: see `kCellResolutions`
     /// While the head sways, the exact picture is drawn in the time that frames leave: it is shown,
     /// moved, and its cost gets known.
     bool ahead = false;
-    std::size_t mesh_level = 0; ///< of the footprint `mesh` (index/extraction/simplified_meshes.h)
-    bool moved = false;         ///< the last exact picture is moved: see `Picture::moved`
+    /// Mesh level of the footprint `mesh` (index/extraction/simplified_meshes.h).
+    std::size_t mesh_level = 0;
+    bool moved = false; ///< the last exact picture is moved: see `Picture::moved`
     bool operator==(const FramePlan&) const = default;
 };
 

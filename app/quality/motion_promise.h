@@ -12,8 +12,8 @@ namespace isochron::app {
 /// What a moving picture is expected to take.
 struct MotionCosts {
     Milliseconds beside{0};  ///< what is done for a frame besides drawing: presenting
-    Milliseconds fixed{0};   ///< of drawing, what no number of cells changes
-    Milliseconds of_cell{0}; ///< of one cell in all views
+    Milliseconds fixed{0};   ///< part of drawing that no number of cells changes
+    Milliseconds of_cell{0}; ///< drawing one cell in all views
     double few_pixels = 1;   ///< share of drawing's time that is left in fewer pixels
 };
 
@@ -25,7 +25,8 @@ struct MotionCosts {
 /// The promise changes at most twice a second, so that nothing flaps.
 class MotionPromise {
   public:
-    static constexpr double kLeastShare = 1.0 / 8;       ///< of the cells: recognized
+    /// Share of the cells by which a surface is recognized.
+    static constexpr double kLeastShare = 1.0 / 8;
     static constexpr double kRoom = 0.85;                ///< share of the promise that is planned
     static constexpr interaction::Seconds kBetween{0.5}; ///< two changes
     static constexpr Milliseconds kAtEase{1000.0 / 30};  ///< for all cells

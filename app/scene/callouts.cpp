@@ -15,11 +15,11 @@ namespace {
 // In heights of the text.
 constexpr float kOff = 0.5f;               ///< words, from the place beside which they stand
 constexpr float kPad = 0.4f, kRow = 1.15f; ///< around them; from line to line
-constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///< of the signs
+constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///< sizes of the signs
 constexpr float kBetween = 0.15f; ///< from one callout to another one
 
 constexpr glm::vec4 kMarkColor(1.0f, 0.45f, 0.85f, 1.0f);
-constexpr float kOpacity = 0.85f; ///< of the paper, which lies over the data
+constexpr float kOpacity = 0.85f; ///< opacity of the paper, which lies over the data
 
 glm::vec4 callout_paper(const Ink& ink) {
     return {glm::vec3(ink.paper), kOpacity};
@@ -48,7 +48,7 @@ glm::vec2 size_of(const Callout& callout, const render::GlyphAtlas& atlas) {
 
 /// Lower left corners of the words, the best first.
 std::vector<glm::vec2> choices_for(const Callout& callout, const glm::vec2& size) {
-    constexpr int kRows = 4; // of callouts, over and below
+    constexpr int kRows = 4; // rows of callouts, over and below
     std::vector<glm::vec2> choices;
     for (int row = 0; row < kRows; ++row) {
         const float away = static_cast<float>(row) * (size.y + kBetween);

@@ -26,12 +26,13 @@ enum class CalloutSign : std::uint8_t { none, cross, dot };
 struct Callout {
     glm::vec3 at{0.0f};             ///< in the room
     std::vector<std::string> lines; ///< one at least
-    glm::vec4 color{1.0f};          ///< of the first line
+    glm::vec4 color{1.0f};          ///< color of the first line
     /// Words without a sign stand on their place, those of a sign beside it.
     CalloutSign sign = CalloutSign::none;
 };
 
-/// Of the mark, of tools, and of the place under the cursor, in the order in which they get room.
+/// Callouts of the mark, of tools, and of the place under the cursor, in the order in which they
+/// get room.
 std::vector<Callout> callouts_of(const Picture& picture,
                                  const std::optional<interaction::Pointed>& pointed,
                                  const index::SeriesInfo& info);

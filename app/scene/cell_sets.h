@@ -66,7 +66,8 @@ class CellSets {
     const index::ExtractionPtr& held(Use use) const;
     /// Whether nothing more is uploaded for the shown cells: their volume is there, or too large.
     bool is_complete() const { return !drawn().wants_volume(); }
-    /// The same for the set of this use, drawn or not; also where there is none.
+    /// Whether nothing more is uploaded for the set of this use, drawn or not; also where there is
+    /// none.
     bool is_complete(Use use) const;
 
     /// The footprints that the shown cells can be drawn with: a very large set has no room for its
@@ -75,7 +76,8 @@ class CellSets {
     /// How a picture's footprint is drawn: another process may have chosen one that the shown cells do
     /// not have here yet.
     render::Footprint footprint_for(const Picture& picture) const;
-    /// The same, and `mesh` if the cells could be drawn so after asking for them with a mesh.
+    /// These footprints, and `mesh` if the cells could be drawn so after asking for them with a
+    /// mesh.
     render::FootprintSet possible_footprints() const;
     /// Triangles of the meshes of the set for a use, by mesh level; 0 where it has none on the GPU.
     std::array<std::size_t, index::kMeshLevels> triangles(Use use) const;

@@ -8,10 +8,10 @@
 
 namespace isochron::app {
 
-inline constexpr glm::vec3 kPaperWhite(0.94f, 0.945f, 0.95f); ///< of the light background
+inline constexpr glm::vec3 kPaperWhite(0.94f, 0.945f, 0.95f); ///< the light background
 inline constexpr glm::vec3 kDarkInk(0.13f, 0.15f, 0.18f);
-inline constexpr glm::vec3 kLifted(0.27f, 0.28f, 0.29f);    ///< of the gray background
-inline constexpr glm::vec3 kLowerSky(0.11f, 0.13f, 0.165f); ///< of the gradient, near its foot
+inline constexpr glm::vec3 kLifted(0.27f, 0.28f, 0.29f);    ///< the gray background
+inline constexpr glm::vec3 kLowerSky(0.11f, 0.13f, 0.165f); ///< the gradient, near its foot
 
 /// Paper behind words has the color of the background, so that it is seen over the data only.
 struct Ink {

@@ -37,7 +37,7 @@ class KeptCells {
     /// in each pixel. Empty: there is none.
     /// @param viewports that show it
     const Picture* movable(std::size_t viewports) const;
-    /// Of the kept pictures, the one for the same screens as these views: the eyes or the cells may
+    /// The kept picture for the same screens as these views: the eyes or the cells may
     /// have moved since. @return by view: where it lies; empty: there is none
     std::vector<render::PictureWithDepth> for_screens_of(std::span<const render::View> views) const;
     /// Draws the kept cells and their background into the views of the bound framebuffer.
@@ -50,7 +50,7 @@ class KeptCells {
     struct Kept {
         std::vector<render::View> views;
         render::RenderTarget target;
-        bool newest; ///< of `picture_`; else the target is there for the next one
+        bool newest; ///< holds cells of `picture_`; else the target is there for the next one
     };
     std::deque<Kept>::const_iterator find(std::span<const render::View> views) const;
     void copy(GLuint from, GLuint to, std::span<const render::View> views) const;

@@ -58,7 +58,7 @@ class Layout {
     const render::TextPass& text_;
     glm::vec2 picture_;
     Ink ink_;
-    float height_; ///< of the text, pixels
+    float height_; ///< height of the text, pixels
     float right_ = 0.0f, top_ = 0.0f;
     std::vector<render::ScreenQuad> quads_;
 };

@@ -18,8 +18,8 @@ namespace isochron::app {
 
 struct Legend {
     std::span<const interaction::Isosurface> surfaces; ///< listed if there are several
-    std::string value_unit;                            ///< of their isovalues
-    std::optional<ColorScale> scale;                   ///< of colored surfaces; empty: none
+    std::string value_unit;                            ///< unit of their isovalues
+    std::optional<ColorScale> scale;                   ///< scale of colored surfaces; empty: none
     Ink ink{};
 };
 

@@ -351,7 +351,7 @@ void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::Vi
     gl_.Enable(GL_SCISSOR_TEST);
     render::set_viewport(gl_, view);
     gl_.DepthMask(GL_TRUE);
-    gl_.Clear(GL_DEPTH_BUFFER_BIT); // of the aids before
+    gl_.Clear(GL_DEPTH_BUFFER_BIT); // depths of the aids before
     draw_ray(view, picture, aids);
     const auto callouts = callouts_of(picture, aids.pointed, info_);
     if (aids.pointed && !callouts.empty()) // the others are part of the picture

@@ -31,7 +31,8 @@ struct DataProgress {
     bool ready = false; ///< they can be shown, or never will be
     std::string line;   ///< what is going on
     float fraction = 0;
-    std::vector<ListedArray> arrays = {}; ///< of which the user is to choose one; empty: none
+    /// Arrays of which the user is to choose one; empty: none.
+    std::vector<ListedArray> arrays = {};
 };
 
 /// The choice among arrays, where the data leave one.

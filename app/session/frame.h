@@ -27,7 +27,7 @@ struct Frame {
     bool is_kept;                        ///< a capture waits for this picture
     const std::optional<Picture>& drawn; ///< last picture; empty: none yet
     FrameSharing& sharing;
-    FramePlan& plan;     ///< of the last frame until this one's is agreed
+    FramePlan& plan;     ///< plan of the last frame until this one's is agreed
     FrameReport& report; ///< `asked`, `time` and `pace` are known from the start
 
     bool is_live() const { return waiting == Waiting::never; }

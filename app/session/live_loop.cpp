@@ -265,7 +265,7 @@ std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows
 
 /// What the devices, and the work in the background, tell about the next frame.
 FrameOutlook LiveLoop::outlook(const InputState& input) const {
-    constexpr Seconds kLookForWords{0.1}; // of another process or of a thread that ends
+    constexpr Seconds kLookForWords{0.1}; // words of another process, or of a thread that ends
     constexpr Seconds kLookForProgress{0.25};
     const bool waited_for = control_ && control_->is_waited_for();
     FrameOutlook next{.busy = is_held(input) || waited_for, .changed = acted_, .final = true};

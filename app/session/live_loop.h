@@ -62,7 +62,7 @@ struct LiveOptions {
 /// What the user wants to see next.
 struct NextData {
     std::filesystem::path data;
-    std::string array = {}; ///< of the same files, instead of `data`; empty: other data
+    std::string array = {}; ///< another array of these files, instead of `data`; empty: other data
 };
 
 /// Session time starts at 0 when the loop is constructed.
@@ -161,7 +161,7 @@ class LiveLoop {
     std::string picture_folder_;                         ///< that the user has chosen; empty: none
     std::optional<index::IndexWatch> watch_;
     std::optional<NextData> next_data_;
-    DataOpening opening_; ///< of data that the user has chosen
+    DataOpening opening_; ///< opens data that the user has chosen
     LiveRecording recording_;
     std::optional<MovieMaker> movies_;
     std::optional<SurfaceMaker> surfaces_;

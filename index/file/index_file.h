@@ -65,7 +65,7 @@ class IndexFile {
     Codec codec() const { return metadata_.codec; }
     const LevelMap& levels() const {
         return *metadata_.levels;
-    } ///< of the cells, which the index must have
+    } ///< levels of the cells, which the index must have
     const ThiOptions& tree_options() const { return metadata_.tree; }
     const std::optional<Referral>& referral() const { return metadata_.referral; }
     /// The whole metadata section.
@@ -172,7 +172,7 @@ class IndexFile {
     std::shared_ptr<ByteCache> cache_;
     FileHeader header_;
     Metadata metadata_;
-    std::uint32_t number_ = 0; ///< of the array
+    std::uint32_t number_ = 0; ///< number of the array
     std::vector<StepEntry> step_entries_;
     std::size_t details_ = 0; ///< levels of detail, the volume itself included
     std::vector<std::uint64_t> checksums_;

@@ -52,7 +52,7 @@ struct BlendMemory {
     BlendMemory(std::size_t chunk, std::size_t limit)
         : spare(std::make_shared<SpareMemory>(chunk, limit)), ranks(kRankBytes) {}
 
-    static constexpr std::uint64_t kRankBytes = 2 << 20; ///< of ranks: about 15 moments
+    static constexpr std::uint64_t kRankBytes = 2 << 20; ///< bytes of ranks: about 15 moments
     std::shared_ptr<SpareMemory> spare;                  ///< blended chunks may outlive the store
     ByteCache ranks;                                     ///< by the number of the moment
 };

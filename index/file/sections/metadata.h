@@ -34,7 +34,7 @@ struct Metadata {
     IndexStats stats = {};
     TierPlan plan = {};
     Codec codec = Codec::fitting;        ///< with which values were packed
-    std::optional<LevelMap> levels = {}; ///< of the cells, if there are any
+    std::optional<LevelMap> levels = {}; ///< levels of the cells, if there are any
     std::uint32_t cell_steps = 0;        ///< number of first steps that the cells hold
     /// Content hashes of the states from which the index has grown, oldest first.
     std::vector<std::uint64_t> earlier = {};
@@ -55,7 +55,7 @@ struct Metadata {
 /// Sets the counts of a series' values, and range and histogram, which follow from them.
 void set_counts(Metadata& metadata, ValueCounts counts);
 
-/// The same metadata give the same text: keys are sorted, numbers round-trip.
+/// Equal metadata give equal text: keys are sorted, numbers round-trip.
 std::string to_json(const Metadata& metadata);
 
 /// @throws Error when it is not JSON, nests too deeply, lacks a key or holds an impossible value

@@ -21,7 +21,7 @@ inline constexpr double kLongestPulse = 1.0; ///< [s]
 /// Changes of settings, and what happens once. Changes are absolute results, not increments:
 /// applying them again changes nothing.
 struct Commands : SettingChanges {
-    std::optional<double> isovalue; ///< of the picked surface
+    std::optional<double> isovalue; ///< new isovalue of the picked surface
     bool screenshot = false;
     bool copy =
         false; ///< the value under the pointer, or of the mark, as a text to paste elsewhere

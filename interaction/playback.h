@@ -18,7 +18,7 @@ class Playback {
         std::uint32_t step;   ///< what to show now
         bool playing;         ///< false while paused, and once an end is reached without `loop`
         bool reverse = false; ///< the direction from now on: `ping_pong` turns at the ends
-        std::uint32_t fraction = 0; ///< of the way to the next step, where steps are blended
+        std::uint32_t fraction = 0; ///< share of the way to the next step, where steps are blended
     };
     /// Advances physical time by `elapsed` at the speed of `state`. If `step` is not the one that
     /// this object returned last, time continues from `step`. Without `loop`, playing that starts

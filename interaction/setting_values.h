@@ -58,7 +58,8 @@ enum class BetweenSteps : std::uint8_t {
 template <>
 inline constexpr std::array<std::string_view, 2> kNames<BetweenSteps>{"hold", "blend"};
 
-inline constexpr std::uint32_t kFractions = 65536; ///< of the time from a step to the next one
+/// Parts of the time from a step to the next one.
+inline constexpr std::uint32_t kFractions = 65536;
 
 /// A step and so many fractions of the way to the next one.
 struct Moment {
@@ -82,7 +83,7 @@ struct StepRange {
 struct Bookmark {
     std::string name;
     std::uint32_t step = 0;
-    std::uint32_t fraction = 0; ///< of the way to the next step, below kFractions
+    std::uint32_t fraction = 0; ///< share of the way to the next step, below kFractions
     Moment moment() const { return {step, fraction}; }
     bool operator==(const Bookmark&) const = default;
 };
@@ -128,8 +129,8 @@ struct Coloring {
     std::uint32_t bands =
         0; ///< number of equal parts with one color each; 0: colors change smoothly
     bool logarithmic = false; ///< equal ratios of values, all above 0, are equally far on the map
-    /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
-    /// program knows the map by its name.
+    /// Colors of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none:
+    /// the program knows the map by its name.
     std::vector<std::uint32_t> colors = {};
     /// If `range` is empty: the map goes from one of these percentiles of the values on the shown
     /// surfaces to the other, 0 to 100, ascending. Empty: the range of the series.
@@ -207,14 +208,14 @@ inline constexpr double kSlowestMovie = 1.0, kFastestMovie = 240.0;
 /// The export that goes on in the background, or is asked for.
 struct ExportWork {
     bool goes_on = false;      ///< setting it begins an export, clearing it cancels the export
-    std::uint32_t percent = 0; ///< of it that is written, 0 to 100
+    std::uint32_t percent = 0; ///< how much of it is written, 0 to 100
     bool operator==(const ExportWork&) const = default;
 };
 
 /// The panel that stands in the room.
 struct RoomPanel {
     bool shown = false;
-    Pose pose; ///< of its middle: +X to its right, +Y up, +Z towards the reader
+    Pose pose; ///< pose of its middle: +X to its right, +Y up, +Z towards the reader
     bool operator==(const RoomPanel&) const = default;
 };
 
@@ -222,7 +223,7 @@ struct RoomPanel {
 struct MarkedPoint {
     glm::dvec3 position{0.0};   ///< physical space
     std::uint32_t step = 0;     ///< shown when it was picked
-    double value = 0;           ///< of the data there
+    double value = 0;           ///< value of the data there
     std::uint32_t fraction = 0; ///< as of a Moment; shown with the step
     bool operator==(const MarkedPoint&) const = default;
 };

@@ -135,7 +135,7 @@ class ArrayBuild::Work {
 
     /// Which steps are read, and which get cells.
     struct StepsToBuild {
-        std::uint32_t all = 0;         ///< of the series
+        std::uint32_t all = 0;         ///< steps of the series
         std::size_t fresh = 0;         ///< the first step that is not held
         std::size_t window = 0;        ///< the first step whose values are needed
         std::uint32_t covered = 0;     ///< number of first steps that cells hold
@@ -343,7 +343,7 @@ class ArrayBuild::Work {
     VolumeSeries& series_;
     const std::filesystem::path& out_;
     const BuildOptions& options_;
-    std::size_t number_; ///< of the array in the index
+    std::size_t number_; ///< number of the array in the index
     Team& team_;
     unsigned threads_;
     BuildTarget& target_;
@@ -359,12 +359,12 @@ class ArrayBuild::Work {
     StepsToBuild steps_;
     std::size_t levels_; ///< number of levels of detail
     ValueCounts counts_;
-    std::uint64_t held_stay_ = 0;          ///< of the held chunk-steps, are as in the step before
-    std::optional<LevelMap> found_levels_; ///< of the new steps together
+    std::uint64_t held_stay_ = 0; ///< chunk-steps of the held ones that are as in the step before
+    std::optional<LevelMap> found_levels_; ///< levels of the new steps together
     std::optional<MappedFile> written_;    ///< the values, once they are complete
     StepValues values_;
     ArrayTables tables_;
-    std::uint64_t end_ = 0; ///< of what has been written
+    std::uint64_t end_ = 0; ///< end of what has been written
 };
 
 ArrayBuild::ArrayBuild(VolumeSeries& series, const std::filesystem::path& out,

@@ -20,7 +20,7 @@ struct MemberSteps {
     std::size_t begin = 0, end = 0;
 };
 
-/// Of the last step that an index holds, as StepWriter::since has it.
+/// History of the last step that an index holds, as StepWriter::since has it.
 /// @param colors of the array to color by, else of the volume
 std::vector<std::uint32_t> held_since(const IndexFile& held, bool colors);
 

@@ -22,7 +22,8 @@ namespace isochron::index {
 /// The contents of an array's chunks.
 struct ChunkContents {
     bool bricks = true;
-    bool values = true; ///< of the steps themselves; their levels of detail always have values
+    /// Has values of the steps themselves; their levels of detail always have values.
+    bool values = true;
     Codec codec = Codec::fitting;
     bool since = true;     ///< tables say since when chunks have stayed: not in files of version 3
     bool wide_rows = true; ///< packed rows for values of several bytes: not up to version 4
@@ -53,7 +54,7 @@ class StepWriter {
     void begin_at(std::uint32_t step);
     /// Takes the next layer of the step before the first: only to see what stays.
     void look(const LayerView& layer);
-    /// Of the last step, level after level: the steps since which its chunks have stayed.
+    /// For each chunk of the last step, level after level, the step since which it has stayed.
     std::vector<std::uint32_t> since() const;
     void set_since(std::span<const std::uint32_t> since);
     /// Number of chunk-steps of the finest level that were as in the step before.
@@ -77,7 +78,7 @@ class StepWriter {
         /// Chooses the levels for its bricks, if they depend on the values.
         LevelChooser chooser;
         std::optional<LevelMap> map;
-        std::optional<LevelMap::Extremes> extremes; ///< of the values so far
+        std::optional<LevelMap::Extremes> extremes; ///< extremes of the values so far
         PlaneStore waiting;                         ///< planes that cannot be packed yet
     };
 

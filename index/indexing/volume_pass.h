@@ -22,7 +22,7 @@ namespace isochron::index {
 /// Where a pass writes.
 struct PassTarget {
     ByteSink& file;
-    std::uint64_t& end;           ///< of the file so far; moves to the end of what was written
+    std::uint64_t& end;           ///< end of the file so far; moves to the end of what was written
     std::filesystem::path beside; ///< for temporary files without a name: see ScratchFile
     unsigned threads = 1;
 };
@@ -42,14 +42,14 @@ struct ArrayPass {
     ChunkContents contents;
     WriterMeans means;
     ColorPass* colors; ///< gets each new step right after this array; null if there is none
-    std::vector<std::uint32_t> since = {}; ///< of the held chunks: see StepWriter::since
+    std::vector<std::uint32_t> since = {}; ///< history of the held chunks: see StepWriter::since
 };
 
 /// The results of the pass for an array, the same for every member of the team.
 struct VolumeFindings {
     ValueCounts counts;
-    std::vector<std::uint64_t> checksums; ///< of every step
-    std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
+    std::vector<std::uint64_t> checksums; ///< checksums of every step
+    std::vector<std::uint64_t> states;    ///< state of every step's source: VolumeSeries::state
     LevelMap levels;
     std::vector<StepEntry> steps; ///< level after level
     std::uint64_t stayed = 0;     ///< chunk-steps that are as in the step before

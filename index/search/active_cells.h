@@ -17,7 +17,7 @@ struct ActiveCellsOrder {
     bool by_bricks = false; ///< the index must have them; else by a scan
     bool shaded = false;    ///< also make points and rows, while each part is in memory
     ChunkFilter only = {};  ///< with bricks and by chunks: search these chunks alone
-    /// Likewise: cells that are not looked for.
+    /// With bricks and by chunks: cells that are not looked for.
     const StayingCells* staying = nullptr;
 };
 

@@ -42,7 +42,7 @@ class LayerSearch {
     /// @param only with bricks and by chunks: search these chunks alone
     bool search(const StepView& step, CellSet& set, bool by_bricks, bool shaded,
                 const std::stop_token& stop, const ChunkFilter& only = {});
-    /// The same by bricks, without the cells that stay.
+    /// Searches by bricks, without the cells that stay.
     bool search_others(const StepView& step, CellSet& set, const StayingCells& staying, bool shaded,
                        const std::stop_token& stop);
     /// The number of active cells, without keeping the cells; empty when stopped.
@@ -58,8 +58,8 @@ class LayerSearch {
     bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
                    const std::stop_token& stop, const VertexColors& colors = {},
                    const EarlierMesh& earlier = {});
-    /// The same mesh in pieces, in their order, as PartsJoiner numbers them: by chunks the memory of
-    /// a few layers is enough. @param take called by one thread at a time, while the others wait
+    /// Makes the mesh in pieces, in their order, as PartsJoiner numbers them: by chunks the memory
+    /// of a few layers is enough. @param take called by one thread at a time, while the others wait
     bool make_mesh_pieces(const StepView& step, const CellSet& set,
                           const std::function<void(CellMesh piece)>& take,
                           const std::stop_token& stop, const VertexColors& colors = {});
@@ -83,7 +83,7 @@ class LayerSearch {
         std::uint32_t first_plane = 0; ///< z in the step of plane 0 of `values`
         std::span<const CellId> ids;   ///< counted from `first`, ascending
         std::size_t before = 0;        ///< cells of the parts before this one
-        std::size_t number = 0;        ///< of the part
+        std::size_t number = 0;        ///< number of the part
         unsigned worker = 0;
         std::uint32_t layer = 0; ///< by chunks
     };

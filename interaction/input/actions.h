@@ -227,7 +227,7 @@ constexpr std::uint64_t quiet_actions() {
            bit(Action::ruler_tool) | bit(Action::snap_clip) | bit(Action::remove_made) |
            bit(Action::ping_pong);
 }
-/// The same among `more_keys`: all but those that show another step.
+/// The quiet actions among `more_keys`: all but those that show another step.
 constexpr std::uint64_t quiet_among_more_keys() {
     return ~(bit(Action::first_step) | bit(Action::last_step) | bit(Action::next_time) |
              bit(Action::previous_time));

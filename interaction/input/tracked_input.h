@@ -28,9 +28,10 @@ struct DeviceState {
     std::uint64_t buttons = 0;    ///< bit i: button i is down
     std::vector<float> valuators; ///< 0 at rest; meaning and range by device (actions.h)
     bool pose_lost = false;       ///< `pose` is not valid and too old to be used
-    std::optional<Velocity> velocity = std::nullopt;   ///< of the pose, if it is known
-    std::optional<Seconds> measured = std::nullopt;    ///< session time when the pose was measured
-    std::optional<Seconds> device_time = std::nullopt; ///< the same moment by the device's clock
+    std::optional<Velocity> velocity = std::nullopt; ///< velocity of the pose, if it is known
+    std::optional<Seconds> measured = std::nullopt;  ///< session time when the pose was measured
+    /// The moment of `measured` by the device's clock.
+    std::optional<Seconds> device_time = std::nullopt;
     Tracking tracking() const;
     bool operator==(const DeviceState&) const = default;
 };

@@ -10,7 +10,7 @@ namespace isochron::index {
 struct CellTableHead {
     static constexpr std::uint8_t kSparse = 0;         ///< the directory lists elements
     static constexpr std::uint32_t kRows = 256;        ///< rows, and columns, of span space
-    static constexpr std::uint32_t kMaxElements = 256; ///< of a sparse directory
+    static constexpr std::uint32_t kMaxElements = 256; ///< most elements of a sparse directory
     static constexpr std::size_t kAlignment = 4;       ///< [bytes] of every table
 
     std::uint32_t entries;

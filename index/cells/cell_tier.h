@@ -101,7 +101,7 @@ class CellTier {
         }
 
       private:
-        std::size_t count_; ///< of words
+        std::size_t count_; ///< number of words
         std::unique_ptr<std::atomic<std::uint64_t>[]> words_;
     };
 

@@ -21,11 +21,11 @@ namespace isochron::index {
 struct CellUnitHead {
     std::uint32_t magic;
     std::uint32_t tables;
-    std::uint32_t steps; ///< of the epoch
-    std::uint32_t cells; ///< of the stretch
+    std::uint32_t steps; ///< steps of the epoch
+    std::uint32_t cells; ///< cells of the stretch
     std::uint32_t lossless;
-    std::uint32_t checksum; ///< of the rest of the head and the references
-    std::uint64_t bytes;    ///< of the unit, a multiple of 8
+    std::uint32_t checksum; ///< checksum of the rest of the head and the references
+    std::uint64_t bytes;    ///< size of the unit, a multiple of 8
 };
 static_assert(sizeof(CellUnitHead) == 32);
 
@@ -33,7 +33,8 @@ static_assert(sizeof(CellUnitHead) == 32);
 /// skip most tables that have none.
 struct TableRef {
     std::uint32_t offset = 0, size = 0; ///< in CellTableHead::kAlignment; offset 0: no entries
-    std::uint32_t checksum = 0; ///< of the table without its ids, which do not guide a search
+    /// Checksum of the table without its ids, which do not guide a search.
+    std::uint32_t checksum = 0;
     std::uint8_t first_column = 0, last_row = 0;
     std::uint16_t reserved = 0;
 };
@@ -174,7 +175,7 @@ class CellUnit {
         for (const std::uint32_t node : path)
             tables_.prefetch(node);
     }
-    /// The same of the tables, if the head and they are intact.
+    /// Prefetches the tables, if the head and they are intact.
     void prefetch_tables(const TimePath& path) const {
         for (const std::uint32_t node : path)
             tables_.prefetch_table(node);

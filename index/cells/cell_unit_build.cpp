@@ -64,7 +64,7 @@ struct CellUnitBuilder::Cells {
     bool lossless;
     CellTableBuilder& table;
     UnitUnderWay& unit;
-    std::vector<std::array<CellBits, 2>>& bits; ///< of the children, by depth
+    std::vector<std::array<CellBits, 2>>& bits; ///< bits of the children, by depth
 
     /// Builds the nodes below, then sets the bits of the cells that are constant over the node's
     /// span.

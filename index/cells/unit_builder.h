@@ -12,7 +12,7 @@ namespace isochron::index {
 
 struct UnitBytes {
     std::vector<std::byte> cells, deltas;
-    std::uint64_t entries = 0; ///< of the cells
+    std::uint64_t entries = 0; ///< entries of the cells
 };
 
 /// Keeps its work space: one for each thread.

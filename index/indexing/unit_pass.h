@@ -17,7 +17,7 @@ namespace isochron::index {
 /// The offsets, sizes and checksums of the units that were written.
 struct UnitFindings {
     std::vector<UnitEntry> directory;     ///< epochs, stretches faster
-    std::vector<std::uint64_t> checksums; ///< of cells and deltas of every unit
+    std::vector<std::uint64_t> checksums; ///< checksums of cells and deltas of every unit
 };
 
 /// Builds each member's share of the units, one unit on each thread at a time, and writes them to

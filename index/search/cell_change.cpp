@@ -46,7 +46,7 @@ struct ChangeSearch::WorkSpace {
 
     const Scaling& scaling;
     const CellTier* cells;
-    const LevelMap* levels; ///< of the cells
+    const LevelMap* levels; ///< levels of the cells
     std::uint32_t steps;
     double last_isovalue = std::numeric_limits<double>::quiet_NaN();
     std::optional<Cut> last_cut;
@@ -54,7 +54,7 @@ struct ChangeSearch::WorkSpace {
     Search search; ///< for indices without cells
     std::vector<IdRun> added, removed, all, ambiguous;
     std::vector<CellId> added_ids, removed_ids, come, gone;
-    CellSetPtr set; ///< of an index without cells
+    CellSetPtr set; ///< set of an index without cells
     LayerSearch layers;
 
     void clear() {

@@ -18,10 +18,10 @@ struct FramePlan {
     bool final = false;          ///< the picture is as good as it gets for these cells
     bool measure = false;        ///< draw even if nothing has changed, so that the cost gets known
     bool mesh = false;           ///< the sets asked for from now on come with a mesh
-    index::DetailQuery detail{}; ///< of the sets asked for from now on
+    index::DetailQuery detail{}; ///< detail of the sets asked for from now on
     /// Footprint of the picture at rest while it is made in parts, or shown; empty: there is none.
     std::optional<render::Footprint> in_parts{};
-    bool shows_parts = false; ///< detail of the sets asked for from now on
+    bool shows_parts = false; ///< parts are whole everywhere, and shown
     bool holds_finer = false; ///< finer cells of the same picture come in parts alone
     bool all_at_rest = false; ///< all cells are wanted for this picture at rest
     /// The set for pictures at rest is drawn while the picture moves, too: it fits.

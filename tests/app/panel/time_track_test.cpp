@@ -47,7 +47,7 @@ class TimeTrack : public LayerTest {
         std::ranges::sort(found, {}, [](const ImRect& one) { return one.Min.x; });
         return found;
     }
-    /// Of one pixel's width. @param least height
+    /// Ticks of one pixel's width. @param least height
     std::vector<float> ticks(float least = 1) {
         std::vector<float> places;
         for (const ImRect& one : rectangles())

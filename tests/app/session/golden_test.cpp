@@ -77,7 +77,8 @@ TEST_P(GoldenPictures, ThePapersModeEndsAtSplats) {
                                    "gaussian_" + std::string(name_of(eye)), tolerance_));
 }
 
-/// Of the inner one of two surfaces: the outer, which is warm, and the background have less blue.
+/// Whether the inner one of two surfaces is seen: the outer, which is warm, and the background have
+/// less blue.
 bool blue(const std::uint8_t* pixel) {
     return pixel[2] > 45;
 }

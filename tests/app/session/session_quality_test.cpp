@@ -339,7 +339,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     EXPECT_EQ(frames.size() - first, 2 * kRate);
     const FrameReport report = rest_until(session, [](const FrameReport& frame) {
         return frame.footprint == render::kBestFootprint;
-    }); // of the cells that are there
+    }); // the cells are there
     EXPECT_EQ(report.shown->step, 0u);
     EXPECT_FALSE(captured(session)) << "these are not the cells that were asked for";
     EXPECT_EQ(session.log().missed(), 0u);

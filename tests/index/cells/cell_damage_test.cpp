@@ -149,7 +149,7 @@ void never_leaves(const std::vector<std::byte>& bytes, std::uint32_t cells) {
         std::memcpy(&ref, bytes.data() + sizeof head + i * sizeof ref, sizeof ref);
         tables.push_back(std::size_t{ref.offset} * CellTableHead::kAlignment);
     }
-    const std::size_t slack = IdRun::kSlack * sizeof(std::uint16_t) + 8; // of no meaning
+    const std::size_t slack = IdRun::kSlack * sizeof(std::uint16_t) + 8; // bytes without meaning
     int refused = 0;
     const int kTrials = tries(4000);
     for (int trial = 0; trial < kTrials; ++trial) {

@@ -88,7 +88,7 @@ TEST_F(IndexStatesTest, WhatManyAppendsLeaveBehindIsBoundedByTheDirectory) {
     build(kSteps);
     const std::uint64_t anew = std::filesystem::file_size(path), sections = section_bytes();
     build(1);
-    std::uint64_t data = 0; // of steps and units that nothing names any more: less than once
+    std::uint64_t data = 0; // bytes of steps and units that nothing names any more: less than once
     for (std::size_t steps = 2; steps <= kSteps; ++steps) {
         append(steps);
         const auto file = IndexFile::open(path);
@@ -150,7 +150,7 @@ TEST_F(IndexStatesTest, ANewestHeaderThatIsDamagedIsToldWhereWhatItNamesIsWhole)
             EXPECT_THAT(*lost_state(*left),
                         HasSubstr(fmt::format("its first {} steps are what is left", steps - 1)));
         }
-        // Of the older header, or of one whose sections are not there, there is nothing to say.
+        // There is nothing to say of the older header, or of one whose sections are not there.
         folder.write("a.isochron", whole);
         damage(other + 24 + random() % 100);
         EXPECT_EQ(IndexFile::open(path)->info().steps(), steps);

@@ -85,7 +85,7 @@ TEST(SlotPool, ServesManyThreads) {
     for (int t = 0; t < 4; ++t)
         threads.emplace_back([&pool, t] {
             for (int round = 0; round < 50; ++round) {
-                std::vector<std::byte*> slots(200); // of all threads: some blocks
+                std::vector<std::byte*> slots(200); // all threads together: some blocks
                 for (std::byte*& slot : slots) {
                     slot = pool.take();
                     std::memset(slot, t, 10'000);

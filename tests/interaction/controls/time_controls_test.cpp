@@ -13,7 +13,7 @@ DeviceState pad_down(GamepadButton button) {
 TEST(TimeControls, ActionsBeyondThoseOfOldRecordingsHaveADeviceOfTheirOwn) {
     Desk desk;
     desk.settings.step = 2;
-    desk.frame({keys_down(bit(Action::range_first))}); // the same bit of the device of others
+    desk.frame({keys_down(bit(Action::range_first))}); // a bit that the device of others has, too
     EXPECT_EQ(desk.settings.play_range, StepRange{});
     desk.tap(Action::range_first);
     EXPECT_EQ(desk.settings.play_range, (StepRange{2, {}}));

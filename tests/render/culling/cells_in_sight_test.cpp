@@ -46,7 +46,7 @@ class CellsInSightTest : public SurfaceTest {
     const TestField noise_{{56, 50, 53}, 1, ValueType::u8, index::white_noise(random_)};
     const Placement placement_ = placed_at_origin(noise_.view().grid);
     CellPass seen_{gl_}, all_{gl_};
-    int samples_ = 1; ///< of a pixel
+    int samples_ = 1; ///< samples of a pixel
     int parts_ = 0;
     static constexpr std::size_t kWhole = std::numeric_limits<std::size_t>::max();
 };

@@ -41,7 +41,7 @@ double seconds_for_bricks(const IndexFile& file) {
     return watch.seconds();
 }
 
-/// The same for the cells of all stretches and epochs, and their deltas.
+/// Seconds for the cells of all stretches and epochs, and their deltas.
 double seconds_for_cells(const IndexFile& file, bool deltas, const index::Progress& progress) {
     const StepValues& values = file.values();
     const std::uint32_t stretches = index::Stretches(values.grid).count();

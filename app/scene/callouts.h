@@ -2,7 +2,7 @@
 // other.
 #pragma once
 
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 #include "app/scene/picture.h"
 #include "index/volume/volume_series.h"
 #include "render/gl/view.h"
@@ -52,10 +52,10 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     bool panel = false);
 
 /// To be drawn over the surface on which the place lies, at the place's depth.
-/// @param ink of the background behind the data @param share height of the words, see `text_height`
-std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
-                                              const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink = {},
-                                              float share = 0.0f);
+/// @param overlay colors for the background behind the data
+/// @param share height of the words, see `text_height`
+std::vector<render::ScreenQuad>
+callout_quads(const Callout& callout, const CalloutPaper& paper, const render::TextPass& text,
+              const glm::ivec2& picture, const OverlayColors& overlay = {}, float share = 0.0f);
 
 } // namespace isochron::app

@@ -3,7 +3,7 @@
 
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
-#include "app/panel/parts/notes.h"
+#include "app/panel/parts/messages.h"
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/time_bar.h"

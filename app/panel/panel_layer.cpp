@@ -2,7 +2,7 @@
 #include "app/panel/panel_layer.h"
 
 #include "app/panel/event_taker.h"
-#include "app/panel/parts/notes.h"
+#include "app/panel/parts/messages.h"
 #include "app/panel/parts/theme.h"
 #include "app/scene/font.h"
 #include "interaction/controls/controls.h"

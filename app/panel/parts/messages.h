@@ -1,4 +1,4 @@
-// What lies over the picture: how exact it is, and what the user is told and asked.
+// Messages over the picture: how exact it is, what goes wrong, what is waited for, and questions.
 #pragma once
 
 #include "app/panel/panel_model.h"

@@ -94,7 +94,7 @@ class PanelLayer {
     /// What the last layout tells about the next one.
     FrameOutlook outlook() const;
     /// Where the last layout put the parts.
-    const PanelPlaces& places() const { return view_.places; }
+    const PanelLayout& layout() const { return view_.layout; }
     /// Whether the panel, or a page that it has opened, covers a place.
     /// @param at fractions of the picture from the top left
     bool covers(glm::vec2 at) const;

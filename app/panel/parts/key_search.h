@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/panel/found_settings.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "interaction/input/actions.h"
 
 #include <cstddef>

@@ -46,8 +46,8 @@ class Clicks : public LayerTest {
 
 TEST_F(Clicks, OneLeadsToTheNextStepASecondSurfaceAndAPicture) {
     frame();
-    const PanelPlaces places = layer_.places();
-    const float middle = (places.time.low.y + places.time.high.y) / 2;
+    const PanelLayout layout = layer_.layout();
+    const float middle = (layout.time.low.y + layout.time.high.y) / 2;
     EXPECT_TRUE(one_click({0, middle}, {300, middle},
                           [](const Commands& commands) { return commands.step == 1u; }));
     EXPECT_TRUE(one_click({23, 420}, {23, 380}, [](const Commands& commands) {
@@ -63,7 +63,7 @@ TEST_F(Clicks, TwoLeadToAClipPlaneAcrossX) {
     }));
     asked_.tools.mouse = interaction::ToolKind::clip;
     frame();
-    const glm::vec2 corner = layer_.places().picture.low;
+    const glm::vec2 corner = layer_.layout().picture.low;
     EXPECT_TRUE(one_click(corner + glm::vec2(60, 24), corner + glm::vec2(400, 24), clips_along_x));
 }
 
@@ -83,8 +83,8 @@ TEST_F(Clicks, ALineOfTheHistogramIsTakenWhereTheHandIsAndPicksItsSurface) {
 
 TEST_F(Clicks, TheEndsOfTheRangeAreDraggedAboveTheTrack) {
     frame();
-    const PanelPlaces places = layer_.places();
-    const float lane = places.time.low.y + 8;
+    const PanelLayout layout = layer_.layout();
+    const float lane = layout.time.low.y + 8;
     point({1266, lane});
     frame({MouseButtonEvent{MouseButton::left, true}});
     point({1000, lane});
@@ -106,7 +106,7 @@ TEST_F(Clicks, AFlagLeadsToItsBookmark) {
     asked_.bookmarks = {{"early", 3}, {"late", 1999}};
     asked_.playback.playing = true;
     frame();
-    const Commands commands = click({1267, layer_.places().time.low.y + 8});
+    const Commands commands = click({1267, layer_.layout().time.low.y + 8});
     EXPECT_EQ(commands.step, 1999u);
     ASSERT_TRUE(commands.playback);
     EXPECT_FALSE(commands.playback->playing);
@@ -117,7 +117,7 @@ TEST_F(Clicks, AFlagBetweenTwoStepsLeadsBetweenThem) {
     asked_.between = interaction::BetweenSteps::blend;
     asked_.bookmarks = {{"between", 1998, interaction::kFractions / 2}};
     frame();
-    const Commands commands = click({1267, layer_.places().time.low.y + 8});
+    const Commands commands = click({1267, layer_.layout().time.low.y + 8});
     EXPECT_EQ(commands.step, 1998u);
     EXPECT_EQ(commands.fraction, interaction::kFractions / 2);
 }
@@ -180,7 +180,7 @@ TEST_F(Clicks, TheCubeTurnsTheDataToTheFaceThatIsClicked) {
     asked_.room_from_physical.translation = {0, 0, -3};
     info_.grid.vertices = {2, 2, 2};
     frame();
-    const PanelBox picture = layer_.places().picture;
+    const PanelBox picture = layer_.layout().picture;
     const Commands commands = click({picture.high.x - 54, picture.low.y + 52});
     ASSERT_TRUE(commands.room_from_physical);
     const glm::dvec3 up = commands.room_from_physical->rotation * glm::dvec3(0, 0, 1);

@@ -27,7 +27,7 @@ class TimeTrack : public LayerTest {
     std::vector<ImRect> rectangles() {
         frame();
         frame();
-        const PanelBox& bar = layer_.places().time;
+        const PanelBox& bar = layer_.layout().time;
         std::vector<ImRect> found;
         const ImDrawData& data = *ImGui::GetDrawData();
         for (int n = 0; n < data.CmdListsCount; ++n) {

@@ -1,5 +1,5 @@
 // Where the parts of the panel lie: bars above and below, the column of sections, the picture.
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 
 #include <algorithm>
 
@@ -15,19 +15,19 @@ constexpr float kTitle = 24.0f;
 
 } // namespace
 
-PanelPlaces places_in(PanelPlace place, glm::vec2 size) {
-    PanelPlaces places;
-    places.two_rows = size.x < kOneRow;
+PanelLayout layout_in(PanelPlace place, glm::vec2 size) {
+    PanelLayout layout;
+    layout.two_rows = size.x < kOneRow;
     const bool over = place == PanelPlace::over;
-    places.folded = over && size.x < kFoldedBelow;
+    layout.folded = over && size.x < kFoldedBelow;
     const float above = place == PanelPlace::in_room ? kTitle : 0.0f;
-    const float below = std::max(above + kTop, size.y - (places.two_rows ? kTimeOfTwoRows : kTime));
-    const float right = !over ? size.x : std::min(places.folded ? kIcons : kColumn, size.x);
-    places.top = {{0.0f, above}, {size.x, above + kTop}};
-    places.time = {{0.0f, below}, size};
-    places.column = {{0.0f, above + kTop}, {right, below}};
-    places.picture = {{right, above + kTop}, {size.x, below}};
-    return places;
+    const float below = std::max(above + kTop, size.y - (layout.two_rows ? kTimeOfTwoRows : kTime));
+    const float right = !over ? size.x : std::min(layout.folded ? kIcons : kColumn, size.x);
+    layout.top = {{0.0f, above}, {size.x, above + kTop}};
+    layout.time = {{0.0f, below}, size};
+    layout.column = {{0.0f, above + kTop}, {right, below}};
+    layout.picture = {{right, above + kTop}, {size.x, below}};
+    return layout;
 }
 
 } // namespace isochron::app

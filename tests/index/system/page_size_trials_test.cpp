@@ -1,4 +1,4 @@
-// Which pages are faster: the kind, found by trying both, and found anew when times change.
+// Which kind of pages is faster: found by trying both, and anew when times change.
 #include "index/system/page_size_trials.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "index/file/chunks/layer_packer.h"
 #include "index/file/detail_levels.h"
 #include "index/indexing/layer_stream.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "index/indexing/part_writer.h"
 #include "index/indexing/plane_store.h"
 

@@ -5,7 +5,7 @@
 #include "index/file/sections/metadata.h"
 #include "index/indexing/chunk_history.h"
 #include "index/indexing/layer_stream.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "index/indexing/value_stats.h"
 #include "index/system/running_checksum.h"
 

@@ -26,7 +26,7 @@
 #include "index/formats/foreign_file.h"
 #include "index/formats/format.h"
 #include "index/formats/series/series_writer.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "index/reader/reader_messages.h"
 #include "index/scan/bricks.h"
 #include "index/search/layer_search.h"
@@ -90,9 +90,9 @@ void run_the_program() {}
 namespace isochron::index {
 namespace {
 
-void level_choice_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
-                          const LevelChooser& other) {
-#include "index/indexing/level_choice.example"
+void level_chooser_example(ValueType type, std::size_t step, std::span<const std::byte> stored,
+                           const LevelChooser& other) {
+#include "index/indexing/level_chooser.example"
 }
 
 void mesh_clusters_example(const CellMesh& mesh, const std::stop_token& stop) {

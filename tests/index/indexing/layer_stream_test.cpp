@@ -3,7 +3,7 @@
 #include "index/file/chunks/chunk_differences.h"
 #include "index/indexing/index_build.h"
 #include "index/indexing/layer_stream.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"

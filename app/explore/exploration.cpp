@@ -11,7 +11,7 @@
 #include "app/explore/pattern_exploration.h"
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
-#include "app/session/data_choice.h"
+#include "app/session/data_window.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"

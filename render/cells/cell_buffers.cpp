@@ -70,7 +70,7 @@ void CellBuffers::prepare(index::ValueType held) {
         return;
     const index::Extraction none;
     compute_->enter_pages(*blocks_);
-    compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, arriving_.message(),
+    compute_->place_cells(SlotAssignment(grid_, nullptr, *slots_, none), none, arriving_.message(),
                           points_);
     compute_->set_styles(none, arriving_.styles(), points_);
     compute_->fill_planes(none, *blocks_, points_);
@@ -187,11 +187,11 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     if (set->coarse() ||
         (with_points && volume == SendVolume::with_cells && !make_room_for(set->blocks)))
         volume = SendVolume::never;
-    std::unique_ptr<SlotPlan> plan;
+    std::unique_ptr<SlotAssignment> assignment;
     if (!with_points)
-        plan = !by_changes_ || (shown_ && shown_->coarse())
-                   ? std::make_unique<SlotPlan>(grid_, nullptr, kNoSlots, *set)
-                   : std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
+        assignment = !by_changes_ || (shown_ && shown_->coarse())
+                   ? std::make_unique<SlotAssignment>(grid_, nullptr, kNoSlots, *set)
+                   : std::make_unique<SlotAssignment>(grid_, shown_.get(), *slots_, *set);
     sending_blocks_ = volume == SendVolume::with_cells || !with_points;
     colors_sent_ = 0;
     if (sending_blocks_)
@@ -200,7 +200,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
         meshes.sending = &meshes == &meshes_[0] && with_points && set->meshed();
     if (meshes_[0].sending)
         meshes_[0].buffers.begin(set->meshes(0));
-    arriving_.begin(std::move(set), std::move(plan));
+    arriving_.begin(std::move(set), std::move(assignment));
     return true;
 }
 
@@ -216,7 +216,7 @@ bool CellBuffers::send_on(SendBudget& budget) {
     if (!ranked && !arriving_.send_changes(ring_, budget, count_))
         return false;
     return !sending_blocks_ ||
-           send_colors(*arriving_.set(), ranked ? kNoSlots : arriving_.plan().slots(), ranked,
+           send_colors(*arriving_.set(), ranked ? kNoSlots : arriving_.assignment().slots(), ranked,
                        budget);
 }
 
@@ -334,14 +334,14 @@ void CellBuffers::show() {
 /// Applies the changes of the arriving set. @return the new slots
 Slots CellBuffers::place_cells() {
     const index::Extraction& set = *arriving_.set();
-    SlotPlan& plan = arriving_.plan();
+    SlotAssignment& assignment = arriving_.assignment();
     points_.reserve(set.cells(), DeviceArray::Contents::kept);
-    compute_->place_cells(plan, set, arriving_.message(), points_);
+    compute_->place_cells(assignment, set, arriving_.message(), points_);
     if (!set.colors.empty() || (shown_ && !shown_->colors.empty()))
         compute_->set_styles(set, arriving_.styles(), points_);
     compute_->fill_planes(set, *blocks_, points_);
-    count_.ids += plan.ids();
-    return plan.take();
+    count_.ids += assignment.ids();
+    return assignment.take();
 }
 
 std::size_t CellBuffers::compute_corners(std::size_t most) {

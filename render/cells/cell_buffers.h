@@ -11,7 +11,7 @@
 #include "render/cells/block_pool.h"
 #include "render/cells/cell_compute.h"
 #include "render/cells/mesh_buffers.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/cells/surroundings.h"
 #include "render/cells/upload_count.h"
 #include "render/gl/staging_ring.h"

@@ -9,7 +9,7 @@
 // splats.
 #pragma once
 
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

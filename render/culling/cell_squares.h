@@ -4,7 +4,7 @@
 #include "render/cells/axis_places.h"
 #include "render/cells/cell_shape.h"
 #include "render/cells/placement.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/culling/square_projection.h"
 #include "render/gl/view.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/cells/placement.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/culling/cell_squares.h"
 #include "render/culling/culling.h"
 #include "render/culling/picture_tiles.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/surface/cell_mesh.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -67,7 +67,7 @@ struct RenderingConfig {
     glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB, of the surface if none is configured
     render::CellAppearance appearance;            ///< light and material
     Blending blending = Blending::automatic;
-    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
+    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< as suits a GPU or a processor
     /// Samples of each pixel; 0: 4 where the GPU draws, 1 where the processor does.
     int samples = 0;
     bool level_of_detail = true; ///< coarser levels while too many cells move

@@ -40,7 +40,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       surroundings_(gl), arriving_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
-    return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
+    return is_drawn_for_processor(gl) ? index::Shading::cells : index::Shading::none;
 }
 
 CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points,

@@ -77,7 +77,7 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
 
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::string& grid_prelude)
     : gl_(&gl), shapes_(shapes), grid_prelude_(grid_prelude),
-      two_views_at_once_(draws_to_two_viewports(gl)), seen_only_(takes_processor_ways(gl)),
+      two_views_at_once_(draws_to_two_viewports(gl)), seen_only_(is_drawn_for_processor(gl)),
       largest_point_(Limits(gl).largest_point),
       quad_programs_(footprint_programs("cell_quad.frag", Footprint::quad)),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),

@@ -33,7 +33,7 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
         const auto context = stereo::make_context(GetParam(), {.size = kPicture});
         // No meshes are made where a GPU draws, and the exact surface stands for them.
         if (one.footprint == Footprint::mesh &&
-            !render::takes_processor_ways(render::Gl(context->loader())))
+            !render::is_drawn_for_processor(render::Gl(context->loader())))
             continue;
         Session session(config, file_, *context);
         Commands commands = showing(kPlacement);

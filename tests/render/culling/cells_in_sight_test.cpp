@@ -82,7 +82,7 @@ TEST_P(CellsInSightTest, TheyTakeLessWorkWhereTheProcessorDraws) {
     drawn(all_, std::span(&view, 1), placement_, cells, 5000);
     const int all = parts_;
     drawn(seen_, std::span(&view, 1), placement_, cells, 5000);
-    if (takes_processor_ways(gl_))
+    if (is_drawn_for_processor(gl_))
         EXPECT_LT(parts_, all / 2);
     else // a GPU draws them all
         EXPECT_EQ(parts_, all);

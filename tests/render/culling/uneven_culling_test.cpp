@@ -90,7 +90,7 @@ class UnevenCulling : public HiddenCellsTest {
                     return;
             }
             for (const bool mixed : {false, true})
-                if (takes_processor_ways(gl_)) {
+                if (is_drawn_for_processor(gl_)) {
                     EXPECT_LT(left[mixed], whole[mixed]) << name_of(shape) << " " << mixed;
                 }
         }

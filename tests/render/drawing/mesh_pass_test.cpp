@@ -244,7 +244,7 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
                 part_ = footprint == Footprint::mesh && look.mesh_level > 0 ? 250 : 700;
                 EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
                 // Without an order, as on a GPU, quads are drawn in one piece.
-                if (footprint != Footprint::quad || takes_processor_ways(gl_)) {
+                if (footprint != Footprint::quad || is_drawn_for_processor(gl_)) {
                     EXPECT_GT(parts_, 2);
                 }
                 part_.reset();

@@ -1,7 +1,7 @@
 // The result of one request: the active cells of its surfaces and the volume blocks around them.
 #pragma once
 
-#include "index/extraction/kept_cells.h"
+#include "index/extraction/joined_cells.h"
 #include "index/extraction/simplified_meshes.h"
 #include "index/extraction/surroundings.h"
 #include "index/extraction/volume_blocks.h"

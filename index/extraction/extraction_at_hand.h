@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
-#include "index/extraction/kept_cells.h"
+#include "index/extraction/joined_cells.h"
 #include "index/extraction/surface_colors.h"
 #include "index/search/layer_search.h"
 #include "index/search/staying_cells.h"

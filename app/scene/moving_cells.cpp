@@ -45,7 +45,7 @@ glm::mat4 MovingCells::box_of(const Picture& picture) const {
     return around_cells(placement_of(picture));
 }
 
-bool MovingCells::draw_moved(const KeptCells& kept, const Picture& picture,
+bool MovingCells::draw_moved(const CellsPicture& kept, const Picture& picture,
                              std::span<const render::View> views) {
     const Picture* then = kept.movable(1);
     std::vector<render::PictureWithDepth> pictures =

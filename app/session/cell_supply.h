@@ -11,7 +11,7 @@
 #include "app/quality/cell_room.h"
 #include "app/quality/detail_choice.h"
 #include "app/scene/cell_sets.h"
-#include "app/scene/kept_cells.h"
+#include "app/scene/cells_picture.h"
 #include "app/session/frame.h"
 #include "index/extraction/extractor.h"
 

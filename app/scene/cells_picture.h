@@ -23,10 +23,10 @@ Picture drawn_as(Picture picture, const Picture& drawn);
 
 /// Color and depth of the newest picture of the cells, a copy for each viewport: what only changes
 /// over them is drawn without them.
-class KeptCells {
+class CellsPicture {
   public:
     /// @param gl outlives the pictures
-    explicit KeptCells(const render::Gl& gl) : gl_(gl) {}
+    explicit CellsPicture(const render::Gl& gl) : gl_(gl) {}
 
     /// Keeps what has been drawn into the views of the bound framebuffer, for this picture alone.
     void keep(const Picture& picture, std::span<const render::View> views);

@@ -133,7 +133,8 @@ class Display {
         glm::ivec2 corner, size;
     };
 
-    Margins margins_, next_margins_; ///< that stay free: in what is shown, in what is drawn next
+    /// Margins that stay free: in what is shown, in what is drawn next.
+    Margins margins_, next_margins_;
     Region region_of(const Viewport& viewport, Eye place) const;
     render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
     std::vector<render::View> views_in_target(std::size_t number, const ViewerPose& viewer) const;

@@ -1,4 +1,5 @@
-// The arrays among which files leave the choice, where not all of them can be shown together.
+// The arrays that a user can choose from, where the arrays of the files cannot all be shown
+// together.
 #pragma once
 
 #include "app/indexing/build_sources.h"

@@ -1,4 +1,4 @@
-// The words of a place in the data that a user picked or points at.
+// Describes a place in the data, which a user picked or points at, in words.
 #pragma once
 
 #include "index/volume/volume_series.h"

@@ -1,5 +1,5 @@
-// The ways in which cells that move are drawn beside the one of pictures at rest: the last picture
-// moved, in few pixels, and translucent surfaces by their nearest layers.
+// How moving cells are drawn, other than in pictures at rest: the last picture moved, in few
+// pixels, and translucent surfaces by their nearest layers.
 #pragma once
 
 #include "app/scene/cell_sets.h"

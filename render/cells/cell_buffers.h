@@ -193,8 +193,9 @@ class CellBuffers {
     KeptCorners corners_;
     /// Colors of the shown volume's cells; of the next one.
     DeviceArray corner_colors_, arriving_colors_;
-    std::vector<std::uint16_t> colors_by_slot_; ///< that are being sent, where slots are not ranks
-    std::size_t colors_sent_ = 0;               ///< cells
+    /// Colors that are being sent, where slots are not ranks.
+    std::vector<std::uint16_t> colors_by_slot_;
+    std::size_t colors_sent_ = 0;                       ///< cells
     std::array<KeptMeshes, index::kMeshLevels> meshes_; ///< by level
     Surroundings surroundings_;
     std::optional<BlockPool> blocks_;                  ///< made when the type is known

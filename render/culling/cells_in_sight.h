@@ -26,9 +26,9 @@ struct SightWanted {
     bool all_cells = false; ///< for comparisons: takes all to be in sight
 };
 
-/// Leaves out cells that are outside the views, or behind what is drawn: drawing one takes twenty
-/// times as long as finding that. Depths are read back every now and then, so what has been drawn before is known
-/// exactly, whatever it was, and the picture stays the same to the bit.
+/// Leaves out cells that are outside the views, or behind what is drawn: drawing a cell takes
+/// twenty times as long as finding that. Depths are read back every now and then, so that what has
+/// been drawn before is known exactly, whatever it was, and the picture stays the same to the bit.
 class CellsInSight {
   public:
     explicit CellsInSight(const Gl& gl);

@@ -17,8 +17,8 @@
 namespace isochron::render {
 
 /// Projects the cells, then visits them nearest first with tiles that know what nearer ones hide.
-/// Of opaque quads the cells that are left give exactly the same picture; of splats the same to
-/// within a step of an 8-bit picture. This takes 20 to 100 ns per quad on the processor; drawing
+/// With opaque quads, the cells that are left give exactly the same picture; with splats, the same
+/// to within a step of an 8-bit picture. This takes 20 to 100 ns per quad on the processor; drawing
 /// one takes 200 to 1000 ns.
 class SeenSlots {
   public:

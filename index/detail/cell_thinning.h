@@ -10,8 +10,9 @@
 namespace isochron::index {
 
 /// Leaves out some things of a group by hashes of their places: those with the lowest hashes stay.
-/// What becomes of a place depends on the share that stays alone: what stays of a smaller share
-/// also stays of a larger one, in every step, surface, process and replay, and nothing flickers.
+/// Whether a place stays depends only on the place and on the share that stays: what stays with a
+/// smaller share also stays with a larger one, in every step, surface, process and replay, and
+/// nothing flickers.
 class CellThinning {
   public:
     /// About `most` of `all` stay: all of them where they are not more.

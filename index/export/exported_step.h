@@ -18,8 +18,8 @@
 
 namespace isochron::index {
 
-/// Packs what a file holds of a mesh, for EXT_meshopt_compression (Khronos, "glTF 2.0 Extension
-/// Registry"): as meshoptimizer does, which this floor does without.
+/// Functions that pack a mesh for EXT_meshopt_compression (Khronos, "glTF 2.0 Extension Registry").
+/// Whoever has the library meshoptimizer passes them in: this floor does without it.
 struct MeshPacking {
     /// @param stride bytes of each vertex, a multiple of 4
     std::vector<std::byte> (*vertices)(std::span<const std::byte> bytes, std::size_t stride);

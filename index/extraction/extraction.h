@@ -18,13 +18,14 @@
 
 namespace isochron::index {
 
-/// What came and went from one extraction to the next. For meshes and blocks see these.
+/// Which cells came and went since an earlier extraction. Meshes and blocks know their own changes.
 struct ExtractionChange {
     std::uint64_t from = 0; ///< the number of that extraction; 0: nothing is known
     std::vector<SurfaceChange> surfaces = {};
 };
 
-/// Constant once published, but for the meshes that come later. Showing it needs nothing more of the file.
+/// Constant once published, but for the meshes that come later. Showing it needs nothing more of
+/// the file.
 struct Extraction {
     SurfacesQuery query;
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows if asked for

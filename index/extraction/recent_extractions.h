@@ -18,8 +18,9 @@ bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b);
 
 /// The next steps of a playback, in order, each once.
 struct StepsAhead {
-    std::uint32_t next = 0;  ///< the first of them, counted among the steps that are played
-    std::uint32_t steps = 0; ///< that are played, in which playback loops; 0: `next` only
+    std::uint32_t next = 0; ///< the first of them, counted among the steps that are played
+    /// Number of steps that are played, in which playback loops; 0: `next` only.
+    std::uint32_t steps = 0;
     bool reverse = false;
     bool to_and_fro =
         false; ///< playback turns at both ends instead; the step before `next` is shown

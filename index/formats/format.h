@@ -1,4 +1,4 @@
-// A format of files: the one record that everybody asks who has a file's name.
+// The record of a file format. Everything that depends on a file's format is asked of this record.
 //
 //     const KnownFile file = known_file("run/t_0030.vti");
 //     if (file.format)

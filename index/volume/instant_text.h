@@ -11,7 +11,7 @@ namespace isochron::index {
 /// @param times of all steps, increasing; not empty
 double time_at(std::span<const double> times, Instant at);
 
-/// As `time_text` (index/volume/time_unit.h) of a step, also between two steps.
+/// The time as `time_text` (index/volume/time_unit.h) writes it, also between two steps.
 std::string instant_text(std::span<const double> times, Instant at, const std::string& unit);
 
 } // namespace isochron::index

@@ -22,7 +22,7 @@ namespace isochron::index {
 enum class Anatomy : std::uint8_t { none, ras, lps, enu };
 
 struct SeriesInfo {
-    std::vector<std::string> arrays; ///< that there are to choose from, each with its type
+    std::vector<std::string> arrays; ///< arrays that there are to choose from, each with its type
     std::string array;       ///< name of the scalar array, with its component: `velocity.magnitude`
     std::string value_unit;  ///< empty when the files do not say
     std::string length_unit; ///< `mm`, `m`, ... or empty

@@ -1,5 +1,5 @@
-// One client of the control socket: what it sent and was not read yet, and what it has yet to get. All of
-// it has an end.
+// One client of the control socket: bytes that were received and not read yet, and answers that
+// were not sent yet. Both have a limit.
 #pragma once
 
 #include "app/control/control_address.h"
@@ -57,12 +57,12 @@ class ControlConnection {
     bool is_over() const {
         return over_ || (ends_ && unsent_.empty() && waits.empty() && !has_line());
     }
-    /// Whether its next request may be answered: it has read most answers so far.
+    /// Whether the client's next request may be answered: it has read most answers so far.
     bool has_room() const {
         return !over_ && unsent_bytes_ < kMostUnsent && unsent_behind_ < kMostBehind &&
                waits.size() < kMostUnanswered;
     }
-    /// Whether more of it may be received.
+    /// Whether more bytes may be received.
     bool may_read() const { return has_room() && !ends_ && !has_line(); }
     bool wants_to_write() const { return !unsent_.empty(); }
 
@@ -77,11 +77,12 @@ class ControlConnection {
     bool keeps_up() const { return unsent_bytes_ < kMostUnsent / 4; }
     /// Writes what the socket takes.
     void flush();
-    /// Ends the connection once all answers are sent. What it asked for besides is left out.
+    /// Ends the connection once all answers are sent. Requests that were received and not read are
+    /// dropped.
     void finish();
     void drop() { over_ = true; }
 
-    bool trusted = false;          ///< has said the token, or needs none
+    bool trusted = false;          ///< the client has said the token, or needs none
     interaction::Seconds since{0}; ///< when it connected
     RequestRate rate;
     std::deque<Unanswered> waits;

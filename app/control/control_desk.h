@@ -1,5 +1,5 @@
-// What the control socket's thread and the loop of frames hand each other. Neither waits for the other:
-// every list has an end.
+// What the thread of the control socket and the loop of frames hand each other. Neither waits for
+// the other, and every list has a limit.
 #pragma once
 
 #include "app/frame/explorer_state.h"

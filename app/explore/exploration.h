@@ -72,8 +72,8 @@ class Exploration {
     std::optional<Session> session_;
     std::unique_ptr<SessionControl> control_; ///< null: nobody steers from outside
     bool canceled_ = false;
-    std::vector<interaction::WindowEvent> early_; ///< that came before the first frame
-    std::optional<SavedSession> earlier_;         ///< which is resumed
+    std::vector<interaction::WindowEvent> early_; ///< events that came before the first frame
+    std::optional<SavedSession> earlier_;         ///< the session that is resumed
     std::optional<SessionClaim> claim_;           ///< on the file to which this one is saved
 };
 

@@ -28,12 +28,12 @@ struct FrameDrawing {
     bool after_wait = false;  ///< nothing was to be done since the frame before
     Milliseconds budget{0};   ///< for drawing
     Milliseconds promised{0}; ///< from one moving picture to the next
-    bool slower = false;      ///< that is longer than wanted, so that the picture is recognized
+    bool slower = false;      ///< the time is longer than wanted, so that the picture is recognized
     std::optional<Milliseconds> expected; ///< draw cost of the footprint, from earlier frames
     std::optional<Milliseconds> better;   ///< draw cost of a better footprint that does not fit
     std::size_t resolution = 0; ///< number of the cells' resolution: see `kCellResolutions`
     std::size_t mesh_level = 0; ///< level of a mesh: see index/extraction/simplified_meshes.h
-    std::size_t triangles = 0;  ///< that are drawn of it, if it is known
+    std::size_t triangles = 0;  ///< triangles that are drawn of the mesh, if it is known
     /// The last exact picture was moved, in the place of what the footprint says.
     bool moved = false;
     /// Footprint of the picture at rest in parts, if any.
@@ -62,9 +62,9 @@ struct FrameTimes {
     Milliseconds search{0}, gather{0}; ///< time of the shown set, on the worker: cells, bricks
     Milliseconds wait{0};              ///< for the worker; fixed-step replay only
     Milliseconds upload{0}, draw{0}, present{0}, total{0};
-    Milliseconds barrier{0};              ///< between draw and present: until all processes drew
-    Milliseconds processor{0};            ///< that all threads of the program computed meanwhile
-    Milliseconds latency{0};              ///< from polling the devices until all was submitted
+    Milliseconds barrier{0};   ///< between draw and present: until all processes drew
+    Milliseconds processor{0}; ///< time that all threads of the program computed meanwhile
+    Milliseconds latency{0};   ///< from polling the devices until all was submitted
     std::optional<Milliseconds> pose_age; ///< age of the oldest head pose, when the views were made
     /// Time that the GPU took for this frame; known some frames later.
     std::optional<Milliseconds> gpu;

@@ -40,7 +40,7 @@ struct PictureNote {
     PicturePart part;
     glm::ivec2 size{0};    ///< size of the window or room, pixels
     int samples = 1;       ///< samples of each pixel
-    std::string footprint; ///< that cells are drawn with
+    std::string footprint; ///< name of the footprint that cells are drawn with
     std::string shape;     ///< shape of quads and splats
     bool ray = false;      ///< shows the wand's ray and the mark under the cursor
     bool caption = false;

@@ -48,7 +48,7 @@ struct LiveOptions {
     std::string stays = {}; ///< why these data cannot give way to others; empty: they can
     /// Called in each frame: the picture shows the note that it returns. May be null.
     std::function<std::string()> standing = {};
-    std::vector<interaction::WindowEvent> early = {}; ///< that came before the first frame
+    std::vector<interaction::WindowEvent> early = {}; ///< events that came before the first frame
     /// These events behind the early ones, which are taken.
     std::vector<interaction::WindowEvent>
     behind_early(const std::vector<interaction::WindowEvent>& events) {
@@ -158,7 +158,7 @@ class LiveLoop {
     bool acted_ = false;  ///< the user did something before this frame
     std::optional<SessionKeeper> keeper_;
     std::string not_kept_ = "this session is not saved"; ///< why, where it is not kept
-    std::string picture_folder_;                         ///< that the user has chosen; empty: none
+    std::string picture_folder_; ///< folder that the user has chosen; empty: none
     std::optional<index::IndexWatch> watch_;
     std::optional<NextData> next_data_;
     DataOpening opening_; ///< opens data that the user has chosen

@@ -1,4 +1,4 @@
-// Builds one array of an index: what to do with its values when they are read, then its tiers.
+// Builds one array of an index: packs its values while they are read, then builds its tiers.
 #pragma once
 
 #include "index/indexing/build_options.h"
@@ -19,8 +19,8 @@ struct ArrayWork {
     double reading = 0, indexing = 0;
 };
 
-/// All members of a team make one with the same arguments, which outlive it, and call the same
-/// functions: `pass`, then `take`, then `write_tiers`. All throw as `build_index`.
+/// Every member of a team makes an ArrayBuild with equal arguments, which outlive it, and calls the
+/// same functions: `pass`, then `take`, then `write_tiers`. All throw as `build_index`.
 class ArrayBuild {
   public:
     /// @param options of this array @param number of this array in the index

@@ -52,15 +52,16 @@ class StepWriter {
 
     /// Sets the number of the next step that is looked at or taken.
     void begin_at(std::uint32_t step);
-    /// Takes the next layer of the step before the first: only to see what stays.
+    /// Looks at the next layer of the step before the first one that is written, to see which
+    /// chunks stay.
     void look(const LayerView& layer);
     /// For each chunk of the last step, level after level, the step since which it has stayed.
     std::vector<std::uint32_t> since() const;
     void set_since(std::span<const std::uint32_t> since);
     /// Number of chunk-steps of the finest level that were as in the step before.
     std::uint64_t stayed() const { return levels_.front().packer.stayed(); }
-    /// Where the table of a layer lies. Calls `f(begin, chunks, first)` for each layer of a level:
-    /// offset from the step's first byte, number of chunks, and place in `since` of its first one.
+    /// Calls `f(begin, chunks, first)` for the table of each layer of a level: its offset from the
+    /// step's first byte, its number of chunks, and where in `since` its first chunk is.
     using TablePlace =
         std::function<void(std::uint64_t begin, std::uint32_t chunks, std::size_t first)>;
     void for_each_table(std::size_t level, const StepEntry& entry, const TablePlace& f) const;

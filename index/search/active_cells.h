@@ -1,4 +1,5 @@
-// Finds the active cells of a step, part by part: whole, by candidates among its chunks, or by a scan.
+// Finds the active cells of a step, part by part: in the whole step, among the candidates of its
+// chunks, or by a scan.
 #pragma once
 
 #include "index/file/step_view.h"

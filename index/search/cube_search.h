@@ -34,7 +34,7 @@ class CubeSearch {
     struct Found {
         std::uint32_t x, y;
         CubeRows rows;
-        ChunksAround around;          ///< that its cells need for normals
+        ChunksAround around;          ///< chunks that its cells need for normals
         std::size_t first, count = 0; ///< among all places; none until it is shaded
     };
     void find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut, bool shaded,

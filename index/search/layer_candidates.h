@@ -1,5 +1,5 @@
-// The chunks of a layer that may hold active cells, read before the layer is searched, with what
-// lies around them announced.
+// The chunks of a layer that may hold active cells. They are read before the layer is searched, and
+// the disk is told about the chunks around them.
 #pragma once
 
 #include "index/file/step_view.h"

@@ -20,15 +20,16 @@ struct StillnessLimits {
     Seconds settle{0.150};     ///< how long everything must be still before `settled`
 };
 
-/// What time that plays means: a picture that moves all the time, or one that moves with each step,
-/// so that a step which stands for long may settle.
+/// How a picture moves while time plays: all the time, or with each step, so that a step that is
+/// shown for long may settle.
 enum class Playing : std::uint8_t { moves, moves_by_steps };
 
 /// `settled`: no button is down, no valuator is off rest, no command changes isovalue, surfaces,
 /// step, playback or the data's place, time does not play, and the head has been still for long
-/// enough; while time plays by steps, a tenth of a second since the last step is enough. A wand's buttons and valuators count, its motion alone does not. Keys in `quiet_actions`
-/// (screenshot, stamp, panel, modifiers, ...) do not count. Head speeds are estimated over a
-/// window, so that tracker noise is not taken for motion; an invalid head pose counts as still.
+/// enough; while time plays by steps, a tenth of a second since the last step is enough. A wand's
+/// buttons and valuators count, its motion alone does not. Keys in `quiet_actions` (screenshot,
+/// stamp, panel, modifiers, ...) do not count. Head speeds are estimated over a window, so that
+/// tracker noise is not taken for motion; an invalid head pose counts as still.
 class MotionGate {
   public:
     explicit MotionGate(const StillnessLimits& limits);

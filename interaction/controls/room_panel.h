@@ -11,7 +11,7 @@
 
 namespace isochron::interaction {
 
-/// [m]
+/// Width and height of the panel [m].
 struct PanelSize {
     float width = 0.46f, height = 0.62f;
     bool operator==(const PanelSize&) const = default;

@@ -16,7 +16,7 @@
 namespace isochron::app {
 
 struct SavedSession {
-    std::string program;         ///< that wrote it
+    std::string program;         ///< program that wrote it
     std::string data;            ///< path of the index
     std::string data_hash;       ///< 16 hexadecimal digits
     interaction::Commands state; ///< sets all settings

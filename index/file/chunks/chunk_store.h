@@ -27,7 +27,7 @@ struct alignas(32) Chunk {
     ChunkBricks bricks{};                ///< undefined in an index without bricks
     std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty if the file has none
     ChunkPtr earlier;        ///< the chunk of an earlier step that has the values, if any
-    std::uint32_t since = 0; ///< that step
+    std::uint32_t since = 0; ///< number of that step
 };
 
 using LevelMapPtr = std::shared_ptr<const LevelMap>;

@@ -1,5 +1,5 @@
-// What blends of the steps of a store share: memory of blended chunks that are done with, for those
-// of the next moment, and tables of ranks.
+// Memory that the blends of a store's steps share: of chunks that an earlier moment no longer
+// needs, to be used again, and of tables of ranks.
 #pragma once
 
 #include "index/file/chunks/byte_cache.h"

@@ -57,7 +57,7 @@ struct ColorArrays {
 /// Where the room's panel appears when it is called.
 struct CalledPanel {
     float distance = 0.65f; ///< [m] from the eyes
-    /// For an emulated head, in the head's frame; empty: as `called` puts it.
+    /// Pose in the frame of an emulated head; empty: the place that `called` chooses.
     std::optional<Pose> place;
 };
 

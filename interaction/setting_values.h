@@ -198,7 +198,7 @@ struct WrittenPictures {
     bool marks = true;                   ///< mark, ruler and the outline of the clip plane
     std::uint32_t width = 0, height = 0; ///< [pixel], 0: as it is seen
     double rate = 30.0;      ///< pictures a second of a movie, kSlowestMovie to kFastestMovie
-    std::string folder = {}; ///< empty: the one that the program was started with
+    std::string folder = {}; ///< empty: the folder that the program was started in
     SurfaceExport surfaces;  ///< how surfaces are exported to the same folder
     bool operator==(const WrittenPictures&) const = default;
 };

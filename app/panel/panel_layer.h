@@ -98,7 +98,7 @@ class PanelLayer {
     /// Whether the panel, or a page that it has opened, covers a place.
     /// @param at fractions of the picture from the top left
     bool covers(glm::vec2 at) const;
-    /// The widget under the pointer, and the one that is pressed; 0: none.
+    /// The widget under the pointer, and the widget that is pressed; 0: none.
     std::uint32_t hovered() const;
     std::uint32_t held() const;
 

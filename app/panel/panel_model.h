@@ -26,12 +26,12 @@ enum class PanelPlace : std::uint8_t {
     in_room ///< in the room; it shows only what is the same on every wall and in every replay
 };
 
-/// What the user wants: a movie of something, to give up the one that is being made, or a recording.
+/// What the user wants with movies and recordings.
 enum class MovieWish : std::uint8_t {
-    recording, ///< a recording of this session, so far
-    series,    ///< all steps, as they are seen now
-    give_up,   ///< the one that is being made
-    record     ///< to begin a recording, or to end the one that goes on
+    recording, ///< a movie of this session's recording, so far
+    series,    ///< a movie of all steps, as they are seen now
+    give_up,   ///< to cancel the movie that is being made
+    record     ///< to begin a recording, or to end the recording that goes on
 };
 
 struct MovieState {
@@ -51,10 +51,10 @@ struct PanelArrays {
     std::span<const std::string> names = {}; ///< names of the arrays with surfaces
     std::span<const std::string> notes = {}; ///< range and unit of each, in words; may be empty
     std::span<const ListedArray> lines = {}; ///< lines of the list of arrays; may be empty
-    std::size_t asked = 0;                   ///< number of the one asked for
+    std::size_t asked = 0;                   ///< number of the array asked for
     std::function<interaction::Commands(std::size_t)> way_to; ///< shows an array, by number
     std::span<const std::string> color_names = {};            ///< names of the arrays to color by
-    std::size_t color = 0; ///< number of the one whose values are the colors, or would be
+    std::size_t color = 0; ///< number of the array whose values are the colors, or would be
 };
 
 /// The color scale, and the maps that it may have.

@@ -33,12 +33,12 @@ class CellsPicture {
     /// Whether the cells of this picture are kept for all of its viewports.
     /// @param viewports that show the picture
     bool hold(const Picture& picture, std::size_t viewports) const;
-    /// The picture of which cells are kept, if they can be drawn for other eyes: they have one sample
-    /// in each pixel. Empty: there is none.
+    /// The picture whose cells are kept, if they can be drawn for other eyes: they have one sample
+    /// in each pixel. Null: there is none.
     /// @param viewports that show it
     const Picture* movable(std::size_t viewports) const;
-    /// The kept picture for the same screens as these views: the eyes or the cells may
-    /// have moved since. @return by view: where it lies; empty: there is none
+    /// The kept pictures for the screens of these views; the eyes or the cells may have moved
+    /// since. @return by view: where its picture lies; empty: there is none
     std::vector<render::PictureWithDepth> for_screens_of(std::span<const render::View> views) const;
     /// Draws the kept cells and their background into the views of the bound framebuffer.
     /// @return false: they are not kept

@@ -94,7 +94,7 @@ class DetailSearch {
     bool by_bricks_;
     std::vector<std::unique_ptr<LayerSearch>> searchers_; ///< by level
     std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
-    unsigned counted_ = 0;               ///< the finest level of which all is known
+    unsigned counted_ = 0;               ///< the finest level whose cells are all counted
     std::vector<std::size_t> in_region_; ///< cells of that level
     double level_zero_ = 1; ///< expected cells of level 0, divided by those in in_region_
     std::vector<std::vector<std::uint16_t>> colors_; ///< colors of the result, by surface

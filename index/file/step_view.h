@@ -78,7 +78,8 @@ class StepView {
         return between_ ? between_->chunks(layer, places, stop)
                         : store_->chunks(at_, layer, places, stop);
     }
-    /// For a ChunkCube, by chunks: between two steps pairs, of which it blends what it needs.
+    /// What a ChunkCube takes, by chunks: between two steps, pairs of chunks, of which the cube
+    /// blends what it needs.
     std::vector<ChunkPtr> cube_chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                       const std::stop_token& stop) const {
         return between_ ? between_->pairs(layer, places, stop)

@@ -24,7 +24,7 @@ struct CellRange {
 /// it, like a hierarchical z-buffer (Greene, Kass and Miller 1993, doi:10.1145/166117.166147). A
 /// cell is hidden if nearer squares cover all tiles that its square may touch.
 /// @param seen takes the numbers of the visible cells, in the order of the squares; has room for all
-/// @return how many these are
+/// @return number of visible cells
 std::size_t find_squares(const CellSquares& squares, const TileNumbers& tiles, CellRange range,
                          std::uint32_t* seen);
 

@@ -31,7 +31,7 @@ class SeenSlots {
     std::size_t work() const { return (1 + kVisit) * squares_.size(); }
     /// Goes on until so much of the work is done.
     /// @param slots the same as before
-    /// @param back_to_front slots in this order, likewise
+    /// @param back_to_front slots in this order, the same as before
     /// @return slots of the visible cells once all is done, quads nearest first and splats back to
     /// front; valid until the next call
     std::span<const std::uint32_t> advance(std::size_t to, const Slots& slots,

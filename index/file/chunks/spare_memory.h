@@ -12,7 +12,8 @@
 
 namespace isochron::index {
 
-/// New memory is cleared by the system, which takes longer than the blend of two chunks. Thread-safe.
+/// Keeps memory for the next use: the system clears new memory, which takes longer than the blend
+/// of two chunks. Thread-safe.
 class SpareMemory {
   public:
     using Doubles = std::unique_ptr<double[]>;
@@ -45,8 +46,8 @@ class SpareMemory {
     std::vector<Doubles> free_;
 };
 
-/// Views of a moment come and go: a search has several, and each look at a place has one. Making
-/// ranks takes longer than such a look. Thread-safe.
+/// What all views of one moment share, as views come and go: a search has several, and each look at
+/// a place has one, which takes less time than making ranks. Thread-safe.
 struct BlendMemory {
     /// @param chunk doubles of a blended chunk @param limit bytes of them that are kept
     BlendMemory(std::size_t chunk, std::size_t limit)

@@ -1,6 +1,6 @@
 // The program and its subcommands.
 #include "app/command_line/subcommands.h"
-#include "app/output/left_files.h"
+#include "app/output/leftover_files.h"
 #include "commit.h"
 #include "index/reader/file_fence.h"
 
@@ -24,7 +24,7 @@ std::string version_details() {
 
 int main(int argc, char** argv) {
     using namespace isochron::app;
-    remove_left_files(argc, argv);
+    remove_leftover_files(argc, argv);
     return run_program({.name = "isochron",
                         .description = "Explore time-varying volume data immersively.",
                         .version_details = version_details,

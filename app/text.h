@@ -33,7 +33,7 @@ std::string grid_words(const index::SeriesInfo& info);
 /// Text as one line that is safe for a terminal: line ends and other control characters, those of
 /// eight bits too, become `\n`, `\x1b`; of a very long text only beginning and end remain.
 std::string one_line(std::string_view text);
-/// The same for a text of lines: line ends stay, and all of its length.
+/// A text of lines made safe: line ends stay, and all of its length.
 std::string safe_lines(std::string_view text);
 /// Prints a text of lines in which files and configurations have a say. Whatever the program says
 /// is printed by this function or the next one: `tests/house` checks it.

@@ -22,7 +22,7 @@ namespace isochron::interaction {
 /// The box of the data in its physical space.
 struct DataFrame {
     glm::dmat4 physical_from_box{1.0}; ///< from the unit cube
-    std::string unit;                  ///< of lengths; may be empty
+    std::string unit;                  ///< unit of lengths; may be empty
 
     glm::dvec3 at(const glm::dvec3& in_box) const {
         return glm::dvec3(physical_from_box * glm::dvec4(in_box, 1.0));
@@ -42,7 +42,7 @@ struct DataFrame {
 struct ControlledSeries {
     double low = 0, high = 1;                   ///< range of its values
     const std::vector<double>* times = nullptr; ///< physical times of the steps, increasing
-    const StepGaps* gaps = nullptr;             ///< of these steps; null: none
+    const StepGaps* gaps = nullptr;             ///< gaps between these steps; null: none
     glm::dvec3 pivot{0.0}; ///< center of the volume, physical space: orbit turns about it
     Similarity home;       ///< room from physical space: what reset returns to
 };
@@ -57,7 +57,7 @@ struct ColorArrays {
 /// Where the room's panel appears when it is called.
 struct CalledPanel {
     float distance = 0.65f; ///< [m] from the eyes
-    /// For an emulated head, in the head's frame; empty: as `called` puts it.
+    /// Pose in the frame of an emulated head; empty: the place that `called` chooses.
     std::optional<Pose> place;
 };
 

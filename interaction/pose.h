@@ -38,7 +38,7 @@ struct Similarity {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     double scale = 1.0;        ///< > 0, finite
-    double exaggeration = 1.0; ///< of physical z: 0.01 to 1000
+    double exaggeration = 1.0; ///< factor of physical z: 0.01 to 1000
     bool operator==(const Similarity&) const = default;
 };
 glm::dmat4 matrix(const Similarity& similarity);

@@ -117,8 +117,8 @@ struct Coloring {
     std::uint32_t bands =
         0; ///< number of equal parts with one color each; 0: colors change smoothly
     bool logarithmic = false; ///< equal ratios of values, all above 0, are equally far on the map
-    /// Of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none: the
-    /// program knows the map by its name.
+    /// Colors of a map that came with a configuration, at equal distances: sRGB, 0xRRGGBB; none:
+    /// the program knows the map by its name.
     std::vector<std::uint32_t> colors = {};
     /// If `range` is empty: the map goes from one of these percentiles of the values on the shown
     /// surfaces to the other, 0 to 100, ascending. Empty: the range of the series.
@@ -186,7 +186,7 @@ struct WrittenPictures {
     bool marks = true;                   ///< mark, ruler and the outline of the clip plane
     std::uint32_t width = 0, height = 0; ///< [pixel], 0: as it is seen
     double rate = 30.0;      ///< pictures a second of a movie, kSlowestMovie to kFastestMovie
-    std::string folder = {}; ///< empty: the one that the program was started with
+    std::string folder = {}; ///< empty: the folder that the program was started in
     SurfaceExport surfaces;  ///< how surfaces are exported to the same folder
     bool operator==(const WrittenPictures&) const = default;
 };
@@ -196,14 +196,14 @@ inline constexpr double kSlowestMovie = 1.0, kFastestMovie = 240.0;
 /// The export that goes on in the background, or is asked for.
 struct ExportWork {
     bool goes_on = false;      ///< setting it begins an export, clearing it cancels the export
-    std::uint32_t percent = 0; ///< of it that is written, 0 to 100
+    std::uint32_t percent = 0; ///< how much of it is written, 0 to 100
     bool operator==(const ExportWork&) const = default;
 };
 
 /// The panel that stands in the room.
 struct RoomPanel {
     bool shown = false;
-    Pose pose; ///< of its middle: +X to its right, +Y up, +Z towards the reader
+    Pose pose; ///< pose of its middle: +X to its right, +Y up, +Z towards the reader
     bool operator==(const RoomPanel&) const = default;
 };
 

@@ -34,7 +34,7 @@ constexpr Holds<T> at_first(const auto& value) {
 template <template <class> class Holds>
 struct SettingsOf {
     // What is shown.
-    Holds<std::string> array{}; ///< of the surfaces, by name; empty: the index's first
+    Holds<std::string> array{}; ///< array of the surfaces, by name; empty: the index's first
     Holds<std::vector<Isosurface>> isosurfaces = at_first<Holds, std::vector<Isosurface>>(
         std::vector<Isosurface>{{}}); ///< all of them, 1 to kMostIsosurfaces
     Holds<std::uint32_t> picked{};    ///< the surface whose isovalue is moved, counted from 0

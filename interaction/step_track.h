@@ -85,7 +85,7 @@ std::vector<Bookmark> toggled_bookmark(std::vector<Bookmark> bookmarks, Instant 
 /// `step 4`, or between two steps `step 4.50`: as people count, from 1.
 std::string name_of(Instant at);
 
-/// The same number of pictures a second, counted in another unit.
+/// As many pictures a second, counted in another unit.
 PlaybackState counted_in(SpeedUnit unit, PlaybackState state, std::span<const double> times);
 /// Faster or slower in the unit that counts. @param factor above 0
 PlaybackState sped_up(PlaybackState state, double factor);

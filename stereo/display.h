@@ -65,7 +65,7 @@ class Display {
     /// @param viewers by the numbers that the window's viewports use
     void draw(std::span<const ViewerPose> viewers, StereoMode mode, const Scene& scene,
               const Overlay& overlay = {});
-    /// The same for one viewer.
+    /// Draws for one viewer.
     void draw(const interaction::Pose& head, float eye_separation, StereoMode mode,
               const Scene& scene, const Overlay& overlay = {}) {
         const ViewerPose viewer{head, eye_separation};
@@ -111,8 +111,8 @@ class Display {
     bool fills() const { return margins_ == Margins{}; } ///< nothing is left free
 
     const Window& window() const { return window_; }
-    glm::ivec2 size() const { return composed_.size(); } ///< of the last frame, pixels
-    StereoMode mode() const { return mode_; }            ///< of the last frame
+    glm::ivec2 size() const { return composed_.size(); } ///< size of the last frame, pixels
+    StereoMode mode() const { return mode_; }            ///< mode of the last frame
 
     /// The whole window in the last frame, with the overlay; the left buffer if it is
     /// quad-buffered.
@@ -133,7 +133,8 @@ class Display {
         glm::ivec2 corner, size;
     };
 
-    Margins margins_, next_margins_; ///< that stay free: in what is shown, in what is drawn next
+    /// Margins that stay free: in what is shown, in what is drawn next.
+    Margins margins_, next_margins_;
     Region region_of(const Viewport& viewport, Eye place) const;
     render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
     std::vector<render::View> views_in_target(std::size_t number, const ViewerPose& viewer) const;
@@ -150,11 +151,12 @@ class Display {
     DisplayOptions options_;
     Multiplex multiplex_;
     Presenter presenter_;
-    StereoMode mode_ = StereoMode::mono; ///< of the last frame
+    StereoMode mode_ = StereoMode::mono; ///< mode of the last frame
     render::RenderTarget composed_;
     std::optional<render::RenderTarget> right_buffer_; ///< while the window is quad-buffered
     std::vector<std::optional<render::RenderTarget>> targets_; ///< by viewport, from its first draw
-    std::vector<std::optional<render::RenderTarget>> next_;    ///< likewise; drawn in parts
+    /// By viewport: the next picture, drawn in parts.
+    std::vector<std::optional<render::RenderTarget>> next_;
 };
 
 } // namespace isochron::stereo

@@ -20,7 +20,7 @@ struct DisplayOptions {
 /// that one pass can draw both. The target is bound and cleared to the background; viewport and
 /// scissor number i are set for view i.
 using DrawViews = std::function<void(std::span<const render::View>)>;
-/// The same, but draws a further part of the picture, over what has been drawn before.
+/// Draws a further part of the picture, over what has been drawn before, as DrawViews does.
 /// @return whether the picture is complete now
 using DrawPart = std::function<bool(std::span<const render::View>)>;
 

@@ -70,7 +70,7 @@ class HeadsetDisplay {
     Presenter presenter_;
     render::RenderTarget window_picture_;
     std::optional<render::RenderTarget> target_; ///< both eyes side by side; empty before `draw`
-    std::optional<render::RenderTarget> next_;   ///< likewise; drawn in parts
+    std::optional<render::RenderTarget> next_;   ///< next picture of both eyes, drawn in parts
     glm::ivec2 whole_{0};                        ///< size of both eyes' pictures
     std::array<Part, 2> parts_;
 };

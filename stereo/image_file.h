@@ -38,7 +38,7 @@ std::string read_note(const std::filesystem::path& path);
 /// sRGB. Alpha is 255 if the file has none.
 /// @throws render::Error naming the file
 render::Image read_image(const std::filesystem::path& path);
-/// The same of a file's bytes. @param path named by errors
+/// Reads an image from a file's bytes. @param path named by errors
 render::Image decoded_image(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
 } // namespace isochron::stereo

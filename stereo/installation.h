@@ -44,7 +44,7 @@ struct Screen {
 
 /// Part of a window that shows one screen; fractions of the window, origin at the lower left.
 struct Viewport {
-    std::string name; ///< of the wall, for messages and file names; may be empty
+    std::string name; ///< name of the wall, for messages and file names; may be empty
     glm::vec2 position{0.0f};
     glm::vec2 size{1.0f};
     std::size_t viewer = 0; ///< who sees it: index into the installation's viewers
@@ -81,7 +81,7 @@ struct Window {
 
 /// Where a viewer's eyes are in the frame of the head: X to the right, Y up, -Z ahead.
 struct Eyes {
-    /// Of eyes that lie on both sides of the head's origin, as most do.
+    /// Eyes that lie on both sides of the head's origin, as most do.
     Eyes(float apart = 0) : separation(apart) {}
     float separation;             ///< [m] from one eye to the other
     glm::vec3 middle{0.0f};       ///< [m] between them
@@ -93,7 +93,7 @@ struct Eyes {
 struct Viewer {
     std::string name = "viewer";
     std::string head = "head";            ///< the device that tracks the head
-    glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< of the head until it is tracked [m]
+    glm::vec3 position{0.0f, 1.6f, 0.0f}; ///< position of the head until it is tracked [m]
     float eye_separation = 0.063f;        ///< meters, 0 to 0.1
     /// Measured places of the eyes in the head's frame [m], `eye_separation` apart; both or none.
     std::optional<glm::vec3> left_eye, right_eye;

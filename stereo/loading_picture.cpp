@@ -8,7 +8,8 @@
 namespace isochron::stereo {
 namespace {
 
-constexpr int kColumns = 5, kRows = 8, kAdvance = kColumns + 1; ///< of a letter, in dots
+/// Dots of a letter, and to the next one.
+constexpr int kColumns = 5, kRows = 8, kAdvance = kColumns + 1;
 
 /// Rows from the top; the leftmost dot is the highest of five bits.
 using DotLetter = std::array<std::uint8_t, kRows>;

@@ -58,7 +58,7 @@ std::array<glm::vec3, 4> corners_in_room(const Screen& screen, const interaction
 interaction::Pose ray_through(const Screen& screen, const interaction::Pose& head, Eye eye,
                               const Eyes& eyes, glm::ivec2 pixels, glm::vec2 at);
 
-/// The same for a parallel projection; the ray starts at the head's distance from the screen.
+/// The ray for a parallel projection; it starts at the head's distance from the screen.
 interaction::Pose parallel_ray_through(const Screen& screen, const interaction::Pose& head,
                                        float distance, glm::ivec2 pixels, glm::vec2 at);
 

@@ -61,8 +61,9 @@ class Windows {
 
 struct WindowOptions {
     std::string title = "Isochron"; ///< further windows add their names
-    bool vsync = true;   ///< of the first window; the others are presented right after it
-    StereoMode stereo{}; ///< in which the first window starts
+    /// The first window waits for the display; the others are presented right after it.
+    bool vsync = true;
+    StereoMode stereo{};                          ///< mode in which the first window starts
     ContextApi api = ContextApi::native;          ///< for making the windows' contexts
     std::optional<Window> console = std::nullopt; ///< the operator's window, if there is a desktop
     int rank = 0, ranks = 1;                      ///< process whose windows are opened, see nodes.h

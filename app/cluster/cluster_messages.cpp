@@ -21,7 +21,7 @@ using interaction::number;
 using nlohmann::json;
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-constexpr std::size_t kMostSamples = 4096; ///< of one frame
+constexpr std::size_t kMostSamples = 4096; ///< samples of one frame
 constexpr std::size_t kMostRegions = 16 * 16 * 16;
 constexpr int kLevelZero = 128;
 

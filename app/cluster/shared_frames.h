@@ -66,7 +66,7 @@ class SharedFrames final : public FrameSharing {
     CellAgreement agreement_;
     SharedCells cells_;
     std::vector<FrameAnswer> answers_; ///< to the last frame, by rank
-    std::vector<DrawSample> samples_;  ///< of this process, not yet sent to the others
+    std::vector<DrawSample> samples_;  ///< samples of this process, not yet sent to the others
     std::deque<Sampled> sampled_;
 };
 

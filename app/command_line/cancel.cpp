@@ -17,9 +17,9 @@ namespace {
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
-volatile pid_t sender = 0;           // of the signal that came
-pid_t launcher = 0;                  // of this process's group
-int living = 0;                      // of CancelOnSignal, one within the other
+volatile pid_t sender = 0;           // who sent the signal that came
+pid_t launcher = 0;                  // leader of this process's group
+int living = 0;                      // living CancelOnSignal, one within the other
 std::atomic<const WakeOnSignal*> woken_by_signals = nullptr;
 static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
 

@@ -1,4 +1,4 @@
-// What the parser's library knows of a command besides its options: its examples, and all of it as data.
+// Examples in the help of commands, and commands as data: what else needs the parser's library.
 #pragma once
 
 #include "app/command_line/command_reference.h"

@@ -39,7 +39,7 @@ class ProgressBar {
     double bytes_;
     Of of_;
     std::string phase_;
-    std::chrono::steady_clock::time_point start_; ///< of the phase, or of the first
+    std::chrono::steady_clock::time_point start_; ///< when the phase began, or the first one
     int percent_ = -1;                            ///< shown now
 };
 

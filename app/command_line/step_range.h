@@ -10,7 +10,7 @@
 
 namespace isochron::app {
 
-/// Whole numbers with one of the characters of `between` between each two, as in `0:63`.
+/// Whole numbers with a character of `between` after each but the last, as in `0:63`.
 /// @return empty if there is anything else
 std::optional<std::vector<std::uint64_t>> whole_numbers(std::string_view text,
                                                         std::string_view between);

@@ -42,7 +42,7 @@ struct Measured {
     index::CellSetPtr set;
     Times cold, warm; ///< warm: medians; zero without repetitions
     index::SearchMethod repeated_by = index::SearchMethod::scan;
-    ProcessUsage usage; ///< of the process after the first search
+    ProcessUsage usage; ///< what the process used after the first search
 };
 
 /// Every repetition starts a new search: otherwise it would find its own last result.

@@ -84,7 +84,7 @@ std::vector<std::string> stems_of(const Options& options, std::size_t number,
 
 /// What may be added to such a name.
 std::set<std::string> suffixes_of(const PictureNames& names) {
-    std::set<std::string> suffixes{""}; // of the room
+    std::set<std::string> suffixes{""}; // the picture of the room has none
     for (const PictureNames::Window& window : names.windows) {
         suffixes.insert({window.suffix, window.suffix + "_left", window.suffix + "_right"});
         for (const std::string& viewport : window.viewports)

@@ -110,7 +110,7 @@ void settle(Session& session, const PictureNote& note) {
 struct MadePicture {
     render::Image image;
     std::string drawn_with;
-    std::vector<std::string> differs; ///< of what it is made of
+    std::vector<std::string> differs; ///< parts of the data and the program that differ
 };
 
 MadePicture make(const ReproduceOptions& options, const PictureNote& note) {

@@ -32,7 +32,7 @@ struct TableArguments {
 };
 
 struct Table {
-    std::vector<std::string> columns; ///< those of marks, also where nothing is marked
+    std::vector<std::string> columns; ///< columns of marks, also where nothing is marked
     Json rows;
 };
 

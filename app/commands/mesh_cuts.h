@@ -13,7 +13,7 @@
 
 namespace isochron::app {
 
-/// As options say it.
+/// The options that cut or simplify exported surfaces.
 struct MeshCuts {
     std::optional<std::string> crop; ///< `X0:X1,Y0:Y1,Z0:Z1`, vertices of the grid
     std::vector<double> clip;        ///< a point on a plane and its normal; empty: no plane

@@ -16,7 +16,7 @@ unsigned char* bytes_in(std::vector<std::byte>& packed) {
 
 std::vector<std::byte> packed_vertices(std::span<const std::byte> bytes, std::size_t stride) {
     const std::size_t count = bytes.size() / stride;
-    meshopt_encodeVertexVersion(0); // of the extension
+    meshopt_encodeVertexVersion(0); // version that the extension names
     std::vector<std::byte> packed(meshopt_encodeVertexBufferBound(count, stride));
     packed.resize(
         meshopt_encodeVertexBuffer(bytes_in(packed), packed.size(), bytes.data(), count, stride));
@@ -28,7 +28,7 @@ std::vector<std::byte> packed_triangles(std::span<const std::uint32_t> corners,
                                         std::size_t vertices) {
     std::vector<std::uint32_t> ordered(corners.size());
     meshopt_optimizeVertexCache(ordered.data(), corners.data(), corners.size(), vertices);
-    meshopt_encodeIndexVersion(1); // of the extension
+    meshopt_encodeIndexVersion(1); // version that the extension names
     std::vector<std::byte> packed(meshopt_encodeIndexBufferBound(ordered.size(), vertices));
     packed.resize(
         meshopt_encodeIndexBuffer(bytes_in(packed), packed.size(), ordered.data(), ordered.size()));

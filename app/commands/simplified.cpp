@@ -1,7 +1,7 @@
 // Surfaces with fewer triangles, by meshoptimizer.
 #include "app/commands/simplified.h"
 
-#include "index/export/mesh_parts.h"
+#include "index/export/mesh_crop.h"
 
 #include <glm/vec3.hpp>
 

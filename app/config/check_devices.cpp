@@ -15,9 +15,9 @@ namespace {
 /// Every device of every tracker, in one form.
 struct ListedDevice {
     const interaction::DeviceOptions& options;
-    std::string key;    ///< of the tracker's table
+    std::string key;    ///< key of the tracker's table
     std::string source; ///< the tracked body, sensor or channel that it reads
-    int line;           ///< of the tracker
+    int line;           ///< line of the tracker
 };
 
 std::string source_read_by(const interaction::DTrackOptions& dtrack,

@@ -69,8 +69,9 @@ struct RenderingConfig {
     glm::vec3 surface_color{0.94f, 0.86f, 0.70f}; ///< sRGB, of the surface if none is configured
     render::CellAppearance appearance;            ///< light and material
     Blending blending = Blending::automatic;
-    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< a GPU's or a processor's ways
-    int samples = 0; ///< of each pixel; 0: 4 where the GPU draws, 1 where the processor does
+    render::DrawnBy drawn_by = render::DrawnBy::automatic; ///< as suits a GPU or a processor
+    /// Samples of each pixel; 0: 4 where the GPU draws, 1 where the processor does.
+    int samples = 0;
     bool level_of_detail = true; ///< coarser levels while too many cells move
     bool wand_ray = true;
 };
@@ -129,9 +130,10 @@ struct PanelConfig {
 
 /// The table `memory`.
 struct MemoryConfig {
-    int cache_megabytes = 0;    ///< most kept of the index; 0: a quarter of the usable memory
-    int mesh_megabytes = 96;    ///< most for the triangles of a set; 0: no triangles are made
-    int most_cells = 8'000'000; ///< of a set; where there are more, coarser levels take their place
+    int cache_megabytes = 0; ///< most kept of the index; 0: a quarter of the usable memory
+    int mesh_megabytes = 96; ///< most for the triangles of a set; 0: no triangles are made
+    /// Cells of a set; where there are more, coarser levels take their place.
+    int most_cells = 8'000'000;
 
     /// As IndexFile::open takes it.
     std::uint64_t cache_bytes() const { return std::uint64_t(cache_megabytes) << 20; }

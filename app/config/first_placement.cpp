@@ -166,7 +166,7 @@ interaction::Similarity filling(const index::SeriesInfo& info, const PlacementOp
         return std::pair(scaled, corners_in_clip(clip_from_room * matrix(scaled), info.grid));
     };
     constexpr double kMost = 100;    // times as large as `options.size`
-    constexpr double kNearest = 0.2; // of the distance, from the eye to a corner
+    constexpr double kNearest = 0.2; // share of the distance, from the eye to a corner
     const double scale = between(0, kMost * placement.scale, [&](double trial) {
         return is_small(corners_at(trial).second, options.fill, kNearest * options.distance);
     });

@@ -10,7 +10,7 @@
 namespace isochron::app {
 
 struct PvxOptions {
-    float meters_per_unit = 1.0f; ///< of the file's corners and eye separations
+    float meters_per_unit = 1.0f; ///< unit of the file's corners and eye separations
     glm::vec3 origin{0.0f};       ///< [m] where the file's origin is in the room
 };
 
@@ -26,7 +26,7 @@ struct PvxImport {
 /// @throws ConfigError in one line, with the file and the line
 PvxImport parse_pvx(const std::string& text, const std::string& name, const PvxOptions& options);
 
-/// The same for a file. @throws ConfigError also when it cannot be read
+/// Reads a file. @throws ConfigError also when it cannot be read
 PvxImport read_pvx(const std::filesystem::path& path, const PvxOptions& options);
 
 } // namespace isochron::app

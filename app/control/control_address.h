@@ -10,8 +10,8 @@ namespace isochron::app {
 /// A Unix socket, or TCP on the loopback device alone. There is no other address: from elsewhere
 /// one comes through ssh, which knows who may.
 struct ControlAddress {
-    std::filesystem::path path; ///< of the Unix socket; empty: TCP
-    std::uint16_t port = 0;     ///< of TCP on 127.0.0.1; 0 when listening: one that is free
+    std::filesystem::path path; ///< path of the Unix socket; empty: TCP
+    std::uint16_t port = 0;     ///< port of TCP on 127.0.0.1; 0 when listening: one that is free
     bool is_tcp() const { return path.empty(); }
 };
 

@@ -1,5 +1,5 @@
-// One client of the control socket: what it sent and was not read yet, and what it has yet to get. All of
-// it has an end.
+// One client of the control socket: bytes that were received and not read yet, and answers that
+// were not sent yet. Both have a limit.
 #pragma once
 
 #include "app/control/control_address.h"
@@ -20,8 +20,9 @@ namespace isochron::app {
 inline constexpr std::size_t kMostUnsent = 256 * 1024; ///< [byte] of lines; then nothing is read
 inline constexpr std::size_t kMostBehind = 16 << 20;   ///< [byte] behind lines; likewise
 inline constexpr std::size_t kMostUnanswered = 1024;   ///< requests of a client; likewise
-inline constexpr double kMostRequestsASecond = 20'000; ///< of a client; more wait
-inline constexpr double kMostAtOnce = 2'000;           ///< requests, after a pause
+/// Requests that a client gets answered; more wait.
+inline constexpr double kMostRequestsASecond = 20'000;
+inline constexpr double kMostAtOnce = 2'000; ///< requests, after a pause
 
 /// How many requests a client may make now: some at once after a pause, and then at a rate.
 class RequestRate {
@@ -40,8 +41,8 @@ class RequestRate {
 struct Unanswered {
     enum class For { frame, picture_now, picture_final, search };
     For what = For::frame;
-    std::uint64_t number = 0; ///< of the request at the desk
-    std::string id;           ///< of the request, as JSON
+    std::uint64_t number = 0; ///< number of the request at the desk
+    std::string id;           ///< id of the request, as JSON
 };
 
 /// Not thread-safe. Sockets are never waited for.
@@ -56,12 +57,12 @@ class ControlConnection {
     bool is_over() const {
         return over_ || (ends_ && unsent_.empty() && waits.empty() && !has_line());
     }
-    /// Whether its next request may be answered: it has read most answers so far.
+    /// Whether the client's next request may be answered: it has read most answers so far.
     bool has_room() const {
         return !over_ && unsent_bytes_ < kMostUnsent && unsent_behind_ < kMostBehind &&
                waits.size() < kMostUnanswered;
     }
-    /// Whether more of it may be received.
+    /// Whether more bytes may be received.
     bool may_read() const { return has_room() && !ends_ && !has_line(); }
     bool wants_to_write() const { return !unsent_.empty(); }
 
@@ -76,11 +77,12 @@ class ControlConnection {
     bool keeps_up() const { return unsent_bytes_ < kMostUnsent / 4; }
     /// Writes what the socket takes.
     void flush();
-    /// Ends the connection once all answers are sent. What it asked for besides is left out.
+    /// Ends the connection once all answers are sent. Requests that were received and not read are
+    /// dropped.
     void finish();
     void drop() { over_ = true; }
 
-    bool trusted = false;          ///< has said the token, or needs none
+    bool trusted = false;          ///< the client has said the token, or needs none
     interaction::Seconds since{0}; ///< when it connected
     RequestRate rate;
     std::deque<Unanswered> waits;
@@ -95,9 +97,9 @@ class ControlConnection {
     std::string received_; ///< bytes before `read_` are done with
     std::size_t read_ = 0;
     std::deque<ControlAnswer> unsent_;
-    std::size_t unsent_bytes_ = 0;  ///< of lines
+    std::size_t unsent_bytes_ = 0;  ///< bytes of the lines
     std::size_t unsent_behind_ = 0; ///< bytes behind them
-    std::size_t sent_ = 0;          ///< of the first answer, line and bytes together
+    std::size_t sent_ = 0;          ///< bytes sent of the first answer, line and bytes together
     bool ends_ = false, over_ = false;
 };
 

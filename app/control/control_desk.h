@@ -1,5 +1,5 @@
-// What the control socket's thread and the loop of frames hand each other. Neither waits for the other:
-// every list has an end.
+// What the thread of the control socket and the loop of frames hand each other. Neither waits for
+// the other, and every list has a limit.
 #pragma once
 
 #include "app/frame/explorer_state.h"
@@ -21,7 +21,7 @@ namespace isochron::app {
 
 /// A frame as clients are told of it. Never changed once it is shown.
 struct ShownFrame {
-    std::uint64_t number = 0; ///< of frames, from 1; 0: none yet
+    std::uint64_t number = 0; ///< number of the frame, from 1; 0: none yet
     std::uint64_t obeyed = 0; ///< number of the newest request that it obeys
     std::shared_ptr<const ExplorerState> state;
     FrameReport report;
@@ -94,7 +94,7 @@ class ControlDesk {
     std::deque<ControlBatch> batches_;
     std::uint64_t posted_ = 0;
     PictureWishes wished_; ///< all so far
-    PictureWishes wishes_; ///< of them, those for the next frame
+    PictureWishes wishes_; ///< wishes for the next frame
     std::shared_ptr<const ShownFrame> shown_;
     std::deque<FirstToObey> first_to_obey_; ///< ascending
     std::shared_ptr<const ControlPicture> picture_;

@@ -27,14 +27,15 @@ inline constexpr double kMostEventsASecond = 120;
 
 struct ControlRequest {
     ControlVerb verb = ControlVerb::state;
-    std::string token{};                              ///< of `hello`
-    interaction::Commands commands{};                 ///< of `commands`
-    std::array<bool, kControlTopicNames.size()> to{}; ///< of `subscribe`; none: no more events
-    double rate = 30;                                 ///< of `subscribe`: most events a second
-    bool now = false;                                 ///< of `picture`: does not wait for its cells
-    std::optional<double> isovalue{};                 ///< of `cells` and `mesh`; empty: as shown
-    std::optional<std::uint32_t> step{};              ///< likewise
-    std::optional<std::string> array{};               ///< likewise
+    std::string token{};              ///< what `hello` shows
+    interaction::Commands commands{}; ///< what `commands` brings
+    /// Topics of `subscribe`; none: no more events.
+    std::array<bool, kControlTopicNames.size()> to{};
+    double rate = 30;                    ///< most events a second, for `subscribe`
+    bool now = false;                    ///< `picture` does not wait for its cells
+    std::optional<double> isovalue{};    ///< isovalue of `cells` and `mesh`; empty: as shown
+    std::optional<std::uint32_t> step{}; ///< step of `cells` and `mesh`; empty: as shown
+    std::optional<std::string> array{};  ///< array of `cells` and `mesh`; empty: as shown
     bool operator==(const ControlRequest&) const = default;
 };
 

@@ -71,14 +71,14 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
     ExploreOptions now = with_index(options);
     if (now.test_pattern)
         return explore_test_pattern(now, job);
-    std::shared_ptr<const void> display; // the same for all windows, one after the other
+    std::shared_ptr<const void> display; // one display for all windows, one after the other
     if (now.sources.files.empty() && job.size() == 1) {
         const auto chosen = chosen_data(now, job, display);
         if (!chosen)
             return;
         now = with_data(std::move(now), *chosen);
     }
-    std::optional<ExploreOptions> before; // of the data that were shown last
+    std::optional<ExploreOptions> before; // options of the data that were shown last
     std::string said;
     for (;;) {
         Exploration exploration(now, job);
@@ -205,7 +205,7 @@ bool Exploration::prepare_session() {
         return false;
     try {
         std::optional<render::LinkWatch> watch;
-        // Of several windows, another one's context may be current while something is linked.
+        // With several windows, another one's context may be current while something is linked.
         if (page && windows_->count() == 1 && !windows_->console())
             watch.emplace([&] {
                 if (!look(0))

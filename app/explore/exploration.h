@@ -66,14 +66,14 @@ class Exploration {
     Config config_;
     std::shared_ptr<const index::IndexFile> file_; ///< null: the user left before it was there
     interaction::CompositeInput trackers_;
-    std::unique_ptr<Indexing> indexing_; ///< of these data, while they are shown
+    std::unique_ptr<Indexing> indexing_; ///< index of these data, while they are shown and indexed
     std::unique_ptr<stereo::Headset> headset_;
     std::optional<stereo::Windows> windows_;
     std::optional<Session> session_;
     std::shared_ptr<SessionControl> control_; ///< null: nobody steers from outside
     bool canceled_ = false;
-    std::vector<interaction::WindowEvent> early_; ///< that came before the first frame
-    std::optional<SavedSession> earlier_;         ///< which is resumed
+    std::vector<interaction::WindowEvent> early_; ///< events that came before the first frame
+    std::optional<SavedSession> earlier_;         ///< the session that is resumed
     std::optional<SessionClaim> claim_;           ///< on the file to which this one is saved
 };
 

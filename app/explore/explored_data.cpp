@@ -5,7 +5,7 @@
 #include "app/explore/loading.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
-#include "app/session/data_choice.h"
+#include "app/session/data_window.h"
 #include "app/session/kept/user_memory.h"
 #include "index/file/index_series.h"
 #include "index/system/user_folders.h"

@@ -47,7 +47,8 @@ std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers);
 /// The options for other data, without those that were meant for the first data only.
 /// @param data a file, a folder, or a pattern
 ExploreOptions with_data(ExploreOptions options, const std::string& data);
-/// The options for the same data with another array, likewise.
+/// The options for another array of the data, without those that were meant for the first array
+/// only.
 ExploreOptions with_other_array(ExploreOptions options, const std::string& array);
 
 } // namespace isochron::app

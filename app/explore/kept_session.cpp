@@ -25,7 +25,7 @@ std::string data_hash_of(const index::IndexFile& file) {
 
 namespace {
 
-constexpr std::size_t kHash = 16; // of NAME-HASH.isochron-session
+constexpr std::size_t kHash = 16; // digits of HASH in NAME-HASH.isochron-session
 
 /// Whether the data have this hash, or had it when they had fewer steps.
 bool is_held(const index::IndexFile& file, std::string_view hash) {

@@ -56,7 +56,8 @@ PreparingPage::PreparingPage(const stereo::Windows& windows, std::string name, c
 }
 
 bool PreparingPage::look(float share) {
-    constexpr float kSteps = 10; // of the bar: each is presented, which may wait for the display
+    // Steps of the bar: each is presented, which may wait for the display.
+    constexpr float kSteps = 10;
     const float shown = std::floor(kSteps * share) / kSteps;
     const auto events = page_.frame([&](glm::ivec2 size, interaction::Seconds time) {
         page_.layer().lay_out_progress(size, name_, "preparing to draw", shown, time);

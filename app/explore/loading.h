@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/config/config.h"
-#include "app/session/data_choice.h"
+#include "app/session/data_window.h"
 #include "app/session/page_window.h"
 #include "index/file/index_file.h"
 #include "interaction/input/window_event.h"

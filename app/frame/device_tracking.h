@@ -12,7 +12,7 @@ namespace isochron::app {
 struct DeviceTracking {
     std::string name;
     interaction::Tracking tracking = interaction::Tracking::tracked;
-    std::optional<interaction::Seconds> age; ///< of the measurement; empty: none has ever come
+    std::optional<interaction::Seconds> age; ///< age of the measurement; empty: none has ever come
 };
 
 /// The devices that a tracker follows, without those that mouse and keyboard emulate.

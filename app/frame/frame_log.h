@@ -23,8 +23,9 @@ struct FrameSpeed {
     double per_second = 0;
 };
 
-/// Takes no more memory after days than after ten minutes: the newest frames are kept whole, times
-/// of ten minutes at 60 frames per second, and sums of all. The rows of a report go to its file.
+/// Keeps the newest frames whole, the times of the last ten minutes (at 60 frames per second), and
+/// sums over all frames: its memory stays bounded however long a session lasts. The rows of a
+/// report go to a file at once.
 class FrameLog {
   public:
     static constexpr std::size_t kWhole = 1024, kTenMinutes = 60 * 60 * 10; ///< [frames]
@@ -37,7 +38,7 @@ class FrameLog {
     std::uint64_t next() const { return dropped_ + times_.size(); }
     /// Adds the GPU time to a frame's report, if that is still kept.
     void set_gpu(std::uint64_t frame, Milliseconds time);
-    /// The newest `kWhole`.
+    /// The newest `kWhole` frames.
     const std::deque<FrameReport>& frames() const { return frames_; }
 
     /// Times of one stage in the newest `count` frames (0: in all, within one percent where there
@@ -45,7 +46,8 @@ class FrameLog {
     /// @param count at most `kTenMinutes`
     TimeSummary stage(FrameStage stage, std::size_t count = 0) const;
 
-    /// Times of one stage in all frames for which they are known, likewise.
+    /// Times of one stage in all frames for which they are known, within one percent where there
+    /// are many.
     TimeSummary known(FrameSometimes time) const;
     std::uint64_t missed() const { return missed_; } ///< sum over all frames
     std::uint64_t frames_with(render::Footprint footprint) const {
@@ -121,7 +123,8 @@ class FrameLog {
     Moving moving_;
     Late late_;
     Rests rests_;
-    std::optional<interaction::Seconds> moved_; ///< last, where no rest has come to its end since
+    /// When the picture moved last, while no rest has come to its end since.
+    std::optional<interaction::Seconds> moved_;
     bool resting_ = false;
     std::optional<FrameRows> rows_;
     std::uint64_t told_ = 0; ///< number of the next frame for `rows_`

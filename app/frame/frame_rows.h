@@ -25,7 +25,7 @@ class FrameRows {
     /// @throws index::Error when the file cannot be made
     explicit FrameRows(const std::filesystem::path& path) : file_(path) {}
 
-    /// The next frame, of which everything is known.
+    /// Takes the next frame, when everything is known of it.
     void add(const FrameReport& frame);
     /// Adds the members of an object after the rows, and gives the file its name.
     /// @throws index::Error with the first failure, also of a row

@@ -19,7 +19,7 @@ inline Milliseconds processor_time() {
 
 class StopWatch {
   public:
-    /// The same as `lap` would return, which goes on.
+    /// What `lap` would return; this lap goes on.
     Milliseconds time() const { return Clock::now() - last_; }
     /// Time since the last lap, or since the start.
     Milliseconds lap() {

@@ -1,4 +1,5 @@
-// Median, 99th percentile and largest of times: of some that are at hand, or of any number that are only counted.
+// Median, 99th percentile and largest of times: exactly for a list of times, and within one percent
+// for any number of times that are only counted.
 #pragma once
 
 #include <cstdint>

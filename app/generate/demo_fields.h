@@ -35,7 +35,8 @@ struct VorticitySeries {
     // ones. Finer grids have shorter steps, so that surfaces move by the same number of cells.
     static constexpr double kPeak = 1.0;        ///< most energy in vortices as large as the cube
     static constexpr double kViscosity = 0.008; ///< the smallest eddies are just resolved at 64^3
-    static constexpr std::size_t kSubsteps = 3; ///< of the integrator from one step to the next
+    /// Steps of the integrator for one step of the series.
+    static constexpr std::size_t kSubsteps = 3;
     double substep() const { return 0.0222 * 64.0 / static_cast<double>(size); }
     // The series starts when vortices have stretched each other into tubes. When that happens
     // depends on the seed and shows in the enstrophy, which starts below 3 and peaks near 15. In

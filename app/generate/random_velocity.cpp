@@ -34,7 +34,7 @@ NavierStokes::VectorField random_velocity(std::size_t n, std::uint64_t seed, dou
     const auto shell_of = [](const std::array<double, 3>& k) {
         return static_cast<std::size_t>(std::lround(std::hypot(k[0], k[1], k[2])));
     };
-    std::vector<double> energy(n + 1); // of the solenoidal noise, by shell
+    std::vector<double> energy(n + 1); // energy of the solenoidal noise, by shell
     for_each_wave_vector(n, [&](std::size_t place, const std::array<double, 3>& k, double weight) {
         const double k2 = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
         std::complex<double> along{};

@@ -1,4 +1,5 @@
-// The arrays among which files leave the choice, where not all of them can be shown together.
+// The arrays that a user can choose from, where the arrays of the files cannot all be shown
+// together.
 #pragma once
 
 #include "app/indexing/build_sources.h"
@@ -17,9 +18,9 @@ namespace isochron::app {
 struct ArrayOffer {
     std::string name;      ///< as `--array` takes it
     std::string shape;     ///< `64 x 64 x 64, 10 steps`
-    std::string unit;      ///< of its values; may be empty
+    std::string unit;      ///< unit of its values; may be empty
     std::size_t group = 0; ///< arrays of one shape, with the same times, have the same number
-    std::optional<std::array<double, 2>> range{}; ///< of its first step; empty: not read
+    std::optional<std::array<double, 2>> range{}; ///< range of its first step; empty: not read
     std::string fault{};                          ///< why it cannot be shown; empty: it can
     bool operator==(const ArrayOffer&) const = default;
 };

@@ -22,7 +22,7 @@ struct ArraySource {
 /// to append.
 struct BuildSources {
     std::unique_ptr<index::VolumeSeries> volume, colors;
-    std::optional<std::string> array, component; ///< that select the volume
+    std::optional<std::string> array, component; ///< names that select the volume
     std::vector<ArraySource> further;
     std::vector<std::string> notes; ///< on arrays that were left out
 };

@@ -23,7 +23,7 @@ double raw_bytes(const SeriesInfo& info) {
     return static_cast<double>(info.steps()) * static_cast<double>(info.grid.cell_count()) * 24;
 }
 
-/// Of all arrays of the file together.
+/// Size of all arrays of the file together.
 double percent_of_raw(const index::IndexFile& file) {
     std::uint64_t besides = file.stats().file_bytes;
     double raw = 0;
@@ -207,7 +207,7 @@ std::string file_sizes(const index::IndexFile& file) {
     return sizes_of(arrays, file.stats().file_bytes);
 }
 
-/// Of the chunks of all steps but the first: those that are as in the step before.
+/// Share of chunks that are as in the step before, in all steps but the first.
 double staying_percent(const index::IndexFile& file) {
     const auto chunks = static_cast<double>(file.chunks().grid().count());
     const auto later = static_cast<double>(std::max<std::size_t>(file.info().steps(), 2) - 1);

@@ -14,10 +14,10 @@ struct IndexReport {
     bool blends = false; ///< measure how well blends stand for what lies between the steps
 };
 
-/// Sizes of the file, whichever of its arrays this is, and of its parts: `4.10 MiB: volume 3.00 MiB,
-/// bricks 12 KiB, cells 1.05 MiB`.
+/// Sizes of the whole file and of its parts, also where `file` is one of several arrays: `4.10 MiB:
+/// volume 3.00 MiB, bricks 12 KiB, cells 1.05 MiB`.
 std::string file_sizes(const index::IndexFile& file);
-/// The same of one array alone.
+/// The sizes of one array alone.
 std::string array_sizes(const index::IndexFile& array);
 
 /// @throws index::Error when the tree is damaged

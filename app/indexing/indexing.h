@@ -24,15 +24,15 @@ class Indexing {
   public:
     struct State {
         std::optional<std::filesystem::path> index; ///< empty: there are no steps to show yet
-        std::size_t steps = 0;                      ///< that it has
+        std::size_t steps = 0;                      ///< steps that the index has
         std::size_t of = 0;                         ///< 0: the files are not open yet
         std::string phase;
-        double fraction = 0;            ///< of the whole series
+        double fraction = 0;            ///< how much of the whole series is done
         std::string failure;            ///< empty: none
         bool done = false;              ///< it is complete, or it has failed
         std::vector<ArrayOffer> offers; ///< the user is to choose one; empty: nothing to choose
-        std::string array;              ///< that was chosen; empty: there was no choice
-        std::vector<ArrayOffer> others; ///< that cannot be shown with it
+        std::string array;              ///< name of the chosen array; empty: there was no choice
+        std::vector<ArrayOffer> others; ///< arrays that cannot be shown with it
         /// `indexing: 3 of 8 steps, 41 %`, or `opening`; empty when it is done.
         std::string line() const;
     };
@@ -63,7 +63,7 @@ class Indexing {
     mutable std::condition_variable_any changed_;
     State state_;
     const bool asks_;
-    std::optional<std::size_t> chosen_; ///< of the arrays that are offered
+    std::optional<std::size_t> chosen_; ///< number of the chosen array among those offered
     std::exception_ptr failed_;
     std::jthread worker_; ///< the last member: starts after, and is joined before, the others
 };

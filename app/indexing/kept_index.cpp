@@ -83,7 +83,7 @@ std::string options_text(const BuildArguments& arguments) {
     return key;
 }
 
-/// The same for the same files and options.
+/// The name is equal for equal files and options.
 std::string name_of_kept(const std::vector<fs::path>& files, const BuildArguments& arguments) {
     std::string key = fmt::format("{} {};", kProgram, kReading);
     for (const fs::path& file : files) {
@@ -195,7 +195,7 @@ class KeptBuild {
         index::BuildOptions options;
     };
 
-    /// Of the whole series, when a part of it is worked on.
+    /// Progress of the whole series, when a part of it is worked on.
     index::Progress progress_to(std::size_t steps) const {
         return [this, first = held(), steps](std::string_view phase, double fraction) {
             if (!reports_.progress)

@@ -21,7 +21,7 @@ enum class LostState : std::uint8_t { is_said, is_for_the_caller };
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes = 0,
                                                    LostState lost = LostState::is_said);
-/// The same for commands that show surfaces.
+/// Opens an index for commands that show surfaces.
 /// @throws index::Error also as `check_can_be_shown`
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
                                                            std::uint64_t cache_bytes = 0);

@@ -31,7 +31,7 @@ bool right_handed(const Grid& grid) {
     return glm::determinant(grid.direction) > 0;
 }
 
-/// Of an axis whose vertices are not even: the least and the greatest distance between neighbors.
+/// The least and the greatest distance between neighbors along an axis whose vertices are not even.
 nlohmann::ordered_json gaps_of(const Grid& grid) {
     nlohmann::ordered_json gaps = nlohmann::ordered_json::object();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,7 +96,7 @@ nlohmann::ordered_json gaps_of_time(const SeriesInfo& info) {
     return gaps;
 }
 
-/// Of the finite values of a step, scaled.
+/// Range of the finite values of a step, scaled.
 struct ValueRange {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();

@@ -17,7 +17,7 @@ namespace isochron::app {
 /// drawing (`render::expect_enough`)
 stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config);
 
-/// The same for a picture to keep.
+/// The options for a picture to keep.
 /// @param window size of the picture's window, pixels
 /// @throws render::Error when this GL has fewer samples than configured for pictures
 stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& config,

@@ -3,7 +3,7 @@
 
 #include "app/text.h"
 #include "app/version.h"
-#include "index/export/mesh_parts.h"
+#include "index/export/mesh_crop.h"
 #include "index/file/color_source.h"
 #include "index/formats/length_units.h"
 #include "interaction/step_track.h"

@@ -1,4 +1,4 @@
-// What an export is asked for: what all exports of an index say of it, and what a session shows.
+// Describes exports: what every export of an index says, and the export of what a session shows.
 #pragma once
 
 #include "app/frame/explorer_state.h"
@@ -17,7 +17,7 @@
 
 namespace isochron::app {
 
-/// Note and units of an index, without steps.
+/// What every export of an index says: its note and its units, without steps.
 /// @param file the array of the surfaces @param data name of its file
 index::ExportPlan plan_of(const index::IndexFile& file, const std::string& data);
 /// `vorticity 9.5 1/s`, in one line.

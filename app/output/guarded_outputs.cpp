@@ -138,7 +138,7 @@ std::vector<fs::path> sources_near(const index::IndexFile& index, const fs::path
     if (const auto& referral = index.referral())
         for (const fs::path& file : referral->files)
             near.push_back(fs::path(index.name()).parent_path() / file);
-    constexpr int kDeepest = 6; // of folders in a store
+    constexpr int kDeepest = 6; // levels of folders in a store
     const auto& names = index.info().sources;
     if (names.empty())
         return near;

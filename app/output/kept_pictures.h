@@ -32,7 +32,7 @@ struct KeptPictures {
     const stereo::Windows& windows;
     const Config& config;
     std::deque<stereo::Display>& shown; ///< by window; used as they are if their samples suffice
-    std::optional<RoomView>& room;      ///< of an emulated installation
+    std::optional<RoomView>& room;      ///< room of an emulated installation
     /// Draws the last frame of a window once more, into `display`.
     std::function<void(stereo::Display& display)> draw;
     bool differ = false; ///< pictures to keep differ from the shown ones, by caption or aids

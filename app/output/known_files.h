@@ -26,8 +26,8 @@ enum class OutputKind : std::uint8_t {
 struct Output {
     std::filesystem::path path;
     OutputKind kind;
-    std::uint64_t cells = 0;  ///< of ids: the number of cells that there are
-    std::string content = {}; ///< of a configuration: what is to be written
+    std::uint64_t cells = 0;  ///< for ids: the number of cells that there are
+    std::string content = {}; ///< for a configuration: what is to be written
 };
 
 /// Whether this program wrote a regular file, as an output of this kind. An empty file counts as

@@ -32,9 +32,9 @@ namespace isochron::app {
 
 /// Which window and viewport a scene is drawn for.
 struct ScenePlace {
-    const stereo::Window* window = nullptr; ///< of the installation; null: a headset
-    std::size_t viewport = 0;               ///< of the window
-    stereo::StereoMode mode{};              ///< of the window
+    const stereo::Window* window = nullptr; ///< window of the installation; null: a headset
+    std::size_t viewport = 0;               ///< number of the window's viewport
+    stereo::StereoMode mode{};              ///< mode of the window
     bool kept = false;                      ///< for a picture to keep
 };
 
@@ -136,7 +136,7 @@ class Outputs {
     /// @param input holds the pose of the room's camera
     void draw_room(const interaction::InputState& input, const Overlay& overlay);
     void present();
-    const Audience& audience() const { return drawn_.audience; } ///< of the last frame
+    const Audience& audience() const { return drawn_.audience; } ///< who saw the last frame
 
     /// The last frame's pictures, drawn once more to be kept.
     /// @param frame says which parts the pictures have

@@ -18,8 +18,8 @@ struct PicturePart {
     /// `window`: as its stereo mode composes it; `right_buffer` of a window; `left`, `right` or
     /// `center`: the picture of one eye; `room`: the emulated room; `headset`: a headset's mirror.
     std::string shows = "window";
-    std::size_t window = 0;   ///< of the installation
-    std::size_t viewport = 0; ///< of the window, for an eye's own picture
+    std::size_t window = 0;   ///< number of the installation's window
+    std::size_t viewport = 0; ///< number of the window's viewport, for an eye's own picture
     bool operator==(const PicturePart&) const = default;
 };
 
@@ -38,10 +38,10 @@ struct PictureNote {
     std::string data_hash;     ///< hexadecimal content hash
     std::string recorded_on{}; ///< hash of the recording's data, if those are others
     PicturePart part;
-    glm::ivec2 size{0};    ///< of the window or room, pixels
-    int samples = 1;       ///< of each pixel
-    std::string footprint; ///< that cells are drawn with
-    std::string shape;     ///< of quads and splats
+    glm::ivec2 size{0};    ///< size of the window or room, pixels
+    int samples = 1;       ///< samples of each pixel
+    std::string footprint; ///< name of the footprint that cells are drawn with
+    std::string shape;     ///< shape of quads and splats
     bool ray = false;      ///< shows the wand's ray and the mark under the cursor
     bool caption = false;
     double text = 0;                  ///< height of words, see `text_height`

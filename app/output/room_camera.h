@@ -39,7 +39,7 @@ class RoomCamera {
     float yaw_ = 0.6f;          ///< [rad] to the right of the center
     float pitch_ = 0.5f;        ///< [rad] above it
     bool held_ = false;         ///< the key is pressed
-    std::uint32_t buttons_ = 0; ///< of the mouse, by bit, pressed while the key was held
+    std::uint32_t buttons_ = 0; ///< buttons of the mouse, by bit, pressed while the key was held
     std::optional<interaction::MouseMoveEvent> cursor_;
 };
 

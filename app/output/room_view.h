@@ -40,7 +40,7 @@ class RoomView {
               const stereo::Display::Overlay& overlay);
     void present() { display_.present(); }
     render::Image read() const { return display_.read_window(); }
-    glm::ivec2 size() const { return display_.size(); } ///< of the last picture, pixels
+    glm::ivec2 size() const { return display_.size(); } ///< size of the last picture, pixels
     /// Draws the last picture once more, without the overlay.
     /// @param displays with the same contents as then
     render::Image picture(const std::deque<stereo::Display>& displays, int samples);
@@ -70,7 +70,7 @@ class RoomView {
 
     const render::Gl& gl_;
     stereo::GlContext& window_;
-    const interaction::Pose start_; ///< of the camera
+    const interaction::Pose start_; ///< pose of the camera at the start
     Drawn drawn_;
     stereo::Display display_;
     render::LinePass lines_;

@@ -16,7 +16,7 @@ namespace isochron::app {
 
 /// What an export does, and where.
 struct ExportTask {
-    std::shared_ptr<const index::IndexFile> array; ///< of the surfaces
+    std::shared_ptr<const index::IndexFile> array; ///< array of the surfaces
     index::ExportRequest request;
     const index::SurfaceFormat* format;
     std::filesystem::path folder;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 
 #include <cstddef>
 #include <optional>
@@ -26,7 +26,7 @@ class ArrayWindow {
     /// @return number of the array that the user has chosen
     std::optional<std::size_t> draw(const ArrayQuestion& words,
                                     const std::vector<ListedArray>& arrays, std::size_t first);
-    /// The same on a panel in the room, which it covers: a line is chosen by one press.
+    /// Draws the list on a panel in the room, which it covers: a line is chosen by one press.
     /// @param left set when the user leaves it without a choice
     std::optional<std::size_t> draw_in_room(const PanelBox& place,
                                             const std::vector<ListedArray>& arrays,

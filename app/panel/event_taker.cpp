@@ -68,7 +68,7 @@ bool EventTaker::must_wait(const WindowEvent& event) const {
     return false;
 }
 
-bool has_mouse_at(const PanelPlaces& panel, glm::vec2 at) {
+bool has_mouse_at(const PanelLayout& panel, glm::vec2 at) {
     const ImGuiContext& imgui = *ImGui::GetCurrentContext();
     const ImGuiIO& io = imgui.IO;
     bool drags = false; // something of the panel

@@ -25,12 +25,12 @@ glm::vec2 folded(glm::vec2 at, glm::ivec2 places);
 
 /// Whether the mouse at a place would be the panel's, as its windows were laid out last, in the
 /// current Dear ImGui context. @param at panel pixels
-bool has_mouse_at(const PanelPlaces& panel, glm::vec2 at);
+bool has_mouse_at(const PanelLayout& panel, glm::vec2 at);
 
 /// Takes one event into ImGui's state. The call returns whether the panel uses the event.
 struct EventTaker {
     ImGuiIO& io;
-    const PanelPlaces& panel;
+    const PanelLayout& panel;
     std::uint32_t& late_releases;
     std::optional<glm::vec2>& cursor;
     glm::ivec2 places;   ///< number of panels in the window, see `repeat`

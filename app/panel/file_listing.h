@@ -18,7 +18,7 @@ struct ListedFile {
     std::string name;           ///< as it is listed
     std::filesystem::path path; ///< what it stands for; the pattern of a series
     std::optional<std::uintmax_t> bytes;
-    std::size_t files = 0;   ///< of a series
+    std::size_t files = 0;   ///< number of files in a series
     std::time_t changed = 0; ///< 0: unknown
 };
 

@@ -1,4 +1,4 @@
-// What a search of words finds among the settings of the panel: a line for each value that they can have.
+// Finds settings by words: a line for each value that a setting of the panel can have.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -13,7 +13,7 @@ namespace isochron::app {
 /// A value that a setting can be given.
 struct FoundSetting {
     std::string words;              ///< `background: light`
-    interaction::Commands commands; ///< that set it
+    interaction::Commands commands; ///< commands that set it
 };
 
 /// Values that differ from what is asked for: backgrounds, materials, the usual light, occlusion,

@@ -66,7 +66,7 @@ std::string text_to_be(const ImGuiInputTextState& field, const std::u32string& w
 } // namespace
 
 bool text_field(const char* id, const char* hint, std::string& words) {
-    constexpr std::size_t kLongest = 4095; // of a path
+    constexpr std::size_t kLongest = 4095; // longest path
     ImGui::GetStateStorage()->SetInt(ImGui::GetID(id), kWords);
     std::array<char, kLongest + 1> characters{};
     words.copy(characters.data(), kLongest);

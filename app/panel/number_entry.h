@@ -10,8 +10,9 @@ namespace isochron::app {
 /// A field for words, which NumberEntry leaves as they are. It has the width of the next item.
 /// @param hint shown while it is empty @return whether the words have changed
 bool text_field(const char* id, const char* hint, std::string& words);
-/// A text of which only the end counts: a name. On the panel in the room, keys on the panel take the
-/// place of the keyboard. @return whether the user has finished another text
+/// A field for a text that counts only when it is finished, such as a name. On the panel in the
+/// room, keys on the panel take the place of the keyboard.
+/// @return whether the user has finished another text
 bool finished_text(const char* id, const char* hint, std::string& words);
 
 /// Passes typed characters to the field of ImGui that has the keyboard. A comma is a decimal point

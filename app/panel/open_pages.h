@@ -22,14 +22,14 @@ namespace isochron::app {
 
 class OpenPages {
   public:
-    /// Shows the lines of introduction from now on, until the user begins.
+    /// Shows the introduction's lines from now on, until the user begins.
     void introduce() { newcomer_ = true; }
     /// Offers to go on with a session before, until the user answers or changes something.
-    /// @param earlier the one that is offered first, then those before it
+    /// @param earlier the session before, then those before it
     void offer_earlier(std::vector<OfferedSession> earlier) { earlier_ = std::move(earlier); }
     /// The user has pressed a key or a button.
     void begin() { begun_ = true; }
-    /// Whether those lines have gone since the last call.
+    /// Whether the introduction has gone since the last call.
     bool introduced() { return std::exchange(introduced_, false); }
 
     /// Lets the user open other data. @param recent returns the recently opened data
@@ -39,7 +39,7 @@ class OpenPages {
     bool offers_files() const { return static_cast<bool>(recent_); }
     /// Opens the page where the user chooses data.
     void open_files() { files_.open(recent_()); }
-    void open_files_again() { files_.open_again(); } ///< where they were left
+    void open_files_again() { files_.open_again(); } ///< at the folder where the page was left
     /// The data that the user has chosen; returned once.
     std::optional<std::filesystem::path> take_chosen() { return std::exchange(chosen_, {}); }
 
@@ -48,10 +48,10 @@ class OpenPages {
     bool offers_arrays() const { return !others_.empty(); }
     /// Opens the page with all arrays.
     void open_arrays();
-    /// The one of `offer_arrays` that the user has chosen; returned once.
+    /// The array of `offer_arrays` that the user has chosen; returned once.
     std::optional<std::string> take_chosen_array() { return std::exchange(chosen_array_, {}); }
 
-    /// When those lines may go, as the user has begun; else a time that has passed.
+    /// When the introduction may go, as the user has begun; else a time that has passed.
     interaction::Seconds introduction_ends() const;
 
     void open_help() { help_ = true; }
@@ -61,7 +61,7 @@ class OpenPages {
     bool takes_text() const { return search_.is_open() || files_.is_open(); }
     /// A page with a list, through which the arrow keys go.
     bool has_list() const { return takes_text() || lists_arrays_; }
-    /// What is to be pressed for the command that the user found; returned once.
+    /// The key events of the command that the user found; returned once.
     std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
     bool has_presses() const { return !presses_.empty(); }
 
@@ -99,7 +99,7 @@ class OpenPages {
     bool help_ = false; ///< the help page is open
     FileWindow files_;
     ArrayWindow arrays_;
-    bool lists_arrays_ = false; ///< the page with all of them is open
+    bool lists_arrays_ = false; ///< the page with all arrays is open
     std::vector<ListedArray> others_;
     std::optional<std::string> chosen_array_;
     bool has_session_ = false; ///< there are data, whose arrays can be listed
@@ -112,7 +112,7 @@ class OpenPages {
     bool newcomer_ = false, begun_ = false, introduced_ = false;
     Tour tour_;
     bool turned_ = false;
-    std::size_t cards_ = 0;               ///< in the last layout
+    std::size_t cards_ = 0;               ///< number of cards in the last layout
     std::vector<OfferedSession> earlier_; ///< the sessions before, while they are offered
     std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
 };

@@ -58,7 +58,7 @@ stereo::Margins OperatorPanel::covered(glm::ivec2 size) const {
     if (console_ || !first_.has_window())
         return {};
     const float scale = panel_scale(first_, font_scale_, size.x);
-    const PanelBox free = places_in(PanelPlace::over, glm::vec2(size) / scale).picture;
+    const PanelBox free = layout_in(PanelPlace::over, glm::vec2(size) / scale).picture;
     const glm::ivec2 low(glm::round(scale * free.low)), high(glm::round(scale * free.high));
     if (2 * low.x > size.x || 2 * (high.y - low.y) < size.y)
         return {};

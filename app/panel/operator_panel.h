@@ -25,7 +25,7 @@ class OperatorPanel {
     void introduce() { over_.pages().introduce(); }
     bool introduced() {
         return over_.pages().introduced();
-    } ///< true once, when those lines have gone
+    } ///< true once, when the introduction has gone
     /// See OpenPages.
     void offer_earlier(std::vector<OfferedSession> earlier) {
         over_.pages().offer_earlier(std::move(earlier));
@@ -56,7 +56,7 @@ class OperatorPanel {
                                        interaction::Seconds time);
     /// A hash of all that `draw_over` would draw; 0: nothing.
     std::size_t looks() const { return laid_out_ ? over_.digest() : 0; }
-    /// Lays it out likewise and draws it over that picture, which is bound.
+    /// Lays the panel out over a picture and draws it there; the picture is bound.
     interaction::Commands draw_over(glm::ivec2 picture, glm::ivec2 places, const Model& model,
                                     interaction::Seconds time);
     /// Draws it in its own window, if it has one. @return commands of the operator

@@ -3,7 +3,7 @@
 
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
-#include "app/panel/parts/notes.h"
+#include "app/panel/parts/messages.h"
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/theme.h"
 #include "app/panel/parts/time_bar.h"
@@ -41,8 +41,8 @@ void end_part() {
 
 /// The strip by which a hand carries the panel in the room; says between which steps the moment lies,
 /// or that a gap is held, where both have room.
-void title_of(const PanelModel& model, const PanelPlaces& places) {
-    const PanelBox box{{0.0f, 0.0f}, {places.top.high.x, places.top.low.y}};
+void title_of(const PanelModel& model, const PanelLayout& layout) {
+    const PanelBox box{{0.0f, 0.0f}, {layout.top.high.x, layout.top.low.y}};
     begin_part("###title", box, Ink::chosen);
     const std::string words = "Isochron: " + model.info.array;
     ImGui::SetCursorPosY((box.size().y - ImGui::GetFontSize()) / 2);
@@ -70,7 +70,7 @@ void section_over_picture(const PanelModel& model, const PanelView& view, PanelP
                           Commands& commands) {
     constexpr float kWidth = 300.0f;
     const Section& section = sections()[*view.section];
-    const PanelBox& room = view.places.picture;
+    const PanelBox& room = view.layout.picture;
     const float width = std::min(kWidth, room.size().x);
     ImGui::SetNextWindowPos({room.low.x, room.low.y});
     ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, room.size().y});
@@ -88,8 +88,8 @@ void section_over_picture(const PanelModel& model, const PanelView& view, PanelP
 
 /// What lies over the picture while the panel is shown.
 void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, Commands& commands) {
-    PanelBox free = view.places.picture;
-    if (view.places.folded && view.section) {
+    PanelBox free = view.layout.picture;
+    if (view.layout.folded && view.section) {
         section_over_picture(model, view, pages, commands);
         return;
     }
@@ -116,18 +116,18 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
 Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages) {
     Commands commands;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const PanelPlaces& places = view.places = places_in(model.place, {size.x, size.y});
-    if (!places.folded)
+    const PanelLayout& layout = view.layout = layout_in(model.place, {size.x, size.y});
+    if (!layout.folded)
         view.section.reset();
     if (model.place == PanelPlace::in_room)
-        title_of(model, places);
-    begin_part("###top", places.top, Ink::bar);
+        title_of(model, layout);
+    begin_part("###top", layout.top, Ink::bar);
     top_bar(model, pages, commands);
     end_part();
-    const ImVec2 padding = places.folded ? ImVec2(6, 6) : ImGui::GetStyle().WindowPadding;
+    const ImVec2 padding = layout.folded ? ImVec2(6, 6) : ImGui::GetStyle().WindowPadding;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-    begin_part("###column", places.column, Ink::paper, kPart & ~ImGuiWindowFlags_NoScrollbar);
-    if (places.folded)
+    begin_part("###column", layout.column, Ink::paper, kPart & ~ImGuiWindowFlags_NoScrollbar);
+    if (layout.folded)
         section_icons(view.section);
     else if (model.place == PanelPlace::in_room)
         section_pages(model, pages, commands);
@@ -137,8 +137,8 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
         tool_strip(model, commands);
     end_part();
     ImGui::PopStyleVar();
-    begin_part("###time", places.time, Ink::bar);
-    time_bar(model, places.two_rows, commands);
+    begin_part("###time", layout.time, Ink::bar);
+    time_bar(model, layout.two_rows, commands);
     end_part();
     if (model.place == PanelPlace::over)
         over_picture(model, view, pages, commands);

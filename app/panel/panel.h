@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "app/panel/parts/top_bar.h"
 #include "interaction/commands.h"
 
@@ -13,7 +13,7 @@ namespace isochron::app {
 
 /// What a panel remembers of itself from frame to frame.
 struct PanelView {
-    PanelPlaces places{};               ///< in the last layout; empty while the panel is hidden
+    PanelLayout layout{};               ///< the last layout; empty while the panel is hidden
     std::optional<std::size_t> section; ///< opened over the picture, where the column is folded
     bool statistics = false;            ///< open below the chip
     float below_chip = 0;               ///< where the rest of what lies over the picture may begin

@@ -37,7 +37,7 @@ PanelInRoom::PanelInRoom(const render::Gl& gl, const PanelConfig& config)
 
 interaction::TouchedPanel PanelInRoom::touched(const interaction::InputState& input,
                                                const RoomPanel& panel) const {
-    return {panel, size_, layer_.places().top.low.y / kPixels.y,
+    return {panel, size_, layer_.layout().top.low.y / kPixels.y,
             interaction::Reading(input).viewer().position};
 }
 

@@ -29,8 +29,9 @@ class PanelInRoom {
     float distance() const { return distance_; } ///< [m] from the eyes, at which it appears
 
     struct Outcome {
-        interaction::InputState rest;   ///< input that the panel does not use
-        interaction::Commands commands; ///< of the last layout, and the move of a carried panel
+        interaction::InputState rest; ///< input that the panel does not use
+        /// What the last layout led to, and the move of a carried panel.
+        interaction::Commands commands;
     };
     /// Advances by one frame: what the input means for the panel, with its pose in the previous
     /// frame. Worked out once for the input of a frame: whoever asks again gets the same.
@@ -60,11 +61,12 @@ class PanelInRoom {
     PanelLayer layer_;
     render::PanelPicture picture_;
     interaction::PanelPointer pointer_;
-    std::optional<Outcome> outcome_; ///< of the frame's input, until the panel is laid out
-    interaction::Commands pending_;  ///< of the last layout, for the next `update`
-    std::optional<interaction::Action> wanted_; ///< likewise: found by the search
+    std::optional<Outcome> outcome_; ///< what the frame's input led to, until the panel is laid out
+    interaction::Commands pending_;  ///< what the last layout led to, for the next `update`
+    /// The action that the search found in the last layout.
+    std::optional<interaction::Action> wanted_;
     std::optional<interaction::Seconds> laid_out_;
-    std::size_t digest_ = 0;               ///< of the picture's contents
+    std::size_t digest_ = 0;               ///< digest of the picture's contents
     std::uint32_t hovered_ = 0, held_ = 0; ///< widgets for which the hand has felt a pulse
 };
 

@@ -2,7 +2,7 @@
 #include "app/panel/panel_layer.h"
 
 #include "app/panel/event_taker.h"
-#include "app/panel/parts/notes.h"
+#include "app/panel/parts/messages.h"
 #include "app/panel/parts/theme.h"
 #include "app/scene/font.h"
 #include "interaction/controls/controls.h"
@@ -98,7 +98,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
             io.MouseDown[button] = false;
     const std::uint32_t released = std::exchange(late_releases_, 0);
     EventTaker taker{.io = io,
-                     .panel = view_.places,
+                     .panel = view_.layout,
                      .late_releases = late_releases_,
                      .cursor = cursor_,
                      .places = places_,
@@ -176,8 +176,8 @@ Commands PanelLayer::say(const PanelModel& model, Seconds time) {
     const bool stands_else = std::exchange(standing_, model.notes.standing) != standing_;
     const bool fresh = time < said_ + kMessageShown;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const bool hidden = view_.places == PanelPlaces{};
-    const PanelBox picture = hidden ? PanelBox{{0, 0}, {screen.x, screen.y}} : view_.places.picture;
+    const bool hidden = view_.layout == PanelLayout{};
+    const PanelBox picture = hidden ? PanelBox{{0, 0}, {screen.x, screen.y}} : view_.layout.picture;
     const float top = hidden ? picture.low.y + 10.0f : view_.below_chip;
     if (model.place == PanelPlace::over) {
         const bool closed = !model.notes.failure.empty() && model.notes.failure == closed_;
@@ -192,7 +192,7 @@ Commands PanelLayer::say(const PanelModel& model, Seconds time) {
         message_window({.failure = {}, .standing = {}, .message = fresh ? complaint_ : ""},
                        {{0, 0}, {screen.x, screen.y}}, 44.0f);
     }
-    const PanelBox below_title{{0, view_.places.top.low.y}, {screen.x, screen.y}};
+    const PanelBox below_title{{0, view_.layout.top.low.y}, {screen.x, screen.y}};
     Commands commands = pages_.lay_out(
         model, model.place == PanelPlace::in_room ? below_title : picture, top, time);
     changed_by_words_ =
@@ -214,7 +214,7 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if ((model.asked.panel && !model.asked.room_panel.shown) || model.place != PanelPlace::over)
         commands = draw_panel(model, view_, asked);
     else
-        view_.places = {};
+        view_.layout = {};
     if (asked.files)
         pages_.open_files();
     if (asked.help)
@@ -269,7 +269,7 @@ bool PanelLayer::has_popup() const {
 bool PanelLayer::covers(glm::vec2 at) const {
     ImGui::SetCurrentContext(imgui_);
     const ImVec2 size = imgui_->IO.DisplaySize;
-    return has_mouse_at(view_.places, folded(at, places_) * glm::vec2(size.x, size.y));
+    return has_mouse_at(view_.layout, folded(at, places_) * glm::vec2(size.x, size.y));
 }
 
 std::uint32_t PanelLayer::hovered() const {

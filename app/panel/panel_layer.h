@@ -93,11 +93,12 @@ class PanelLayer {
     std::size_t digest() const { return digest_; }
     /// What the last layout tells about the next one.
     FrameOutlook outlook() const;
-    const PanelPlaces& places() const { return view_.places; } ///< of the last layout
+    /// Where the last layout put the parts.
+    const PanelLayout& layout() const { return view_.layout; }
     /// Whether the panel, or a page that it has opened, covers a place.
     /// @param at fractions of the picture from the top left
     bool covers(glm::vec2 at) const;
-    /// The widget under the pointer, and the one that is pressed; 0: none.
+    /// The widget under the pointer, and the widget that is pressed; 0: none.
     std::uint32_t hovered() const;
     std::uint32_t held() const;
 
@@ -118,7 +119,7 @@ class PanelLayer {
     std::optional<glm::vec2> cursor_; ///< in the panel's picture, fractions from the top left
     std::deque<interaction::WindowEvent> waiting_; ///< for the next frame, see `feed`
     glm::ivec2 places_{1};
-    std::size_t digest_ = 0;          ///< of the last layout
+    std::size_t digest_ = 0;          ///< digest of the last layout
     bool changed_ = false;            ///< it looks different from the one before
     bool fed_ = false;                ///< events came for it
     std::size_t messages_ = 0;        ///< number so far
@@ -127,10 +128,10 @@ class PanelLayer {
     std::string closed_;              ///< the failure that the user has read and closed
     bool changed_by_words_ = false;   ///< a window with words has come or gone
     NumberEntry numbers_;
-    std::string complaint_;     ///< of `numbers_`, if nothing was said since
+    std::string complaint_;     ///< complaint of `numbers_`, if nothing was said since
     bool closes_popup_ = false; ///< Escape was pressed
     OpenPages pages_;
-    RoomKeys room_keys_; ///< of the panel in the room
+    RoomKeys room_keys_; ///< keys of the panel in the room
     std::optional<MovieWish> wanted_movie_;
     render::Program program_;
     render::VertexArray vertex_array_;

@@ -26,18 +26,18 @@ enum class PanelPlace : std::uint8_t {
     in_room ///< in the room; it shows only what is the same on every wall and in every replay
 };
 
-/// What the user wants: a movie of something, to give up the one that is being made, or a recording.
+/// What the user wants with movies and recordings.
 enum class MovieWish : std::uint8_t {
-    recording, ///< of this session, so far
-    series,    ///< all steps, as they are seen now
-    give_up,   ///< the one that is being made
-    record     ///< to begin a recording, or to end the one that goes on
+    recording, ///< a movie of this session's recording, so far
+    series,    ///< a movie of all steps, as they are seen now
+    give_up,   ///< to cancel the movie that is being made
+    record     ///< to begin a recording, or to end the recording that goes on
 };
 
 struct MovieState {
     bool offered = false;            ///< this session can have movies made
     bool recorded = false;           ///< it is being recorded
-    std::optional<float> progress{}; ///< of the one that is being made, 0 to 1
+    std::optional<float> progress{}; ///< how much of the movie is made, 0 to 1
 };
 
 /// An array as it is listed.
@@ -48,32 +48,32 @@ struct ListedArray {
 
 /// The arrays of the data.
 struct PanelArrays {
-    std::span<const std::string> names = {}; ///< of those with surfaces
+    std::span<const std::string> names = {}; ///< names of the arrays with surfaces
     std::span<const std::string> notes = {}; ///< range and unit of each, in words; may be empty
-    std::span<const ListedArray> lines = {}; ///< the same arrays; may be empty
-    std::size_t asked = 0;                   ///< number of the one asked for
+    std::span<const ListedArray> lines = {}; ///< lines of the list of arrays; may be empty
+    std::size_t asked = 0;                   ///< number of the array asked for
     std::function<interaction::Commands(std::size_t)> way_to; ///< shows an array, by number
-    std::span<const std::string> color_names = {};            ///< of those to color by
-    std::size_t color = 0; ///< number of the one whose values are the colors, or would be
+    std::span<const std::string> color_names = {};            ///< names of the arrays to color by
+    std::size_t color = 0; ///< number of the array whose values are the colors, or would be
 };
 
 /// The color scale, and the maps that it may have.
 struct PanelColors {
-    std::array<double, 2> range{};                 ///< of the scale
-    std::span<const LoadedColorMap> own_maps = {}; ///< of the configuration
+    std::array<double, 2> range{};                 ///< lowest and highest value of the scale
+    std::span<const LoadedColorMap> own_maps = {}; ///< maps of the configuration
 };
 
 /// How the search and the frames go.
 struct PanelWork {
     FrameSpeed frames{};
-    index::ReadUse reading{};                   ///< of the index, since it was opened
+    index::ReadUse reading{};                   ///< what was read of the index since it was opened
     std::vector<std::uint32_t> at_hand_steps{}; ///< steps that can be shown without a search
     bool searching = false;                     ///< the worker has not answered yet
 };
 
 /// What the user is told.
 struct PanelNotes {
-    std::string failure{};    ///< of the worker; empty when all is well
+    std::string failure{};    ///< failure of the worker; empty when all is well
     std::string message{};    ///< newest note, such as a saved screenshot
     std::size_t messages = 0; ///< number of notes so far
     std::string standing{};   ///< note that stays in the picture as long as it is true
@@ -97,7 +97,7 @@ struct PanelModel {
     const std::vector<interaction::ControlGroup>& controls;
     std::vector<interaction::DeviceKind> at_hand{}; ///< connected kinds of devices
     interaction::Ways ways{};
-    interaction::Pose head{};   ///< of the first viewer
+    interaction::Pose head{};   ///< head of the first viewer
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
 };
 
@@ -106,7 +106,7 @@ struct PanelPages {
     bool offers_files = false;  ///< the user can open other data
     bool offers_arrays = false; ///< the files have arrays that cannot be shown with these
     bool files = false, help = false, search = false, arrays = false; ///< opened in this frame
-    std::optional<MovieWish> movie{};                                 ///< likewise
+    std::optional<MovieWish> movie{}; ///< movie that the user asked for in this frame
 };
 
 } // namespace isochron::app

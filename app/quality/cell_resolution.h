@@ -34,7 +34,7 @@ class CellResolution {
 
   private:
     std::array<double, kCellResolutions.size()> shares_{1.0, 0.8, 0.65, 0.55}; ///< until measured
-    std::size_t count_ = 1; ///< of the resolutions that may be taken
+    std::size_t count_ = 1; ///< number of resolutions that may be taken
     std::array<bool, kCellResolutions.size()> measured_{};
     Dwell<std::size_t> step_;
 };

@@ -43,7 +43,7 @@ std::vector<std::string> limit_to_memory(DetailChoice& details, const index::Ind
     if (auto line = limit_to_memory(details, file.info().grid.cell_count(), index::memory_limit(),
                                     file.cache_bytes()))
         lines.push_back(std::move(*line));
-    for (const std::string& line : lines) // of a replay nobody sees the panel
+    for (const std::string& line : lines) // nobody sees the panel of a replay
         print_safely(fmt::format("isochron: {}\n", line), stderr);
     return lines;
 }

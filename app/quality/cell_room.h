@@ -20,7 +20,7 @@ std::uint64_t cells_in_memory(std::uint64_t memory, std::uint64_t cache);
 std::optional<std::string> limit_to_memory(DetailChoice& details, std::uint64_t cells,
                                            std::uint64_t memory, std::uint64_t cache);
 
-/// The same by what the process may use and the index keeps. @return at most one line
+/// Limits cells by what the process may use and the index keeps. @return at most one line
 std::vector<std::string> limit_to_memory(DetailChoice& details, const index::IndexFile& file);
 
 } // namespace isochron::app

@@ -44,7 +44,7 @@ double pixels_at_one_meter(const render::View& view, double voxel) {
     return voxel * std::max(scale.x, scale.y);
 }
 
-/// The same perspective, each side of it turned outwards by kTurned.
+/// The perspective with each of its sides turned outwards by kTurned.
 glm::mat4 widened(const glm::mat4& clip_from_eye) {
     glm::mat4 wide = clip_from_eye;
     if (clip_from_eye[3][3] == 1.0f) // parallel
@@ -168,7 +168,7 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
 }
 
 bool DetailChoice::lacks_what_is_seen(const index::DetailQuery& chosen) const {
-    constexpr std::ptrdiff_t kPart = 20; // of the regions that are seen
+    constexpr std::ptrdiff_t kPart = 20; // share of the regions that are seen
     if (chosen.wished.size() != ideal_.size())
         return false;
     std::ptrdiff_t without = 0;

@@ -94,7 +94,7 @@ class DetailChoice {
     bool small_, limited_ = false;
     int step_ = -1;                 ///< the chosen number of cells; below 0: none yet
     double seen_ = 0;               ///< share of the regions that are visible
-    double seen_then_ = 0;          ///< the same when the number was chosen
+    double seen_then_ = 0;          ///< this share when the number was chosen
     std::vector<bool> visible_;     ///< by region: some view may show it
     std::vector<bool> beside_;      ///< by region: no eye sees it, even if it turns a little
     std::vector<double> ideal_;     ///< by region: the level whose voxels are a pixel large

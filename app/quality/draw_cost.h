@@ -10,7 +10,7 @@ namespace isochron::app {
 /// The amount that one frame draws, summed over all eyes and windows.
 struct DrawLoad {
     double cells = 0;  ///< each counted once per view
-    double pixels = 0; ///< of the views
+    double pixels = 0; ///< pixels of the views
     bool operator==(const DrawLoad&) const = default;
 };
 
@@ -33,7 +33,7 @@ class DrawCost {
     double of_pixel_ = 0, of_cell_ = 0; ///< [ms]; may be below 0
     /// Sums of products of the loads, with what is forgotten taken off: the information matrix.
     double pixels_pixels_ = 0, pixels_cells_ = 0, cells_cells_ = 0;
-    double most_cells_ = 0; ///< of a measurement
+    double most_cells_ = 0; ///< most cells of a measurement
     bool measured_ = false;
 };
 

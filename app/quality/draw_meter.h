@@ -20,7 +20,7 @@ struct DrawSample {
     DrawLoad load;
     Milliseconds processor{0};       ///< to give all commands
     std::optional<Milliseconds> gpu; ///< to execute them, from the first to the last
-    std::size_t resolution = 0;      ///< of the cells, by number: see `kCellResolutions`
+    std::size_t resolution = 0;      ///< number of the cells' resolution: see `kCellResolutions`
     bool operator==(const DrawSample&) const = default;
 
     /// The time that limits the frame rate: both work at the same time, so the slower one counts.

@@ -141,14 +141,14 @@ class FrameQuality {
     static constexpr double kNewest = 0.1; ///< share of a new time in the mean
     const std::optional<render::Footprint> settled_;
     const Milliseconds wanted_budget_, still_budget_; ///< as configured; 0: the period
-    const Milliseconds longest_;                      ///< of a moving picture, as configured
-    const Milliseconds configured_period_;            ///< of frames without a headset
-    Milliseconds period_;                             ///< of frames now
+    const Milliseconds longest_;                      ///< most for a moving picture, as configured
+    const Milliseconds configured_period_;            ///< period of frames without a headset
+    Milliseconds period_;                             ///< period of frames now
     MotionPromise promise_;
     CellResolution resolution_;
     MeshLevelChoice mesh_levels_;
     bool begun_ = false;                     ///< a picture without cells was measured
-    std::optional<std::uint64_t> all_cells_; ///< of level 0, as last counted, or guessed
+    std::optional<std::uint64_t> all_cells_; ///< cells of level 0, as last counted, or guessed
     bool counted_ = false;
     Milliseconds beside_{0}; ///< that presenting takes
     QualityController steady_, still_;
@@ -156,7 +156,7 @@ class FrameQuality {
     interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
     std::optional<Resting> resting_;       ///< while parts are made or shown
     DrawMeter meter_;
-    DrawLoad view_; ///< of one cell in all views of the frame drawn last
+    DrawLoad view_; ///< load of one cell in all views of the frame drawn last
     DrawLoad charged_;
 };
 

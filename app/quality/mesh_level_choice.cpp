@@ -6,9 +6,10 @@
 namespace isochron::app {
 
 std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) const {
-    constexpr double kFinerFits = 0.75, kSameFits = 0.9; // of the budget
+    constexpr double kFinerFits = 0.75, kSameFits = 0.9; // shares of the budget
     constexpr double kHardlyLonger = 1.3;                // than quads
-    constexpr double kForLikeness = 1.5; // of the budget, where quads are no more like the surface
+    // Times the budget, where quads are no more like the surface.
+    constexpr double kForLikeness = 1.5;
     /// By level: the share of the cells as quads that is as much like the surface.
     constexpr std::array<double, index::kMeshLevels> kLikeQuads{2, 2, 0.5, 1.0 / 6};
     const bool scraps = meshes.translucent;

@@ -13,8 +13,8 @@ namespace isochron::app {
 /// What a moving picture is expected to take.
 struct MotionCosts {
     Milliseconds beside{0};  ///< what is done for a frame besides drawing: presenting
-    Milliseconds fixed{0};   ///< of drawing, what no number of cells changes
-    Milliseconds of_cell{0}; ///< of one cell in all views
+    Milliseconds fixed{0};   ///< part of drawing that no number of cells changes
+    Milliseconds of_cell{0}; ///< drawing one cell in all views
     double few_pixels = 1;   ///< share of drawing's time that is left in fewer pixels
 };
 

@@ -16,9 +16,9 @@ namespace isochron::app {
 /// The viewers of one frame.
 struct Audience {
     std::vector<stereo::ViewerPose> viewers; ///< by number
-    std::vector<stereo::HeadsetEye> eyes;    ///< of a headset that wants a picture
+    std::vector<stereo::HeadsetEye> eyes;    ///< eyes of a headset that wants a picture
     std::optional<interaction::Pose> wand;   ///< where it is shown
-    std::optional<ShownPanel> panel;         ///< that stands in the room
+    std::optional<ShownPanel> panel;         ///< the panel that stands in the room
     stereo::StereoMode stereo{};             ///< chosen live
     /// A wand's ray, or the value under a cursor, is shown; pictures to keep leave these out.
     bool aids = false;

@@ -50,7 +50,7 @@ struct AxisLabels {
 /// view: see axis_labels.h.
 struct Axes {
     std::vector<render::Line> ticks;
-    std::vector<AxisLabels> labels; ///< of each axis that has a labeled edge
+    std::vector<AxisLabels> labels; ///< labels of each axis that has a labeled edge
 };
 Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
               const interaction::Pose& head);

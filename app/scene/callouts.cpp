@@ -15,19 +15,19 @@ namespace {
 // In heights of the text.
 constexpr float kOff = 0.5f;               ///< words, from the place beside which they stand
 constexpr float kPad = 0.4f, kRow = 1.15f; ///< around them; from line to line
-constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///< of the signs
+constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///< sizes of the signs
 constexpr float kBetween = 0.15f; ///< from one callout to another one
 
 constexpr glm::vec4 kMarkColor(1.0f, 0.45f, 0.85f, 1.0f);
-constexpr float kOpacity = 0.85f; ///< of the paper, which lies over the data
+constexpr float kOpacity = 0.85f; ///< opacity of the paper, which lies over the data
 
-glm::vec4 callout_paper(const Ink& ink) {
-    return {glm::vec3(ink.paper), kOpacity};
+glm::vec4 callout_paper(const OverlayColors& overlay) {
+    return {glm::vec3(overlay.paper), kOpacity};
 }
 
 /// A color in which words can be read on the paper, whatever lies behind it.
-glm::vec4 readable(const glm::vec3& color, const Ink& ink) {
-    return {legible_on(callout_paper(ink), color, ink), 1.0f};
+glm::vec4 readable(const glm::vec3& color, const OverlayColors& overlay) {
+    return {legible_on(callout_paper(overlay), color, overlay), 1.0f};
 }
 
 float reach_of(CalloutSign sign) {
@@ -48,7 +48,7 @@ glm::vec2 size_of(const Callout& callout, const render::GlyphAtlas& atlas) {
 
 /// Lower left corners of the words, the best first.
 std::vector<glm::vec2> choices_for(const Callout& callout, const glm::vec2& size) {
-    constexpr int kRows = 4; // of callouts, over and below
+    constexpr int kRows = 4; // rows of callouts, over and below
     std::vector<glm::vec2> choices;
     for (int row = 0; row < kRows; ++row) {
         const float away = static_cast<float>(row) * (size.y + kBetween);
@@ -117,15 +117,15 @@ bool are_free(const Areas& areas, std::span<const render::View> views, float sha
     return true;
 }
 
-void add_sign(const Callout& callout, float height, const render::TextPass& text, const Ink& ink,
-              std::vector<render::ScreenQuad>& quads) {
+void add_sign(const Callout& callout, float height, const render::TextPass& text,
+              const OverlayColors& overlay, std::vector<render::ScreenQuad>& quads) {
     const auto fill = [&](const glm::vec2& reach, const glm::vec4& color) {
         text.fill(callout.at, -height * reach, height * reach, color, quads);
     };
     for (const float rim : {kRim, 0.0f}) {
-        const glm::vec4 paper = callout_paper(ink);
+        const glm::vec4 paper = callout_paper(overlay);
         if (callout.sign == CalloutSign::dot)
-            fill(glm::vec2(kDot + rim), rim > 0 ? paper : ink.text);
+            fill(glm::vec2(kDot + rim), rim > 0 ? paper : overlay.text);
         if (callout.sign == CalloutSign::cross)
             for (const bool upright : {false, true}) {
                 const glm::vec2 arm(kArm + rim, kHalfWidth + rim);
@@ -142,17 +142,17 @@ std::vector<Callout> callouts_of(const Picture& picture,
     const auto in_room = [&](const glm::dvec3& place) {
         return glm::vec3(interaction::transform(picture.room_from_physical, place));
     };
-    const Ink ink = ink_on(picture.look.background);
+    const OverlayColors overlay = overlay_colors_on(picture.look.background);
     std::vector<Callout> callouts;
     if (const auto& mark = picture.mark.point)
         callouts.push_back({in_room(mark->position), mark_lines(*mark, info),
-                            readable(kMarkColor, ink), CalloutSign::cross});
+                            readable(kMarkColor, overlay), CalloutSign::cross});
     for (const interaction::ToolLabel& label : picture.tools.labels)
-        callouts.push_back({in_room(label.at), {label.text}, ink.text, CalloutSign::none});
+        callouts.push_back({in_room(label.at), {label.text}, overlay.text, CalloutSign::none});
     if (pointed && pointed->surface < picture.isosurfaces.size())
         callouts.push_back({in_room(pointed->point.position),
                             pointed_lines(*pointed, picture.isosurfaces.size(), info),
-                            readable(picture.isosurfaces[pointed->surface].color, ink),
+                            readable(picture.isosurfaces[pointed->surface].color, overlay),
                             CalloutSign::dot});
     return callouts;
 }
@@ -194,19 +194,19 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
 
 std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
                                               const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink,
-                                              float share) {
+                                              const glm::ivec2& picture,
+                                              const OverlayColors& overlay, float share) {
     const float height = text_height(picture, share);
     std::vector<render::ScreenQuad> quads;
-    add_sign(callout, height, text, ink, quads);
-    text.fill(callout.at, height * paper.low, height * paper.high, callout_paper(ink), quads);
+    add_sign(callout, height, text, overlay, quads);
+    text.fill(callout.at, height * paper.low, height * paper.high, callout_paper(overlay), quads);
     for (std::size_t i = 0; i < callout.lines.size(); ++i)
         text.set(
             {.text = callout.lines[i],
              .at = callout.at,
              .anchor = {0.0f, 0.0f},
              .offset = {paper.low.x + kPad, paper.high.y - kPad - kRow * static_cast<float>(i + 1)},
-             .color = i == 0 ? callout.color : ink.text},
+             .color = i == 0 ? callout.color : overlay.text},
             height, quads);
     return quads;
 }

@@ -2,7 +2,7 @@
 // other.
 #pragma once
 
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 #include "app/scene/picture.h"
 #include "index/volume/volume_series.h"
 #include "render/gl/view.h"
@@ -26,12 +26,13 @@ enum class CalloutSign : std::uint8_t { none, cross, dot };
 struct Callout {
     glm::vec3 at{0.0f};             ///< in the room
     std::vector<std::string> lines; ///< one at least
-    glm::vec4 color{1.0f};          ///< of the first line
+    glm::vec4 color{1.0f};          ///< color of the first line
     /// Words without a sign stand on their place, those of a sign beside it.
     CalloutSign sign = CalloutSign::none;
 };
 
-/// Of the mark, of tools, and of the place under the cursor, in the order in which they get room.
+/// Callouts of the mark, of tools, and of the place under the cursor, in the order in which they
+/// get room.
 std::vector<Callout> callouts_of(const Picture& picture,
                                  const std::optional<interaction::Pointed>& pointed,
                                  const index::SeriesInfo& info);
@@ -51,10 +52,10 @@ std::vector<CalloutPaper> papers_of(std::span<const Callout> callouts,
                                     bool panel = false);
 
 /// To be drawn over the surface on which the place lies, at the place's depth.
-/// @param ink of the background behind the data @param share height of the words, see `text_height`
-std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const CalloutPaper& paper,
-                                              const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink = {},
-                                              float share = 0.0f);
+/// @param overlay colors for the background behind the data
+/// @param share height of the words, see `text_height`
+std::vector<render::ScreenQuad>
+callout_quads(const Callout& callout, const CalloutPaper& paper, const render::TextPass& text,
+              const glm::ivec2& picture, const OverlayColors& overlay = {}, float share = 0.0f);
 
 } // namespace isochron::app

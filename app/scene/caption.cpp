@@ -31,8 +31,8 @@ std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesI
 
 std::vector<render::ScreenQuad> caption_quads(const std::string& words,
                                               const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink,
-                                              float share) {
+                                              const glm::ivec2& picture,
+                                              const OverlayColors& overlay, float share) {
     std::vector<render::ScreenQuad> quads;
     const float height = text_height(picture, share);
     const float width = height * render::text_width(text.atlas(), words);
@@ -40,8 +40,8 @@ std::vector<render::ScreenQuad> caption_quads(const std::string& words,
         glm::floor(glm::vec2(height + 0.5f * width, static_cast<float>(picture.y) - 1.5f * height)),
         0.0f);
     const glm::vec2 half(0.5f * width + 0.4f * height, 0.8f * height);
-    text.fill(middle, -half, half, ink.paper, quads);
-    text.set({.text = words, .at = middle, .color = ink.text}, height, quads);
+    text.fill(middle, -half, half, overlay.paper, quads);
+    text.set({.text = words, .at = middle, .color = overlay.text}, height, quads);
     return quads;
 }
 

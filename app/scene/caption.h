@@ -1,7 +1,7 @@
 // Captions of pictures: isovalues and time in words.
 #pragma once
 
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 #include "index/volume/query.h"
 #include "index/volume/volume_series.h"
 #include "render/passes/text_pass.h"
@@ -19,9 +19,8 @@ std::string steps_text(index::Instant at);
 
 /// The caption on its background in the upper left corner, for `render::pixel_view`.
 /// @param picture its size, pixels @param share height of the words, see `text_height`
-std::vector<render::ScreenQuad> caption_quads(const std::string& words,
-                                              const render::TextPass& text,
-                                              const glm::ivec2& picture, const Ink& ink = {},
-                                              float share = 0.0f);
+std::vector<render::ScreenQuad>
+caption_quads(const std::string& words, const render::TextPass& text, const glm::ivec2& picture,
+              const OverlayColors& overlay = {}, float share = 0.0f);
 
 } // namespace isochron::app

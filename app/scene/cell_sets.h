@@ -51,7 +51,8 @@ class CellSets {
     /// Why this set cannot be shown; empty if it can.
     std::string refusal(const index::ExtractionPtr& set) const;
 
-    /// Draws the set for pictures at rest from now on, if it shows these surfaces; else the other.
+    /// Chooses the set that is drawn from now on: the set for pictures at rest if `at_rest` is true
+    /// and it shows these surfaces, otherwise the set for moving pictures.
     void draw_at_rest(bool at_rest, const index::SurfacesQuery& surfaces);
     bool draws_at_rest() const { return draws_resting_; }
     /// The set that is drawn.
@@ -66,7 +67,8 @@ class CellSets {
     const index::ExtractionPtr& held(Use use) const;
     /// Whether nothing more is uploaded for the shown cells: their volume is there, or too large.
     bool is_complete() const { return !drawn().wants_volume(); }
-    /// The same for the set of this use, drawn or not; also where there is none.
+    /// Whether nothing more is uploaded for the set of this use, drawn or not; also where there is
+    /// none.
     bool is_complete(Use use) const;
 
     /// The footprints that the shown cells can be drawn with: a very large set has no room for its
@@ -75,7 +77,8 @@ class CellSets {
     /// How a picture's footprint is drawn: another process may have chosen one that the shown cells do
     /// not have here yet.
     render::Footprint footprint_for(const Picture& picture) const;
-    /// The same, and `mesh` if the cells could be drawn so after asking for them with a mesh.
+    /// The footprints that the shown cells can be drawn with, and `mesh` if cells that were asked
+    /// for with a mesh could be drawn so.
     render::FootprintSet possible_footprints() const;
     /// Triangles of the meshes of the set for a use, by mesh level; 0 where it has none on the GPU.
     std::array<std::size_t, index::kMeshLevels> triangles(Use use) const;

@@ -20,16 +20,17 @@ constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f; ///< heigh
 
 class Layout {
   public:
-    Layout(const render::TextPass& text, const glm::ivec2& picture, const Ink& ink, float share)
-        : text_(text), picture_(picture), ink_(ink), height_(text_height(picture, share)) {}
+    Layout(const render::TextPass& text, const glm::ivec2& picture, const OverlayColors& overlay,
+           float share)
+        : text_(text), picture_(picture), overlay_(overlay), height_(text_height(picture, share)) {}
 
     /// @param at, size in heights of the text, from the legend's lower left
     void fill(glm::vec2 at, glm::vec2 size, const glm::vec4& color) {
         text_.fill({}, height_ * at, height_ * (at + size), color, quads_);
     }
     void write(const std::string& line, glm::vec2 at) {
-        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = ink_.text}, height_,
-                  quads_);
+        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = overlay_.text},
+                  height_, quads_);
         right_ = std::max(right_, at.x + render::text_width(text_.atlas(), line));
         top_ = std::max(top_, at.y + 0.5f);
     }
@@ -43,7 +44,7 @@ class Layout {
             return {};
         std::vector<render::ScreenQuad> all;
         text_.fill({}, glm::vec2(-0.5f * kMargin * height_), size - 0.5f * kMargin * height_,
-                   ink_.paper, all);
+                   overlay_.paper, all);
         all.insert(all.end(), quads_.begin(), quads_.end());
         // Whole pixels keep it sharp; a legend has no depth that this would change.
         const glm::vec2 origin = glm::floor(corner + 0.5f * kMargin * height_);
@@ -52,13 +53,13 @@ class Layout {
         return all;
     }
     float top() const { return top_; }
-    const Ink& ink() const { return ink_; }
+    const OverlayColors& overlay() const { return overlay_; }
 
   private:
     const render::TextPass& text_;
     glm::vec2 picture_;
-    Ink ink_;
-    float height_; ///< of the text, pixels
+    OverlayColors overlay_;
+    float height_; ///< height of the text, pixels
     float right_ = 0.0f, top_ = 0.0f;
     std::vector<render::ScreenQuad> quads_;
 };
@@ -78,7 +79,7 @@ void write_scale(const ColorScale& scale, Layout& layout) {
         const double value = ticks.values[i];
         const auto up = static_cast<float>(share_on(scale, value));
         const float y = 0.5f + kBarHeight * up;
-        layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.ink().text);
+        layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.overlay().text);
         layout.write(scale.dates_of.empty()
                          ? tick_text(value, scale.logarithmic ? value : ticks.step)
                          : index::time_text(ticks.values, i, scale.dates_of),
@@ -112,7 +113,7 @@ std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render:
     const bool several = legend.surfaces.size() > 1;
     if (!legend.scale && !several)
         return {};
-    Layout layout(text, picture, legend.ink, share);
+    Layout layout(text, picture, legend.overlay, share);
     if (legend.scale)
         write_scale(*legend.scale, layout);
     if (several)

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/scene/color_scale.h"
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 #include "interaction/commands.h"
 #include "render/passes/text_pass.h"
 
@@ -18,9 +18,9 @@ namespace isochron::app {
 
 struct Legend {
     std::span<const interaction::Isosurface> surfaces; ///< listed if there are several
-    std::string value_unit;                            ///< of their isovalues
-    std::optional<ColorScale> scale;                   ///< of colored surfaces; empty: none
-    Ink ink{};
+    std::string value_unit;                            ///< unit of their isovalues
+    std::optional<ColorScale> scale;                   ///< scale of colored surfaces; empty: none
+    OverlayColors overlay{};
 };
 
 /// Height of text in a picture [pixel].

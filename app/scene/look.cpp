@@ -1,7 +1,7 @@
 // What a look comes to.
 #include "app/scene/look.h"
 
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -15,7 +15,7 @@ namespace {
 constexpr glm::vec3 kFloor(0.045f, 0.05f, 0.06f), kSky(0.30f, 0.36f, 0.45f);
 
 void turn_dark(glm::vec4& color) {
-    color = glm::vec4(kDarkInk, color.w);
+    color = glm::vec4(kDarkText, color.w);
 }
 
 } // namespace

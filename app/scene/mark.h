@@ -1,4 +1,4 @@
-// The words of a place in the data that a user picked or points at.
+// Describes a place in the data, which a user picked or points at, in words.
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -15,12 +15,12 @@ namespace isochron::app {
 /// steps it says so: `at 0.35 s, between steps 4 and 5`.
 std::string mark_text(const interaction::MarkedPoint& point, const index::SeriesInfo& info);
 
-/// The same in lines: value, place, time.
+/// The text in lines: value, place, time.
 std::vector<std::string> mark_lines(const interaction::MarkedPoint& point,
                                     const index::SeriesInfo& info);
 
-/// Of the place under the cursor: value, place, between which steps if a blend of two is shown, and,
-/// of several surfaces, which one.
+/// Lines about the place under the cursor: value, place, between which steps if a blend of two is
+/// shown, and, of several surfaces, which one.
 std::vector<std::string> pointed_lines(const interaction::Pointed& pointed, std::size_t surfaces,
                                        const index::SeriesInfo& info);
 

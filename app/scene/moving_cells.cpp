@@ -16,7 +16,7 @@ namespace {
 
 /// A box that holds all cells, which may reach a little out of the volume.
 glm::mat4 around_cells(const render::Placement& placement) {
-    constexpr float kBeyond = 0.03f; // of the volume
+    constexpr float kBeyond = 0.03f; // share of the volume
     const glm::mat4 larger = glm::translate(glm::mat4(1.0f), -kBeyond * placement.extent);
     return placement.room_from_index *
            glm::scale(larger, (1.0f + 2.0f * kBeyond) * placement.extent);
@@ -45,7 +45,7 @@ glm::mat4 MovingCells::box_of(const Picture& picture) const {
     return around_cells(placement_of(picture));
 }
 
-bool MovingCells::draw_moved(const KeptCells& kept, const Picture& picture,
+bool MovingCells::draw_moved(const CellsPicture& kept, const Picture& picture,
                              std::span<const render::View> views) {
     const Picture* then = kept.movable(1);
     std::vector<render::PictureWithDepth> pictures =

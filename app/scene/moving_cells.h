@@ -1,9 +1,9 @@
-// The ways in which cells that move are drawn beside the one of pictures at rest: the last picture
-// moved, in few pixels, and translucent surfaces by their nearest layers.
+// How moving cells are drawn, other than in pictures at rest: the last picture moved, in few
+// pixels, and translucent surfaces by their nearest layers.
 #pragma once
 
 #include "app/scene/cell_sets.h"
-#include "app/scene/kept_cells.h"
+#include "app/scene/cells_picture.h"
 #include "app/scene/picture.h"
 #include "index/volume/grid.h"
 #include "render/cells/cell_appearance.h"
@@ -28,7 +28,7 @@ class MovingCells {
 
     /// Draws the kept picture, moved to where the cells of `picture` are seen.
     /// @return false: there is none for these screens
-    bool draw_moved(const KeptCells& kept, const Picture& picture,
+    bool draw_moved(const CellsPicture& kept, const Picture& picture,
                     std::span<const render::View> views);
     /// What is drawn, beside the views.
     struct Cells {

@@ -60,14 +60,14 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
                            const index::SeriesInfo& info, const render::TextPass& text,
-                           const Ink& ink, float share) {
+                           const OverlayColors& overlay, float share) {
     const float height = text_height(view.size, share);
     const glm::vec2 origin = glm::floor(glm::vec2((kAxisLength + 1.0f) * height));
     Orientation shown;
     for (const SeenAxis& each : seen_axes(view, room_from_physical.rotation)) {
         const auto axis = static_cast<std::size_t>(each.axis);
         const glm::vec2 end = origin + kAxisLength * height * glm::vec2(each.way);
-        const glm::vec4 color(ink.bright * glm::vec3(kAxisColors[axis]), 1.0f);
+        const glm::vec4 color(overlay.bright * glm::vec3(kAxisColors[axis]), 1.0f);
         shown.lines.push_back({glm::vec3(origin, 0), glm::vec3(end, 0), color});
         text.set({.text = kAxisNames[axis],
                   .at = glm::vec3(origin + 1.22f * (end - origin), 0.0f),
@@ -81,15 +81,15 @@ Orientation orientation_in(const render::View& view,
                          0.0f);
     const float tick = 0.25f * height, thick = std::max(1.0f, std::round(0.12f * height));
     text.fill(left, {-0.5f * height, -0.6f * height}, {bar->pixels + 0.5f * height, 1.9f * height},
-              ink.paper, shown.quads);
-    text.fill(left, {0, 0}, {bar->pixels, thick}, ink.text, shown.quads);
+              overlay.paper, shown.quads);
+    text.fill(left, {0, 0}, {bar->pixels, thick}, overlay.text, shown.quads);
     for (const float at : {0.0f, bar->pixels - thick})
-        text.fill(left, {at, -tick}, {at + thick, tick + thick}, ink.text, shown.quads);
+        text.fill(left, {at, -tick}, {at + thick, tick + thick}, overlay.text, shown.quads);
     text.set({.text = human_number(bar->length) + with_space(info.length_unit),
               .at = left + glm::vec3(0.5f * bar->pixels, 0, 0),
               .anchor = {0.5f, 0.0f},
               .offset = {0.0f, 0.5f},
-              .color = ink.text},
+              .color = overlay.text},
              height, shown.quads);
     return shown;
 }

@@ -1,7 +1,7 @@
 // Orientation for the viewer: the data's axes in a corner of the picture, and a scale bar.
 #pragma once
 
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 #include "index/volume/volume_series.h"
 #include "interaction/pose.h"
 #include "render/gl/view.h"
@@ -36,6 +36,6 @@ std::optional<ScaleBar> scale_bar(const render::View& view,
 Orientation orientation_in(const render::View& view,
                            const interaction::Similarity& room_from_physical,
                            const index::SeriesInfo& info, const render::TextPass& text,
-                           const Ink& ink = {}, float share = 0.0f);
+                           const OverlayColors& overlay = {}, float share = 0.0f);
 
 } // namespace isochron::app

@@ -53,17 +53,17 @@ struct Picture {
     render::Veil veil;
     interaction::Similarity room_from_physical;
     render::Footprint footprint{};
-    std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
+    std::size_t resolution = 0; ///< number of the cells' resolution: see `kCellResolutions`
     index::ExtractionPtr cells;
     std::vector<interaction::Isosurface> isosurfaces;
-    std::string value_unit; ///< of their isovalues
+    std::string value_unit; ///< unit of their isovalues
     interaction::Look look;
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart
     bool bounding_box = true;
     bool legend = true;
     bool orientation = false; ///< the data's axes and a scale bar in a corner
     std::string caption;      ///< in a corner; empty: none
-    /// Of the footprint `mesh` (index/extraction/simplified_meshes.h).
+    /// Mesh level of the footprint `mesh` (index/extraction/simplified_meshes.h).
     std::size_t mesh_level = 0;
     /// The exact picture that is kept is moved to where its cells are seen now, in the place of
     /// what the footprint says.

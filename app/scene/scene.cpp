@@ -4,10 +4,10 @@
 #include "app/scene/axis_labels.h"
 #include "app/scene/caption.h"
 #include "app/scene/font.h"
-#include "app/scene/ink.h"
 #include "app/scene/legend.h"
 #include "app/scene/look.h"
 #include "app/scene/orientation.h"
+#include "app/scene/overlay_colors.h"
 #include "app/scene/warm_up/small_surface.h"
 #include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
@@ -276,18 +276,19 @@ void Scene::draw_over_cells(const render::View& view, const Picture& picture, co
     for (std::size_t i = 0; i < words.callouts.size(); ++i)
         draw_callout(view, picture, words.callouts[i], words.papers[i]);
     veil_pass_.draw(view, picture.veil);
-    const Ink ink = ink_on(picture.look.background);
+    const OverlayColors overlay = overlay_colors_on(picture.look.background);
     if (picture.legend)
-        text_pass_.draw(render::pixel_view(view), glm::mat4(1.0f),
-                        legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, ink},
-                                     text_pass_, view.size, picture.layout.text),
-                        render::TextPass::Depth::none);
+        text_pass_.draw(
+            render::pixel_view(view), glm::mat4(1.0f),
+            legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
+                         text_pass_, view.size, picture.layout.text),
+            render::TextPass::Depth::none);
     if (picture.orientation)
         draw_orientation(view, picture);
     if (!picture.caption.empty())
         text_pass_.draw(
             render::pixel_view(view), glm::mat4(1.0f),
-            caption_quads(picture.caption, text_pass_, view.size, ink, picture.layout.text),
+            caption_quads(picture.caption, text_pass_, view.size, overlay, picture.layout.text),
             render::TextPass::Depth::none);
 }
 
@@ -330,13 +331,15 @@ void Scene::draw_callout(const render::View& view, const Picture& picture, const
     if (!hidden_by_panel(picture, view, callout.at))
         text_pass_.draw(view, glm::mat4(1.0f),
                         callout_quads(callout, paper, text_pass_, view.size,
-                                      ink_on(picture.look.background), picture.layout.text),
+                                      overlay_colors_on(picture.look.background),
+                                      picture.layout.text),
                         render::TextPass::Depth::none);
 }
 
 void Scene::draw_orientation(const render::View& view, const Picture& picture) {
-    const Orientation shown = orientation_in(view, picture.room_from_physical, info_, text_pass_,
-                                             ink_on(picture.look.background), picture.layout.text);
+    const Orientation shown =
+        orientation_in(view, picture.room_from_physical, info_, text_pass_,
+                       overlay_colors_on(picture.look.background), picture.layout.text);
     const render::View pixels = render::pixel_view(view);
     gl_.DepthRange(0.0, 0.0); // nearer than all that has been drawn
     for (const render::Line& line : shown.lines)
@@ -350,7 +353,7 @@ void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::Vi
     gl_.Enable(GL_SCISSOR_TEST);
     render::set_viewport(gl_, view);
     gl_.DepthMask(GL_TRUE);
-    gl_.Clear(GL_DEPTH_BUFFER_BIT); // of the aids before
+    gl_.Clear(GL_DEPTH_BUFFER_BIT); // depths of the aids before
     draw_ray(view, picture, aids);
     const auto callouts = callouts_of(picture, aids.pointed, info_);
     if (aids.pointed && !callouts.empty()) // the others are part of the picture

@@ -8,7 +8,7 @@
 #include "app/config/config.h"
 #include "app/scene/callouts.h"
 #include "app/scene/cell_sets.h"
-#include "app/scene/kept_cells.h"
+#include "app/scene/cells_picture.h"
 #include "app/scene/moving_cells.h"
 #include "app/scene/picture.h"
 #include "app/scene/warm_up/small_surface.h"
@@ -65,7 +65,7 @@ class Scene {
     /// @param most of it, in the same units @return how much was done; 0: none is left
     std::size_t prepare_parts(const Picture& picture, std::size_t most);
 
-    /// As `KeptCells::movable`.
+    /// As `CellsPicture::movable`.
     const Picture* movable_picture(std::size_t viewports) const { return kept_.movable(viewports); }
     /// Whether the cells of this picture are kept or moved, so that drawing it takes no time for them.
     /// @param viewports that show it
@@ -105,7 +105,7 @@ class Scene {
     CellSets cells_;
     std::optional<ColorScale> mapped_; ///< the last scale whose map was needed
     std::optional<render::Texture> map_;
-    KeptCells kept_;
+    CellsPicture kept_;
     render::CellPass cell_pass_;
     std::optional<SmallSurface> small_; ///< while it warms up
     render::LinePass line_pass_;

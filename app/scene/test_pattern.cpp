@@ -214,7 +214,7 @@ TestPattern::TestPattern(const render::Gl& gl)
 
 void TestPattern::draw(std::span<const render::View> views, std::span<const Eye> eyes,
                        const PatternWall& wall, const interaction::InputState& input) {
-    constexpr float kStroke = 0.16f; // of a letter's height
+    constexpr float kStroke = 0.16f; // share of a letter's height
     std::vector<Line> thin = lines_of(Guides{.floor = true, .target = {}}), frame, axes;
     add_grid(wall, thin);
     for (std::size_t i = 0; i < 4; ++i)

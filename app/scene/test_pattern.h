@@ -22,7 +22,7 @@ namespace isochron::app {
 struct PatternWall {
     std::string name;
     std::array<glm::vec3, 4> corners; ///< room: lower left, upper left, upper right, lower right
-    std::string head_device;          ///< of the viewer who sees it
+    std::string head_device;          ///< device of the viewer who sees it
     interaction::Pose head;
     stereo::Eyes eyes;        ///< in the head's frame
     float cross_depth = 0.5f; ///< [m] distance of the cross in front of the wall

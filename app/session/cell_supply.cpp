@@ -363,7 +363,7 @@ index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQua
         return frame.plan.detail; // asking for another one now would bring the two in turn
     if (!fit && !is_there && frame.report.time - constant_since_ < kUntilMeasured)
         return sets_.held(CellSets::Use::always)->query.detail;
-    // Of many more cells than before, some are seen soon.
+    // When many more cells than before come, some of them are seen soon.
     const bool grows = serves && cells_at_first_ >= kWorthASet * resting->query.detail.most_cells &&
                        2 * resting->cells() >= resting->query.detail.most_cells;
     if (grows && !seen)

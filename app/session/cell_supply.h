@@ -11,7 +11,7 @@
 #include "app/quality/cell_room.h"
 #include "app/quality/detail_choice.h"
 #include "app/scene/cell_sets.h"
-#include "app/scene/kept_cells.h"
+#include "app/scene/cells_picture.h"
 #include "app/session/frame.h"
 #include "index/extraction/extractor.h"
 
@@ -105,7 +105,7 @@ class CellSupply {
     index::ExtractionPtr refused_; ///< the newest set if it is not shown; else null
     std::vector<std::string> messages_;
     interaction::Seconds constant_since_{0}; ///< when the eyes last saw something change
-    std::uint64_t cells_at_first_ = 0;       ///< of the first set for this picture at rest
+    std::uint64_t cells_at_first_ = 0;       ///< cells of the first set for this picture at rest
     bool rests_ = false;
 };
 

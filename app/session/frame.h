@@ -13,7 +13,7 @@
 
 namespace isochron::app {
 
-/// A live step that stands for long settles; a replay goes on by what was recorded.
+/// In a live session a step that is shown for long may settle; a replay goes by what was recorded.
 constexpr interaction::Playing playing_in(Waiting waiting) {
     return waiting == Waiting::never ? interaction::Playing::moves_by_steps
                                      : interaction::Playing::moves;
@@ -22,12 +22,12 @@ constexpr interaction::Playing playing_in(Waiting waiting) {
 struct Frame {
     const ExplorerState& state; ///< after this frame's commands
     const index::IndexFile& file;
-    std::size_t steps; ///< that can be shown
+    std::size_t steps; ///< number of steps that can be shown
     Waiting waiting;
     bool is_kept;                        ///< a capture waits for this picture
     const std::optional<Picture>& drawn; ///< last picture; empty: none yet
     FrameSharing& sharing;
-    FramePlan& plan;     ///< of the last frame until this one's is agreed
+    FramePlan& plan;     ///< plan of the last frame until this one's is agreed
     FrameReport& report; ///< `asked`, `time` and `pace` are known from the start
 
     bool is_live() const { return waiting == Waiting::never; }

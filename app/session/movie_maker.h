@@ -20,10 +20,10 @@ namespace isochron::app {
 
 /// What all movies of a session have in common.
 struct MovieOrders {
-    std::filesystem::path program;       ///< that has the command `movie`
-    std::filesystem::path folder;        ///< of the movies
-    std::vector<std::string> options;    ///< of that command
-    interaction::RecordingHeader header; ///< of the session
+    std::filesystem::path program;       ///< the program that has the command `movie`
+    std::filesystem::path folder;        ///< where movies go
+    std::vector<std::string> options;    ///< options of that command
+    interaction::RecordingHeader header; ///< header of the session
 };
 
 /// How one of them is made.
@@ -67,10 +67,10 @@ class MovieMaker {
     void end(int status);
 
     const MovieOrders orders_;
-    std::filesystem::path movie_, recording_; ///< of the one that is being made
+    std::filesystem::path movie_, recording_; ///< files of the movie that is being made
     std::future<void> written_;               ///< its recording
     bool given_up_ = false;
-    MovieManner manner_; ///< of the one that is being made
+    MovieManner manner_; ///< manner of the movie that is being made
     pid_t process_ = -1;
     int words_ = -1;    ///< the end of the pipe from the process
     std::string said_;  ///< an incomplete line from the process

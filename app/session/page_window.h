@@ -44,7 +44,7 @@ class PageWindow {
     /// Passes events to the page and makes one frame, at the window's pace, or once something
     /// happens. It is presented if it looks different.
     /// @param lay_out lays out the page in a picture of this size, at this time since the start
-    /// @return the other events: those that the page does not use
+    /// @return the events that the page does not use
     std::vector<interaction::WindowEvent>
     frame(const std::function<void(glm::ivec2 size, interaction::Seconds time)>& lay_out);
     /// False once the user closes the window, or `ended` says so.

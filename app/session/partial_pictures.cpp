@@ -111,7 +111,7 @@ void PartialPictures::draw_ahead(const Frame& frame, const Picture& now, const S
     sets.draw_at_rest(rested, frame.report.asked);
 }
 
-/// Of the set with the most detail that is there, which is the drawn one meanwhile.
+/// Draws ahead the set with the most detail that is there, which is the drawn one meanwhile.
 void PartialPictures::draw_ahead_within(Milliseconds left, const Frame& frame, const Picture& now) {
     const CellSets& sets = scene_.cells();
     if (!sets.is_complete() || !sets.footprints().has(render::Footprint::surface))

@@ -55,7 +55,7 @@ class PartialPictures {
         PartPace pace;
         Outputs::PartPlace place;
         std::size_t done = 0;     ///< units of work done at `place`
-        Milliseconds prepared{0}; ///< of the time: spent on what serves other views, too
+        Milliseconds prepared{0}; ///< time spent on what serves other views, too
         bool whole = false;
     };
 

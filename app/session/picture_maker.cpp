@@ -13,7 +13,7 @@ namespace isochron::app {
 
 std::vector<stereo::ViewerPose> PictureMaker::viewers(const interaction::InputState& input,
                                                       const ExplorerState& state) const {
-    std::optional<glm::dvec3> center; // of the data in the room, in parallel projection
+    std::optional<glm::dvec3> center; // center of the data in the room, in parallel projection
     if (state.orthographic)
         center = interaction::transform(state.room_from_physical,
                                         physical_center(arrays_.file()->info().grid));

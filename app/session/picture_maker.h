@@ -30,7 +30,7 @@ class PictureMaker {
     Picture first(const ExplorerState& state) const;
     /// Continues with the cells that are shown now.
     void show_cells(Picture& picture, const ExplorerState& state) const;
-    /// The same picture as it is kept.
+    /// The picture as it is kept.
     Picture kept(const Picture& picture, const interaction::WrittenPictures& parts) const;
     /// What is to be drawn over the last picture, which lacks it.
     const Aids& over() const { return over_; }

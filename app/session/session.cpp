@@ -169,7 +169,7 @@ void Session::warm_up(const std::function<bool(float)>& goes_on) {
                   {});
     Outputs::PartPlace place;
     std::size_t part = 0;
-    float share = 0; // of the window that is drawn
+    float share = 0; // share of the window that is drawn
     for (bool whole = false; !whole && goes_on(share);)
         whole = outputs_.draw_part(
             picture.audience, place, [&](const ScenePlace&, std::span<const render::View> views) {

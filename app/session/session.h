@@ -138,7 +138,7 @@ class Session {
     void set_recording(bool recording) { panel_.set_recording(recording); }
     /// Sets what the panel shows about movies from now on.
     void set_movies(const MovieState& movies) { panel_.set_movies(movies); }
-    /// Of the known steps.
+    /// Times of the known steps.
     const interaction::StepTimes& times() const { return times_; }
 
     /// Sets the file name of the data, for the notes in pictures.
@@ -149,9 +149,11 @@ class Session {
     }
     /// What is under the pointer in the last frame, or marked, in words; empty: nothing.
     std::string pointed() const { return pictures_.words_under_pointer(note_.input, state_); }
-    PictureNote note() const;                                 ///< about the last frame
-    CaptureView capture_view(const FrameReport& frame) const; ///< of the last frame
-    std::optional<ColorScale> scale() const { return pictures_.scale(state_); } ///< of all colors
+    PictureNote note() const; ///< about the last frame
+    /// What a capture needs of the last frame.
+    CaptureView capture_view(const FrameReport& frame) const;
+    /// Scale of all colors.
+    std::optional<ColorScale> scale() const { return pictures_.scale(state_); }
 
     /// Why the newest query could not be answered; empty when all is well.
     std::string failure() const { return frames_->failure(supply_.extractor()); }
@@ -186,7 +188,7 @@ class Session {
     ExplorerState state_;
     ExplorerState home_;
     ShownArrays arrays_;
-    interaction::StepTimes times_; ///< of the known steps
+    interaction::StepTimes times_; ///< times of the known steps
     interaction::Controls controls_;
     interaction::MotionGate gate_;
     interaction::Comfort comfort_;
@@ -200,13 +202,13 @@ class Session {
     PictureChoice choice_;
     PartialPictures partial_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
-    FramePlan plan_;               ///< of the last frame
+    FramePlan plan_;               ///< plan of the last frame
     std::optional<Picture> drawn_; ///< last picture
     WindowContents contents_;
     bool waited_ = false; ///< see `has_waited`
     CaptureWait captures_;
     std::function<interaction::Seconds()> clock_;
-    PictureNote note_; ///< of the last frame: the data's names and the devices
+    PictureNote note_; ///< note on the last frame: the data's names and the devices
 };
 
 } // namespace isochron::app

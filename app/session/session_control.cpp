@@ -68,7 +68,7 @@ void SessionControl::give_pictures(Session& session, const FrameReport& frame) {
 }
 
 void SessionControl::give_picture(Session& session) {
-    bool first = true; // of several windows the first one is given
+    bool first = true; // only the first of several windows is given
     session.outputs().each_picture(
         session.note(), [&](const std::string&, render::Image image, const std::string& note) {
             if (std::exchange(first, false))

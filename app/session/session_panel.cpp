@@ -112,7 +112,7 @@ bool SessionPanel::head_is_emulated() const {
 }
 
 std::optional<interaction::Pose> SessionPanel::place() const {
-    constexpr float kFilled = 0.92f; // of that share
+    constexpr float kFilled = 0.92f; // how much of that share the panel fills
     if (!head_is_emulated())
         return std::nullopt;
     const stereo::Screen& screen = config_.installation.windows.front().viewports.front().screen;

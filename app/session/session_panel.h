@@ -55,7 +55,7 @@ class SessionPanel {
     void lay_out_room(const ExplorerState& state, const Facts& facts, interaction::Seconds time);
     /// Lays the panel over the first window out, unless this frame has done so.
     void lay_out_over(const ExplorerState& state, const Facts& facts, interaction::Seconds time);
-    /// Lays it out likewise and draws it. @param size of the window, pixels
+    /// Lays the panel over the first window out and draws it. @param size of the window, pixels
     void draw_over(glm::ivec2 size, const ExplorerState& state, const Facts& facts,
                    interaction::Seconds time);
     /// Draws it in its own window, if it has one.

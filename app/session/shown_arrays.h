@@ -37,7 +37,7 @@ class ShownArrays {
     const index::IndexFile& shown(const ExplorerState& state) const {
         return file_->array(number(state));
     }
-    /// The same array, sharing the ownership of the file.
+    /// This array, sharing the ownership of the file.
     std::shared_ptr<const index::IndexFile> held(const ExplorerState& state) const;
     /// What is asked for: the state's surfaces, of its arrays.
     index::SurfacesQuery surfaces(const ExplorerState& state) const;

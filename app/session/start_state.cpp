@@ -24,7 +24,7 @@ index::IndexStats stats_of(const IndexFile& array, std::uint32_t step, std::size
     return stats;
 }
 
-/// The same at the coarsest level of detail where the step is not constant; nothing if no such
+/// Statistics at the coarsest level of detail where the step is not constant; nothing if no such
 /// level is small enough.
 std::optional<index::IndexStats> stats_of(const IndexFile& array, std::uint32_t step) {
     constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 24;

@@ -12,7 +12,7 @@ namespace isochron::app {
 struct PictureOverlay {
     Aids aids;
     std::size_t panel = 0; ///< a hash, see `OperatorPanel::looks`
-    glm::ivec2 size{0};    ///< of the first window
+    glm::ivec2 size{0};    ///< size of the first window
     bool operator==(const PictureOverlay&) const = default;
 };
 

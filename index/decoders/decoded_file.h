@@ -15,7 +15,7 @@ class DecodedFile {
   public:
     virtual ~DecodedFile() = default;
 
-    /// The same as in `VolumeFile`.
+    /// What the file holds and its number of steps, as in `VolumeFile`.
     virtual const SeriesInfo& info() const = 0;
     virtual std::size_t steps() const = 0;
 

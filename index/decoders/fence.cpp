@@ -253,7 +253,7 @@ bool refuse_all_other_calls() {
     calls.allow(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, datum(::getpid())));
     // Threads only by the older call, whose flags a filter can check; clone3 fails as unknown.
     constexpr scmp_datum_t kThread = 0x00010000, // CLONE_THREAD
-        kFlagsOfThreads = 0x003d0f00;            // those that the C library gives
+        kFlagsOfThreads = 0x003d0f00;            // the flags that the C library gives
     calls.allow(SCMP_SYS(clone), SCMP_A0(SCMP_CMP_MASKED_EQ, ~kFlagsOfThreads | kThread, kThread));
     calls.answer(SCMP_SYS(clone3), ENOSYS);
     return calls.load();

@@ -139,11 +139,11 @@ class Service {
     ReadCollectionFile collection_;
     ReadPictureFile picture_;
     TakeDenied denied_;
-    std::filesystem::path path_; ///< of the last file that was requested
+    std::filesystem::path path_; ///< the last file that was requested
     std::map<std::uint64_t, std::unique_ptr<DecodedFile>> files_; ///< by number
-    std::optional<ReaderBudget> limits_;                          ///< of that file
+    std::optional<ReaderBudget> limits_;                          ///< limits of that file
     std::unique_ptr<SharedMemory> memory_;
-    std::vector<std::uint8_t> pixels_; ///< of the last picture
+    std::vector<std::uint8_t> pixels_; ///< pixels of the last picture
     Descriptor attached_;
 };
 

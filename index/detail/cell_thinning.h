@@ -9,9 +9,10 @@
 
 namespace isochron::index {
 
-/// Of a group of things that have places, those whose places have the lowest hashes stay. So a
-/// place's fate depends on the share alone that stays: what stays of a smaller share also stays of
-/// a larger one, in every step, surface, process and replay, and nothing flickers.
+/// Leaves out some things of a group by hashes of their places: those with the lowest hashes stay.
+/// Whether a place stays depends only on the place and on the share that stays: what stays with a
+/// smaller share also stays with a larger one, in every step, surface, process and replay, and
+/// nothing flickers.
 class CellThinning {
   public:
     /// About `most` of `all` stay: all of them where they are not more.
@@ -22,7 +23,7 @@ class CellThinning {
     bool keeps(const std::array<std::uint32_t, 3>& place) const;
 
   private:
-    std::uint64_t end_; ///< of the hashes that stay, 0 to 2^32
+    std::uint64_t end_; ///< end of the hashes that stay, 0 to 2^32
 };
 
 } // namespace isochron::index

@@ -25,16 +25,17 @@ struct DetailCells {
     std::vector<std::uint16_t> colors;
     std::vector<std::uint8_t> levels; ///< by region
     unsigned coarsest = 0;            ///< level of the largest cells
-    std::size_t cells() const;        ///< of all surfaces
+    std::size_t cells() const;        ///< cells of all surfaces
 };
 
-/// Every region gets the level that the query wishes. While that makes too many cells, all wishes
-/// become coarser by a part of a level; a region whose wish reaches the next level takes it. Of the
-/// last regions that would change, those nearest to the middle of the volume stay finer as long as
-/// there is room. Levels depend on the query and the data alone. Cells are counted on the coarsest
-/// level, then on finer ones until there are too many; each level below is assumed to have four
-/// times as many. What the levels lose (lost_cells.h) is added as cells of level 0, drawn as large as
-/// they are. They are thinned (cell_thinning.h) to what the levels leave of `most_cells`, but not to
+/// Every region gets the level that the query wishes. If that makes too many cells, all wishes
+/// become coarser by a part of a level, again and again; a region whose wish reaches the next level
+/// takes it. The last step may change more regions than it must: those nearest to the middle of the
+/// volume stay finer as long as there is room. So levels depend on the query and the data alone.
+/// Cells are counted on the coarsest level, then on finer ones until there are too many; each finer
+/// level is assumed to have four times as many.
+/// Active cells that the levels lose (lost_cells.h) are added as cells of level 0, as large as they
+/// are. They are thinned (cell_thinning.h) to the room that is left below `most_cells`, but not to
 /// less than a quarter. Not thread-safe: keeps its work space.
 class DetailSearch {
   public:
@@ -93,12 +94,12 @@ class DetailSearch {
     bool by_bricks_;
     std::vector<std::unique_ptr<LayerSearch>> searchers_; ///< by level
     std::map<unsigned, LevelCells> known_;                ///< whole levels, of the query
-    unsigned counted_ = 0;               ///< the finest level of which all is known
+    unsigned counted_ = 0;               ///< the finest level whose cells are all counted
     std::vector<std::size_t> in_region_; ///< cells of that level
     double level_zero_ = 1; ///< expected cells of level 0, divided by those in in_region_
-    std::vector<std::vector<std::uint16_t>> colors_; ///< of the result, by surface
-    CellColoring coloring_ = CellColoring::none;     ///< of the query
-    std::optional<ColorSource> source_;              ///< of the colors, where they are values
+    std::vector<std::vector<std::uint16_t>> colors_; ///< colors of the result, by surface
+    CellColoring coloring_ = CellColoring::none;     ///< coloring that the query asks for
+    std::optional<ColorSource> source_; ///< source of the colors, where they are values
     std::map<std::pair<double, unsigned>, FirstCrossingsPtr> crossings_; ///< by isovalue and level
 };
 

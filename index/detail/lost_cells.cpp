@@ -77,7 +77,7 @@ class HoldsDrawn {
 
     unsigned level_;
     Place size_{};
-    std::size_t words_ = 0; ///< of a row
+    std::size_t words_ = 0; ///< words of a row
     std::vector<std::uint64_t> bits_;
 };
 

@@ -30,7 +30,7 @@ ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
         const glm::dvec3 at = glm::abs(grid.physical(index) * factor_);
         farthest = std::max({farthest, at.x, at.y, at.z});
     }
-    constexpr double kMost = 1e-3; // of a voxel
+    constexpr double kMost = 1e-3; // share of a voxel
     const double voxel = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}) * factor_;
     if (farthest * std::numeric_limits<float>::epsilon() > kMost * voxel)
         origin_ = glm::dvec3(glm::vec3(grid.origin * factor_));

@@ -19,8 +19,8 @@
 
 namespace isochron::index {
 
-/// Packs what a file holds of a mesh, for EXT_meshopt_compression (Khronos, "glTF 2.0 Extension
-/// Registry"): as meshoptimizer does, which this floor does without.
+/// Functions that pack a mesh for EXT_meshopt_compression (Khronos, "glTF 2.0 Extension Registry").
+/// Whoever has the library meshoptimizer passes them in: this floor does without it.
 struct MeshPacking {
     /// @param stride bytes of each vertex, a multiple of 4
     std::vector<std::byte> (*vertices)(std::span<const std::byte> bytes, std::size_t stride);
@@ -33,9 +33,9 @@ struct MeshPacking {
 /// What all steps of an export have in common.
 struct ExportPlan {
     std::string note;              ///< one line: who wrote the file, of which data
-    std::string length_unit;       ///< of the coordinates in the file; empty: not known
-    std::string values_name;       ///< of the values at the vertices; empty: there are none
-    std::string time_unit;         ///< of `ExportedStep::time`; empty: not known
+    std::string length_unit;       ///< unit of the coordinates in the file; empty: not known
+    std::string values_name;       ///< name of the values at the vertices; empty: there are none
+    std::string time_unit;         ///< unit of `ExportedStep::time`; empty: not known
     double unit_factor = 1;        ///< from the data's unit of length to that of the file
     double meters = 1;             ///< in a unit of length of the file; 1 where it is not known
     bool double_precision = false; ///< coordinates have 64 bits

@@ -7,7 +7,8 @@
 namespace isochron::index {
 namespace {
 
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963; // of the specification
+// Targets in the glTF specification.
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 } // namespace
 

@@ -45,7 +45,8 @@ class GlbViews {
     std::size_t end_plain(std::uint64_t begin);
     /// @param stride bytes from one vertex to the next
     std::size_t end_vertices(std::uint64_t begin, std::uint64_t stride);
-    /// Of triangles' corners, 32 bits each. @param vertices number of those that the corners are of
+    /// Ends a view of triangles' corners, 32 bits each. @param vertices how many vertices the
+    /// corners may name
     std::size_t end_triangles(std::uint64_t begin, std::size_t vertices);
 
     /// The bytes so far. Complete them before, so that a chunk of a file can end there.

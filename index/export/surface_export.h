@@ -51,7 +51,7 @@ struct ExportRequest {
 struct ExportCount {
     std::uint64_t cells = 0;
     std::uint64_t vertices = 0, triangles = 0; ///< 0 in formats of cells, for which no mesh is made
-    std::vector<std::uint32_t> empty_steps;    ///< in which no surface has a cell
+    std::vector<std::uint32_t> empty_steps;    ///< steps in which no surface has a cell
 };
 
 /// Meshes are made and written in pieces, by layers of chunks: memory holds some megabytes of a mesh,

@@ -41,7 +41,7 @@ struct SurfaceFormat {
     bool with_colors = true;     ///< has colors
     bool with_values = false;    ///< can hold values at the vertices
     bool with_doubles = false;   ///< can hold coordinates in double precision
-    bool of_cells = false;       ///< of cells, not of triangles
+    bool of_cells = false;       ///< holds cells, not triangles
     bool with_quantized = false; ///< can hold coordinates in fewer bits
     std::unique_ptr<SurfaceWriter> (*make)(const ExportPlan& plan,
                                            const std::filesystem::path& name);

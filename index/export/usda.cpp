@@ -153,7 +153,7 @@ class MeshSamples {
   private:
     static void put(std::string_view attribute, const std::string& about, Samples& samples,
                     BufferedSink& out) {
-        if (!about.empty()) // of an attribute, without a value
+        if (!about.empty()) // declares an attribute without a value
             out.text(fmt::format("        {} (\n            {}\n        )\n", attribute, about));
         out.text(fmt::format("        {}.timeSamples = {{\n", attribute));
         samples.copy_to(out);

@@ -54,7 +54,7 @@ class Sides {
     const BlockLevels& levels_;
     const std::size_t count_;
     std::array<float, kMostSurfaces> below_{}; ///< the last number below each level
-    std::vector<float> more_;                  ///< the same where there are more levels
+    std::vector<float> more_; ///< the last number below each level, where there are more levels
 };
 
 } // namespace

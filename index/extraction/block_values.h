@@ -57,7 +57,8 @@ class BlockValues {
     ValueType type_, held_;
     Scaling scaling_;
     KeyMap keys_;
-    double middle_ = 0, to_units_ = 1; ///< of values that are converted
+    /// How values are converted: their middle, and the factor to block units.
+    double middle_ = 0, to_units_ = 1;
     float factor_ = 1, range_ = 1;
 };
 

@@ -66,7 +66,7 @@ class BlockVertices {
 
     const VolumeBlocks& blocks_;
     BlockTiling tiling_;
-    std::optional<BlockId> id_; ///< of the last block that was looked up
+    std::optional<BlockId> id_; ///< the last block that was looked up
     const std::byte* bytes_ = nullptr;
 };
 

@@ -15,7 +15,7 @@
 namespace isochron::index {
 namespace {
 
-std::atomic<std::uint64_t> last_number = 0; ///< of an extraction
+std::atomic<std::uint64_t> last_number = 0; ///< number of the newest extraction
 
 class Extracting {
   public:
@@ -316,7 +316,7 @@ class Extracting {
     std::optional<SearchMethod> method_;
     Shading shading_;
     std::vector<SearchInto> searches_; ///< by surface
-    std::vector<SearchInto> counts_;   ///< likewise, of ids alone
+    std::vector<SearchInto> counts_;   ///< searches for ids alone, by surface
     BlockValues values_;
     BlockGatherer gatherer_;
     BlockValues blended_values_;

@@ -1,7 +1,7 @@
 // The result of one request: the active cells of its surfaces and the volume blocks around them.
 #pragma once
 
-#include "index/extraction/kept_cells.h"
+#include "index/extraction/joined_cells.h"
 #include "index/extraction/simplified_meshes.h"
 #include "index/extraction/surroundings.h"
 #include "index/extraction/volume_blocks.h"
@@ -18,13 +18,14 @@
 
 namespace isochron::index {
 
-/// What came and went from one extraction to the next. For meshes and blocks see these.
+/// Which cells came and went since an earlier extraction. Meshes and blocks know their own changes.
 struct ExtractionChange {
     std::uint64_t from = 0; ///< the number of that extraction; 0: nothing is known
     std::vector<SurfaceChange> surfaces = {};
 };
 
-/// Constant once published, but for the meshes that come later. Showing it needs nothing more of the file.
+/// Constant once published, but for the meshes that come later. Showing it needs nothing more of
+/// the file.
 struct Extraction {
     SurfacesQuery query;
     std::vector<CellSet> surfaces; ///< one for each isovalue; points and rows if asked for
@@ -35,8 +36,8 @@ struct Extraction {
     /// Where cells of the volume itself are colored by values: the fine color coordinates
     /// (cell_colors.h) at the eight vertices of each cell, in the same order.
     std::vector<std::uint16_t> corner_colors;
-    VolumeBlocks blocks;           ///< of the step, for all surfaces
-    SurroundingField surroundings; ///< of all surfaces; none where there are no cells
+    VolumeBlocks blocks;           ///< blocks of the step, for all surfaces
+    SurroundingField surroundings; ///< field of all surfaces; none where there are no cells
     /// The level of each region's cells (detail_regions.h). Empty: all cells are the volume's own.
     /// Else cells come as points only, as detail_regions.h has them, and without the volume around
     /// them.
@@ -50,7 +51,8 @@ struct Extraction {
     /// The worker puts them there if they were asked for.
     std::shared_ptr<LaterMeshes> later = std::make_shared<LaterMeshes>();
 
-    std::size_t cells() const; ///< of all surfaces: a cell that is active in two counts twice
+    /// Number of cells of all surfaces: a cell that is active in two counts twice.
+    std::size_t cells() const;
     bool coarse() const { return !detail.empty(); } ///< whether some cells are of coarser levels
     bool shaded() const; ///< whether every cell has its point, with its normal
     bool meshed() const; ///< whether it came with a mesh of every surface that has cells
@@ -87,7 +89,7 @@ class NewestIndex {
     std::shared_ptr<const IndexFile> file_;
 };
 
-/// The same as `extract_from`, at each call from the array that the query names of the index that
+/// Like `extract_from`, but at each call from the array that the query names of the index that
 /// `newest` holds.
 Extract extract_from_newest(std::shared_ptr<const NewestIndex> newest, Shading shading);
 

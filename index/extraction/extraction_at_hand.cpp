@@ -89,7 +89,7 @@ void ExtractionAtHand::look_at_colors() {
         staying_colors_.emplace(StepView(*chunks, query_.instant), earlier.instant, false);
 }
 
-/// Of the cells at hand. @param chunks share of the chunks that stay
+/// Whether enough of the cells at hand stays. @param chunks share of the chunks that stay
 bool ExtractionAtHand::enough_stays(double chunks) const {
     if (chunks >= kPlenty)
         return true;
@@ -144,7 +144,7 @@ bool ExtractionAtHand::pays(std::size_t cells) const {
     return static_cast<double>(inner) >= kLeastInner * static_cast<double>(cells);
 }
 
-/// Of a surface's cells that stay: notes those whose colors stay, too.
+/// Notes which of a surface's staying cells also keep their colors.
 void ExtractionAtHand::keep_colors(std::size_t surface, const CellSet& set) {
     std::vector<std::uint32_t>& places = colored_[surface] = places_[surface];
     CellWalk walk(file_->info().grid);

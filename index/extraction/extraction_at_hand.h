@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
-#include "index/extraction/kept_cells.h"
+#include "index/extraction/joined_cells.h"
 #include "index/extraction/surface_colors.h"
 #include "index/search/layer_search.h"
 #include "index/search/staying_cells.h"
@@ -81,14 +81,14 @@ class ExtractionAtHand {
     unsigned looks_ = 0;      ///< at the same step, one after the other
     std::optional<StepView> step_;
     std::optional<StayingCells> staying_; ///< none if nothing is taken over
-    /// Of the array to color by; none if no colors are taken over.
+    /// What stays of the array to color by; none if no colors are taken over.
     std::optional<StayingCells> staying_colors_;
-    CellMeshPtr mesh_;                ///< of the last surface that was found
-    CellsOfMesh cells_;               ///< of that mesh
+    CellMeshPtr mesh_;                ///< mesh of the last surface that was found
+    CellsOfMesh cells_;               ///< cells of that mesh
     std::vector<std::uint8_t> inner_; ///< EarlierMesh, of the surface that was found
-    /// By surface: EarlierMesh::places; empty where nothing is kept, or nobody asks.
+    /// EarlierMesh::places of each surface; empty where nothing is kept, or nobody asks.
     std::vector<std::vector<std::uint32_t>> places_;
-    /// Likewise EarlierMesh::colored, also without a mesh.
+    /// EarlierMesh::colored of each surface, also without a mesh.
     std::vector<std::vector<std::uint32_t>> colored_;
     std::size_t found_ = 0; ///< the last surface that was found
 };

@@ -84,7 +84,7 @@ struct Extractor::State {
     bool in_flux = false;         ///< the newest request is for other surfaces than the one before
     bool prefetch_done = false;   ///< the wanted prefetch need not be tried again
     bool abandoned = false;       ///< the last search was abandoned, so the next one is finished
-    Clock::duration last_took{0}; ///< of an answer that was found
+    Clock::duration last_took{0}; ///< how long the last answer that was found took
     std::uint64_t times_forgotten = 0;
     std::optional<Job> running;
     RecentExtractions recent;
@@ -150,7 +150,7 @@ void Extractor::State::add_meshes(const ExtractionPtr& set, std::unique_lock<std
     lock.lock();
 }
 
-/// The same cells are extracted anew with a mesh where they came without one: most of what the search
+/// Extracts the cells once more with a mesh where they came without one: most of what the search
 /// and the reading need is still there.
 /// @return null: stopped, or there are none
 SimplifiedMeshesPtr Extractor::State::meshes_of(const ExtractionPtr& set, std::uint64_t room,

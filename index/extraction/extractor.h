@@ -35,9 +35,9 @@ struct Request {
     bool before_meshes = false;
 };
 
-/// Whether a search has come so far that it is finished although something else is asked for: that
-/// is done hardly later then. Not where the last search is no measure, as it was short, or this one
-/// takes far longer.
+/// Whether a search is finished although a newer request waits: it has come so far that this delays
+/// the newer one little. False where the last search was too short to be a measure, or where this
+/// one takes far longer.
 /// @param since_start of the search @param last_took time of the last search that found something
 bool is_worth_finishing(std::chrono::nanoseconds since_start, std::chrono::nanoseconds last_took);
 

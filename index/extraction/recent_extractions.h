@@ -18,12 +18,14 @@ bool same_but_for_step(const SurfacesQuery& a, const SurfacesQuery& b);
 
 /// The next steps of a playback, in order, each once.
 struct StepsAhead {
-    std::uint32_t next = 0;  ///< the first of them, counted among the steps that are played
-    std::uint32_t steps = 0; ///< that are played, in which playback loops; 0: `next` only
+    std::uint32_t next = 0; ///< the first of them, counted among the steps that are played
+    /// Number of steps that are played, in which playback loops; 0: `next` only.
+    std::uint32_t steps = 0;
     bool reverse = false;
     bool to_and_fro =
         false; ///< playback turns at both ends instead; the step before `next` is shown
-    std::uint32_t first = 0, every = 1; ///< of the series, those that are played
+    /// Steps of the series that are played: from `first` on, every so manieth.
+    std::uint32_t first = 0, every = 1;
     bool operator==(const StepsAhead&) const = default;
 
     std::uint32_t count() const { return steps == 0 ? 1 : steps - 1; }

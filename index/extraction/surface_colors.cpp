@@ -62,7 +62,7 @@ bool SurfaceColors::fill_others(const StepView& step, const CellSet& surface,
                                 const std::stop_token& stop) {
     CellSet others;
     others.query = surface.query;
-    std::vector<std::uint32_t> places; // of the others in the surface
+    std::vector<std::uint32_t> places; // where the other cells are in the surface
     for (std::uint32_t i = 0; i < surface.ids.size(); ++i) {
         if (earlier.places[i] == EarlierMesh::kNone) {
             others.ids.push_back(surface.ids[i]);

@@ -17,12 +17,13 @@ namespace isochron::index {
 /// Colors by value of an earlier extraction, some of which stay.
 struct KnownColors {
     struct Surface {
-        /// Of each cell: its place in the earlier surface, or EarlierMesh::kNone where its colors may
+        /// Each cell's place in the earlier surface, or EarlierMesh::kNone where its colors may
         /// have changed; empty: none is kept.
         std::span<const std::uint32_t> places;
         std::size_t first = 0; ///< place of the earlier surface's first cell among all cells
     };
-    std::span<const std::uint16_t> colors, corners; ///< of all surfaces; empty: nothing is known
+    /// Colors of all surfaces; empty: nothing is known.
+    std::span<const std::uint16_t> colors, corners;
     std::vector<Surface> surfaces = {};
 };
 
@@ -58,7 +59,7 @@ class SurfaceColors {
     std::shared_ptr<const IndexFile> file_;
     std::optional<SearchMethod> method_;
     LayerSearch layers_;
-    std::vector<FirstCrossingsPtr> crossings_; ///< of the last query's isovalues
+    std::vector<FirstCrossingsPtr> crossings_; ///< first crossings of the last query's isovalues
 };
 
 } // namespace isochron::index

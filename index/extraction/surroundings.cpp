@@ -96,7 +96,7 @@ class Blur {
         sum_of<std::uint16_t>({first, first + 1, first + 2, first + 3, first + 4},
                               from.size() - 2 * kHalf, to.data() + kHalf);
     }
-    /// Of at most 5^6: 255 / 5^6 of it, rounded.
+    /// Scales sums of at most 5^6 to 255 / 5^6 of them, rounded.
     static void scale(const std::uint16_t* sums, std::size_t lanes, std::uint8_t* __restrict to) {
         constexpr std::uint32_t kFactor = (255u << 23) / 62500u + 1;
         for (std::size_t i = 0; i < lanes; ++i) {

@@ -10,7 +10,8 @@
 
 namespace isochron::index {
 
-/// The same as `value_at`. In a large step it reads only the chunks around the place.
+/// What `value_at` returns, for a step of an index. In a large step it reads only the chunks around
+/// the place.
 /// @throws Error when they cannot be read or are damaged
 std::optional<double> value_in(const IndexFile& file, Instant instant, const glm::dvec3& at);
 

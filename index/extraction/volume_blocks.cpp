@@ -27,7 +27,7 @@ constexpr std::uint64_t kSpare = 1 << 20;
 std::array<std::uint32_t, 2> inner(std::uint32_t cell) {
     return {cell / kBlockEdge, (cell + 1) / kBlockEdge};
 }
-/// The same for the vertices and their outer neighbors.
+/// The blocks of a cell's vertices and their outer neighbors.
 std::array<std::uint32_t, 2> outer(std::uint32_t cell, std::uint32_t vertices) {
     return {(cell == 0 ? 0 : cell - 1) / kBlockEdge, std::min(cell + 2, vertices - 1) / kBlockEdge};
 }

@@ -44,14 +44,14 @@ struct BlockMemory {
 
 /// Some blocks of one step.
 struct VolumeBlocks {
-    ValueType held = ValueType::f32;  ///< of the values in `bytes`
+    ValueType held = ValueType::f32;  ///< type of the values in `bytes`
     float factor = 1;                 ///< see BlockValues
     float range = 1;                  ///< width of the data set's range, in block units
     std::vector<BlockId> ids;         ///< ascending
     std::vector<BlockDigest> digests; ///< in the same order: a block with the same id and digest
                                       ///< need not be uploaded again
-    std::vector<const std::byte*> places; ///< same order: where the bytes of each are
-    std::vector<BlockMemory> memory;      ///< in which all of them are
+    std::vector<const std::byte*> places; ///< in the same order: where the bytes of each block are
+    std::vector<BlockMemory> memory;      ///< the memory in which the bytes are
 
     std::size_t block_bytes() const { return kBlockVertices * size_of(held); }
     std::uint64_t bytes() const { return std::uint64_t{ids.size()} * block_bytes(); }
@@ -61,7 +61,7 @@ struct VolumeBlocks {
     std::vector<std::byte> joined() const;
 };
 
-/// Blocks that are there already: those of chunks that stay.
+/// Blocks of an earlier extraction, and which chunks stay: the blocks in these are taken over.
 struct KnownBlocks {
     const VolumeBlocks* blocks = nullptr;
     const StayingCells* staying = nullptr;
@@ -73,7 +73,7 @@ class BlockGatherer {
   public:
     BlockGatherer(const Grid& grid, const BlockValues& values);
 
-    /// The result of `gather` if nothing is marked.
+    /// What `gather` gives if no block is marked.
     VolumeBlocks none() const;
     /// Marks the blocks that a set's cells need. @param set with points, if the grid has wide ids
     void need(const CellSet& set);
@@ -84,9 +84,9 @@ class BlockGatherer {
     /// @throws Error as ChunkStore does
     bool gather(const StepView& step, const BlockLevels& levels, VolumeBlocks& blocks,
                 const std::stop_token& stop = {}, const KnownBlocks& known = {});
-    /// Whether blocks of other isovalues are the same.
+    /// Whether a step has the same blocks for all isovalues.
     bool without_levels() const { return values_.stored() == values_.held(); }
-    /// The same from values in memory.
+    /// Gathers the blocks from values in memory.
     bool gather(const StepValues& step, Instant at, const BlockLevels& levels, VolumeBlocks& blocks,
                 const std::stop_token& stop = {});
 
@@ -97,10 +97,10 @@ class BlockGatherer {
     void mark_row(std::uint32_t y, std::uint32_t z);
     std::array<std::uint32_t, 3> at(BlockId block) const;
     void take_marked(VolumeBlocks& blocks);
-    /// Memory for blocks that are to be copied, one after the other.
+    /// Memory for the blocks that are copied, one after the other.
     struct Room {
         std::byte* first = nullptr;
-        std::vector<std::uint32_t> others; ///< their places among all blocks
+        std::vector<std::uint32_t> others; ///< places of the copied blocks among all blocks
     };
     Room take_known(const KnownBlocks& known, const ChunkGrid* chunks, VolumeBlocks& blocks) const;
     bool gather_whole(const StepValues& step, Instant at_step, const BlockLevels& levels,
@@ -114,9 +114,10 @@ class BlockGatherer {
     Grid grid_;
     BlockTiling tiling_;
     BlockValues values_;
-    std::size_t row_words_;                            ///< of 64 bits, for the blocks along x
-    std::vector<std::uint64_t> needed_;                ///< rows of blocks, a bit for each block
-    std::vector<std::uint64_t> row_inner_, row_outer_; ///< of a row of cells, by block along x
+    std::size_t row_words_;             ///< words of 64 bits in a row of blocks along x
+    std::vector<std::uint64_t> needed_; ///< rows of blocks, a bit for each block
+    /// Bits of the blocks along x that a row of cells needs.
+    std::vector<std::uint64_t> row_inner_, row_outer_;
 };
 
 } // namespace isochron::index

@@ -14,7 +14,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr std::uint64_t kKeptBytes = 128 << 20; ///< of blended chunks
+constexpr std::uint64_t kKeptBytes = 128 << 20; ///< most kept of blended chunks
 constexpr std::size_t kRanks = LevelMap::kMaxLevels;
 
 /// The scaled values of a stored one, which may be infinite: in between, these are missing.
@@ -60,7 +60,8 @@ struct Thresholds {
     std::vector<double> scaled;
     std::vector<std::uint64_t> ordinals;
 
-    /// Those between which the blends' ranks lie. @param isovalues empty: the thresholds of `levels`
+    /// The thresholds between which the blends' ranks lie. @param isovalues empty: the thresholds
+    /// of `levels`
     Thresholds(const LevelMap& levels, const Scaling& scaling, const Blend& blend,
                std::span<const double> isovalues) {
         std::vector<double> all(isovalues.begin(), isovalues.end());
@@ -78,7 +79,7 @@ struct Thresholds {
     }
 };
 
-/// Of a few thresholds: by where each is reached. @param now, next ascend
+/// A table of a few thresholds: by where each is reached. @param now, next ascend
 std::vector<std::uint8_t> table_of_few(std::span<const double> now, std::span<const double> next,
                                        std::uint32_t n, std::span<const double> thresholds) {
     std::vector<std::uint8_t> table(kRanks * kRanks);
@@ -108,7 +109,7 @@ std::vector<std::uint8_t> table_of(std::span<const double> now, std::span<const 
         std::fill_n(same.begin(), next.size(), now[i]);
         blend(std::as_bytes(std::span(same).first(next.size())), std::as_bytes(next),
               reinterpret_cast<std::byte*>(row.data()));
-        std::size_t rank = 0; // of the value before, from which the next one is not far
+        std::size_t rank = 0; // rank of the value before, from which the next one is not far
         for (std::size_t k = 0; k < next.size(); ++k) {
             while (rank < thresholds.size() && thresholds[rank] <= row[k])
                 ++rank;
@@ -128,7 +129,7 @@ struct BlendedChunk : Chunk {
     BlendedChunk& operator=(const BlendedChunk&) = delete;
 
     std::shared_ptr<SpareMemory> spare;
-    SpareMemory::Doubles memory; ///< of doubles, for its alignment
+    SpareMemory::Doubles memory; ///< memory in doubles, for their alignment
 };
 
 } // namespace

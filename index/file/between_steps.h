@@ -34,7 +34,7 @@ class BlendedRanks {
                std::span<const std::uint8_t> low_next,
                std::span<const std::uint8_t> high_next) const;
     std::uint64_t bytes() const;
-    /// Those of a moment of a store, which keeps the last ones for any isovalues. @throws as
+    /// The ranks of a moment of a store, which keeps the last ones for any isovalues. @throws as
     /// ChunkStore does
     static std::shared_ptr<const BlendedRanks> of(const ChunkStore& store, Instant at,
                                                   const Blend& blend);
@@ -64,7 +64,7 @@ class BetweenSteps {
     ChunkLayerPtr layer(std::uint32_t layer) const;
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                  const std::stop_token& stop) const;
-    /// Likewise, each a ChunkPair.
+    /// The chunks at both steps, each a ChunkPair.
     std::vector<ChunkPtr> pairs(std::uint32_t layer, std::span<const std::uint32_t> places,
                                 const std::stop_token& stop) const;
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const;

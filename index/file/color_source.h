@@ -28,8 +28,8 @@ class ColorSource {
     const ColorArray& array() const { return array_; }
     /// Its chunks at a level of detail; null if the index refers to its sources and has none there.
     const ChunkStore* chunks(std::size_t level = 0) const;
-    /// The same step of this array, whole or in chunks of the same level of detail, as the step of
-    /// the surfaces is. @param surfaces by chunks: there are chunks at its level
+    /// This array at the step of the surfaces, whole or in chunks of the same level of detail as
+    /// that step is. @param surfaces by chunks: there are chunks at its level
     StepView step(const StepView& surfaces) const;
 
   private:

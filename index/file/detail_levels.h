@@ -63,8 +63,8 @@ class Coarsener {
     struct Work {
         std::array<std::uint32_t, 3> from{}, to{}; ///< vertices of this level and the next
         std::array<Plane, 3> planes;
-        std::vector<std::uint64_t> rows;            ///< of a plane, reduced along x
-        std::vector<std::uint64_t> values, weights; ///< of a row
+        std::vector<std::uint64_t> rows;            ///< rows of a plane, reduced along x
+        std::vector<std::uint64_t> values, weights; ///< sums of a row
     };
 
   private:

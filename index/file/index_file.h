@@ -159,7 +159,7 @@ class IndexFile {
     std::shared_ptr<ByteCache> cache_;
     FileHeader header_;
     Metadata metadata_;
-    std::uint32_t number_ = 0; ///< of the array
+    std::uint32_t number_ = 0; ///< number of the array
     std::vector<StepEntry> step_entries_;
     std::size_t details_ = 0; ///< levels of detail, the volume itself included
     std::vector<std::uint64_t> checksums_;

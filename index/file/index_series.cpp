@@ -73,7 +73,7 @@ class IndexSeries final : public VolumeSeries {
 
     const SeriesInfo& info() const override { return info_; }
     const std::optional<ColorArray>& color() const { return color_; }
-    /// Of the arrays with search structures.
+    /// Names of the arrays with search structures.
     const std::vector<std::string>& names() const { return names_; }
 
     /// Chooses between the arrays and the colors.

@@ -25,7 +25,7 @@ std::shared_ptr<const IndexFile> grown(const std::filesystem::path& path, const 
 class GrowthLook {
   public:
     explicit GrowthLook(std::filesystem::path path) : path_(std::move(path)) {}
-    /// The same as `grown`.
+    /// Looks like `grown`.
     std::shared_ptr<const IndexFile> look(const IndexFile& known);
 
   private:
@@ -50,7 +50,7 @@ class IndexWatch {
   private:
     void watch(const std::stop_token& stop);
 
-    GrowthLook look_; ///< of the thread alone
+    GrowthLook look_; ///< used by the thread alone
     std::function<void()> wake_;
     std::mutex mutex_;
     std::condition_variable_any changed_;

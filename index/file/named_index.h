@@ -1,4 +1,5 @@
-// What a user names, an index, its arrays and its steps, and one line for each that is not there.
+// Opens the index, the arrays and the steps that a user names. An error says in one line what is
+// not there.
 #pragma once
 
 #include "index/file/index_file.h"

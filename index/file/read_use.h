@@ -5,7 +5,7 @@
 
 namespace isochron::index {
 
-/// Since the index was opened.
+/// What was read since the index was opened.
 struct ReadUse {
     std::uint64_t bytes = 0;            ///< read from the file
     std::uint64_t hits = 0, misses = 0; ///< requests that the cache had, or that had to be read

@@ -32,7 +32,7 @@ class StepView {
         const Grid* grid;
         ValueType type;
         Scaling scaling;
-        std::size_t steps; ///< of the series
+        std::size_t steps; ///< steps of the series
     };
     using Load = std::function<LoadedStep(std::uint32_t step, const std::stop_token& stop)>;
     /// By chunks. @param store of the array at a level of detail; outlives the view
@@ -50,7 +50,7 @@ class StepView {
     ValueType type() const { return kind_.type; }
     const Scaling& scaling() const { return kind_.scaling; }
     std::size_t steps() const { return kind_.steps; }
-    std::size_t level() const { return level_; } ///< of detail
+    std::size_t level() const { return level_; } ///< level of detail
     /// The stored value at which `scaled >= isovalue` changes (index/volume/stored_cut.h).
     std::optional<std::uint64_t> stored_cut(double isovalue) const;
 
@@ -70,7 +70,7 @@ class StepView {
     ChunkLayerPtr layer(std::uint32_t layer) const {
         return between_ ? between_->layer(layer) : store_->layer(at_.step, layer);
     }
-    /// Of a step that is worked on as a whole, they are cut out of it.
+    /// Chunks of a layer; where the step is worked on as a whole, they are cut out of it.
     std::vector<ChunkPtr> chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                  const std::stop_token& stop) const {
         if (!by_chunks())
@@ -78,13 +78,14 @@ class StepView {
         return between_ ? between_->chunks(layer, places, stop)
                         : store_->chunks(at_.step, layer, places, stop);
     }
-    /// For a ChunkCube, by chunks: between two steps pairs, of which it blends what it needs.
+    /// What a ChunkCube takes, by chunks: between two steps, pairs of chunks, of which the cube
+    /// blends what it needs.
     std::vector<ChunkPtr> cube_chunks(std::uint32_t layer, std::span<const std::uint32_t> places,
                                       const std::stop_token& stop) const {
         return between_ ? between_->pairs(layer, places, stop)
                         : store_->chunks(at_.step, layer, places, stop);
     }
-    /// Of these pairs; null at a step.
+    /// The blend of these pairs; null at a step.
     const Blend* cube_blend() const { return between_ ? &*blend_ : nullptr; }
     std::uint64_t expect(std::uint32_t layer, std::span<const std::uint32_t> places) const {
         if (!by_chunks())
@@ -120,7 +121,7 @@ class StepView {
 /// A step of the volume: whole where that is faster than work on the needed chunks alone.
 /// @param file outlives the view @param isovalues as of StepView
 StepView step_of(const IndexFile& file, Instant at, std::span<const double> isovalues = {});
-/// The same for work on a part of its cells: by chunks unless it is in memory as a whole.
+/// The step for work on a part of its cells: by chunks unless it is in memory as a whole.
 StepView part_of_step(const IndexFile& file, Instant at);
 /// By chunks, at a level of detail.
 StepView step_in_chunks(const IndexFile& file, Instant at, std::size_t level = 0,

@@ -33,7 +33,7 @@ AxisSpread spread_of(const std::vector<double>& at, const std::string& label,
         std::max(kOfSpacing * std::abs(step),
                  kOfCoordinates * std::max(std::abs(first), std::abs(at.back())));
     spread.uneven = off > rounding;
-    constexpr double kWorthANote = 0.02; // of the spacing; Gaussian latitudes stay below
+    constexpr double kWorthANote = 0.02; // share of the spacing; Gaussian latitudes stay below
     if (off > kWorthANote * std::abs(step))
         spread.note = fmt::format("{} is not uniform: vertices {:.4g} to {:.4g}{} apart", label,
                                   least, most, unit.empty() ? "" : " " + unit);

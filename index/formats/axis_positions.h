@@ -10,7 +10,7 @@
 
 namespace isochron::index {
 
-/// Vertices along an axis.
+/// How the vertices along an axis are spread.
 struct AxisSpread {
     double first = 0;    ///< coordinate of the first vertex
     double step = 1;     ///< mean distance to the next; negative if coordinates decrease

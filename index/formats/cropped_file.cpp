@@ -45,7 +45,7 @@ class CroppedFile final : public VolumeFile {
         const std::uint64_t end =
             (std::uint64_t{part_.last[2]} * all[1] + part_.last[1] + 1) * row; // last byte needed
         std::vector<std::byte> rest, slice;
-        std::uint64_t number = 0; // of the row that begins in `rest`
+        std::uint64_t number = 0; // number of the row that begins in `rest`
         std::uint64_t seen = 0;
         try {
             whole_->stream(step, [&](std::span<const std::byte> piece) {

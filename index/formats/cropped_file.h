@@ -28,7 +28,7 @@ std::string note_on_part(const Grid& whole, const VolumePart& part);
 void take_part(std::span<const std::byte> all, const Grid& whole, const VolumePart& part,
                std::size_t size, std::span<std::byte> out);
 
-/// Makes a description that of the part which `crop` names; its stride is left to others.
+/// Changes a description to that of the part which `crop` names; `stride` is left to others.
 /// @return the part; none: there is no `crop`
 std::optional<VolumePart> crop_description(SeriesInfo& info, const ReadOptions& options,
                                            const std::string& file);

@@ -68,7 +68,7 @@ class JoinedData final : public DataStream {
     std::vector<DataPart> parts_;
     std::uint64_t each_;
     Compression compression_;
-    std::unique_ptr<DataStream> stream_; ///< of one part
+    std::unique_ptr<DataStream> stream_; ///< stream of one part
     std::size_t open_ = 0;
 };
 

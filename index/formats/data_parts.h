@@ -11,7 +11,7 @@ namespace isochron::index {
 /// One of several files with values.
 struct DataPart {
     std::filesystem::path path;
-    std::uint64_t offset = 0; ///< of its first (compressed) byte
+    std::uint64_t offset = 0; ///< where its first (compressed) byte is
     std::uint64_t skip = 0;   ///< decompressed bytes before its first value
 };
 

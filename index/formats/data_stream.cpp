@@ -60,7 +60,8 @@ class Deflate {
 
     /// Whether the last stream has ended and no other has begun.
     bool ended() const { return ended_; }
-    static bool begins_with(char first) { return first == '\x1f'; } ///< of a gzip member
+    /// Whether a gzip member begins so.
+    static bool begins_with(char first) { return first == '\x1f'; }
 
     /// Consumes from `in`, fills from the front of `out`. @return false when the data are damaged
     bool step(std::span<char>& in, std::span<std::byte>& out) {

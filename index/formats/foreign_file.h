@@ -11,7 +11,7 @@ namespace isochron::index {
 /// @throws Error in one line that names the file
 std::unique_ptr<VolumeFile> open_in_format(const Format& format, const std::filesystem::path& path,
                                            const ReadOptions& options);
-/// The same as a function of the file.
+/// `open_in_format` as a function of the file.
 OpenVolumeFile opener_of(const Format& format);
 
 /// Opens a file of a format that a reader decodes.

@@ -1,4 +1,4 @@
-// A format of files: the one record that everybody asks who has a file's name.
+// The record of a file format. Everything that depends on a file's format is asked of this record.
 //
 //     const KnownFile file = known_file("run/t_0030.vti");
 //     if (file.format)
@@ -93,9 +93,9 @@ std::filesystem::path described_folder(const std::filesystem::path& file);
 /// What a name stands for.
 struct KnownFile {
     std::filesystem::path given;
-    std::filesystem::path path;     ///< of a folder that a file in it describes, this file
+    std::filesystem::path path;     ///< for a folder that a file in it describes: this file
     const Format* format = nullptr; ///< null: unknown, or it cannot be read
-    const NameEnd* end = nullptr;   ///< of its name; null: its content told
+    const NameEnd* end = nullptr;   ///< ending of its name; null: its content told
 };
 
 /// Asks the formats for a file, by the end of its name in upper or lower case, and then by its first

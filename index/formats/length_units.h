@@ -17,10 +17,10 @@ std::optional<double> meters_in(std::string_view unit);
 /// The sign that is shown for a unit: `um` of `microns`; others as they are, none of `pixel`.
 std::string tidy_length_unit(const std::string& unit);
 
-/// What turns lengths in units of their own into lengths in one.
+/// Factors that turn lengths with a unit for each axis into lengths with one unit.
 struct OneLengthUnit {
-    std::string unit;               ///< that of the first axis that has any
-    glm::dvec3 factor{1.0};         ///< of each axis
+    std::string unit;               ///< unit of the first axis that has any
+    glm::dvec3 factor{1.0};         ///< factor of each axis to this unit
     std::vector<std::string> notes; ///< one sentence, where units differ
 };
 

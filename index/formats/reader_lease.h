@@ -123,7 +123,7 @@ class ReaderLease {
     ReaderPool& pool_;
     std::string program_;
     std::filesystem::path path_;
-    std::uint64_t number_; ///< of this lease
+    std::uint64_t number_; ///< number of this lease
     std::shared_ptr<LentReader> lent_;
 };
 

@@ -123,7 +123,7 @@ class StackedComponents final : public VolumeFile {
     }
 
     ChosenScalar chosen_;
-    std::size_t steps_;                ///< of each component
+    std::size_t steps_;                ///< steps that each component has
     std::unique_ptr<VolumeFile> file_; ///< all steps of each component, one after the other
     SeriesInfo info_;
 };

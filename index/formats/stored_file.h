@@ -12,9 +12,9 @@ struct StoredLayout {
     std::filesystem::path data; ///< may be the header's own file
     /// The files with the values, in their order, if there are several: each has the same share.
     std::vector<DataPart> parts = {};
-    std::uint64_t offset = 0; ///< of the first (compressed) byte; if the whole file is
-                              ///< compressed, see `skip`
-    std::uint64_t skip = 0;   ///< decompressed bytes before the first value
+    /// Where the first (compressed) byte is; see `skip` where the whole file is compressed.
+    std::uint64_t offset = 0;
+    std::uint64_t skip = 0; ///< decompressed bytes before the first value
     Compression compression = Compression::none;
     bool ascii = false; ///< numbers as text, separated by blanks or commas
     bool big_endian = false;
@@ -49,7 +49,7 @@ void expect_measurable(const Grid& grid, const ReadOptions& options);
 /// @throws Error naming the file: fewer than 2 vertices along an axis, or more than 65,537
 void check_grid(const Grid& grid, const std::string& file);
 
-/// The same for sizes that may not even fit a grid. @return the grid's vertices
+/// Checks sizes that may not even fit a grid. @return the grid's vertices
 std::array<std::uint32_t, 3> checked_vertices(const std::array<std::int64_t, 3>& sizes,
                                               const std::string& file);
 

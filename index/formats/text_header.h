@@ -30,7 +30,7 @@ std::string excerpt(std::string_view text);
 double number_of(std::string_view word, const std::string& key, const std::string& file);
 std::vector<double> numbers_of(std::string_view text, const std::string& key,
                                const std::string& file);
-/// The same for whole numbers that fit 64 bits.
+/// Reads whole numbers that fit 64 bits.
 std::vector<std::int64_t> integers_of(std::string_view text, const std::string& key,
                                       const std::string& file);
 

@@ -1,4 +1,4 @@
-// What users are told of fields that a file states and that nothing is done with.
+// The note for users about fields that a file states and the program does not use.
 #pragma once
 
 #include <map>

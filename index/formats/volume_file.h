@@ -24,9 +24,9 @@ class VolumeFile {
     /// Other files with its values, such as the .raw of a .mhd.
     virtual std::vector<std::filesystem::path> beside() const { return {}; }
 
-    /// The same as `VolumeSeries::read`, for a step of this file.
+    /// What `VolumeSeries::read` does, for a step of this file.
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
-    /// The same as `VolumeSeries::stream`, for a step of this file.
+    /// What `VolumeSeries::stream` does, for a step of this file.
     virtual void stream(std::size_t step, const TakePiece& take) = 0;
 
     /// Whether `read_at` reads no more than it is asked for.

@@ -14,7 +14,7 @@ namespace isochron::index {
 std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
                                         const std::string& name, std::unique_ptr<VolumeSeries> all);
 
-/// The same for the array to color by. @param all null when none is asked for
+/// The series of the array to color by. @param all null when none is asked for
 /// @throws Error naming the index when it has another array, only one of index and `all` has one,
 ///         or a source has changed
 std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> index,

@@ -214,7 +214,7 @@ class ArrayBuild::Work {
     VolumeSeries& series_;
     const std::filesystem::path& out_;
     const BuildOptions& options_;
-    std::size_t number_; ///< of the array in the index
+    std::size_t number_; ///< number of the array in the index
     Team& team_;
     unsigned threads_;
     BuildTarget& target_;
@@ -230,7 +230,7 @@ class ArrayBuild::Work {
     ValueCounts counts_;
     std::uint64_t held_stay_ = 0; ///< of the held chunk-steps, are as in the step before
     ArrayTables tables_;
-    std::uint64_t end_ = 0; ///< of what has been written
+    std::uint64_t end_ = 0; ///< end of what has been written
 };
 
 ArrayBuild::ArrayBuild(VolumeSeries& series, const std::filesystem::path& out,

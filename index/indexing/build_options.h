@@ -16,7 +16,7 @@ namespace isochron::index {
 
 /// An array of an index besides its first.
 struct FurtherArray {
-    VolumeSeries* series = nullptr; ///< of the same files; outlives the build
+    VolumeSeries* series = nullptr; ///< a series of the same files; outlives the build
     /// The options that select it in the files.
     std::optional<std::string> array = {}, component = {};
     std::optional<TierPlan> plan = {}; ///< as BuildOptions::plan

@@ -13,8 +13,8 @@ std::uint32_t unknown_of(std::size_t begin) {
     return static_cast<std::uint32_t>(begin - 1);
 }
 
-/// Of the step before a member's first one. @param told by each member: where it begins, then
-/// StepWriter::since
+/// History of the step before a member's first one. @param told by each member: where it begins,
+/// then StepWriter::since
 std::vector<std::uint32_t> since_before(const std::vector<std::vector<std::uint32_t>>& told,
                                         std::size_t fresh, unsigned rank) {
     std::vector<std::uint32_t> since;

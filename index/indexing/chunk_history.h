@@ -1,5 +1,5 @@
-// Since when chunks have stayed, where a build begins in the middle of a series: after the steps of an
-// index that grows, or of the members of a team before this one.
+// The steps since which chunks have stayed, for a build that begins in the middle of a series:
+// after the steps of an index that grows, or after those of earlier members of a team.
 #pragma once
 
 #include "index/file/index_file.h"
@@ -20,7 +20,7 @@ struct MemberSteps {
     std::size_t begin = 0, end = 0;
 };
 
-/// Of the last step that an index holds, as StepWriter::since has it.
+/// History of the last step that an index holds, as StepWriter::since has it.
 /// @param colors of the array to color by, else of the volume
 std::vector<std::uint32_t> held_since(const IndexFile& held, bool colors);
 

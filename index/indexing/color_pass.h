@@ -23,7 +23,7 @@ void expect_colors_of(const SeriesInfo& colors, const SeriesInfo& volume);
 struct ColorFindings {
     ColorArray array; ///< `chosen_*` are left empty
     std::vector<StepEntry> steps;
-    std::vector<std::uint64_t> checksums; ///< of the stored values of every step
+    std::vector<std::uint64_t> checksums; ///< checksums of the stored values of every step
 };
 
 /// Takes a member's share of the new steps, and packs their values if its contents have values.
@@ -36,7 +36,7 @@ class ColorPass {
 
     VolumeSeries& series() { return series_; }
     StepWriter& writer() { return writer_; }
-    /// Of the held chunks: see StepWriter::since.
+    /// History of the held chunks: see StepWriter::since.
     std::span<const std::uint32_t> held_since() const { return held_since_; }
     void hold_since(std::vector<std::uint32_t> since) { held_since_ = std::move(since); }
     void settle(const MemberSteps& steps, PartWriter& parts, Team& team) {

@@ -171,7 +171,7 @@ void measure(ArraySections& array, const ByteSource& written, std::uint32_t vers
                       .has_bricks = metadata.plan.tiers.has(Tier::bricks),
                       .has_values = !metadata.referral,
                       .has_since = version > kVersionWithoutSince};
-    volume.steps.resize(metadata.info.steps()); // those of the volume itself come first
+    volume.steps.resize(metadata.info.steps()); // steps of the volume itself come first
     try {
         ByteCache cache(kCache);
         const ChunkStore store(written, cache, std::move(volume));

@@ -74,7 +74,7 @@ void stream_layers(std::span<VolumeSeries* const> arrays, std::size_t begin, std
                    unsigned threads, const TakeLayer& take,
                    const std::function<void(double)>& progress) {
     std::deque<LayerCutter> cutters;
-    std::size_t all_bytes = 0; // of a step
+    std::size_t all_bytes = 0; // bytes of a step
     for (const VolumeSeries* array : arrays) {
         cutters.emplace_back(array->info().grid, array->info().type);
         all_bytes += array->info().step_bytes();
@@ -88,7 +88,7 @@ void stream_layers(std::span<VolumeSeries* const> arrays, std::size_t begin, std
             taking.get();
     };
     for (std::size_t step = begin; step < end; ++step) {
-        std::size_t bytes_before = 0; // of the step's arrays before this one
+        std::size_t bytes_before = 0; // bytes of the step's arrays before this one
         const auto report = [&](std::size_t bytes) {
             const double done =
                 static_cast<double>(bytes_before + bytes) / static_cast<double>(all_bytes);

@@ -35,8 +35,8 @@ class PartWriter {
 
     /// Where the parts of a member lie.
     struct Placed {
-        std::uint64_t start = 0; ///< of this member's parts, from `offset`
-        std::uint64_t bytes = 0; ///< of all members' parts
+        std::uint64_t start = 0; ///< where this member's parts begin, from `offset`
+        std::uint64_t bytes = 0; ///< size of all members' parts
     };
     Placed place(Team& team);
 

@@ -13,7 +13,7 @@ namespace isochron::index {
 /// The contents of an array's sections.
 struct ArraySections {
     std::uint64_t content_hash = 0;
-    Section tree; ///< which is in the file already
+    Section tree; ///< the tree's section, which is in the file already
     std::vector<StepEntry> steps;
     std::vector<std::uint64_t> checksums;
     Metadata metadata; ///< its list of further arrays is filled in here

@@ -5,7 +5,7 @@
 #include "index/file/chunks/layer_packer.h"
 #include "index/file/detail_levels.h"
 #include "index/indexing/layer_stream.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "index/indexing/part_writer.h"
 #include "index/indexing/plane_store.h"
 
@@ -22,7 +22,8 @@ namespace isochron::index {
 /// The contents of an array's chunks.
 struct ChunkContents {
     bool bricks = true;
-    bool values = true; ///< of the steps themselves; their levels of detail always have values
+    /// Has values of the steps themselves; their levels of detail always have values.
+    bool values = true;
     Codec codec = Codec::fitting;
     bool since = true;     ///< tables say since when chunks have stayed: not in files of version 3
     bool wide_rows = true; ///< packed rows for values of several bytes: not up to version 4
@@ -51,15 +52,16 @@ class StepWriter {
 
     /// Sets the number of the next step that is looked at or taken.
     void begin_at(std::uint32_t step);
-    /// Takes the next layer of the step before the first: only to see what stays.
+    /// Looks at the next layer of the step before the first one that is written, to see which
+    /// chunks stay.
     void look(const LayerView& layer);
-    /// Of the last step, level after level: the steps since which its chunks have stayed.
+    /// For each chunk of the last step, level after level, the step since which it has stayed.
     std::vector<std::uint32_t> since() const;
     void set_since(std::span<const std::uint32_t> since);
     /// Number of chunk-steps of the finest level that were as in the step before.
     std::uint64_t stayed() const { return levels_.front().packer.stayed(); }
-    /// Where the table of a layer lies. Calls `f(begin, chunks, first)` for each layer of a level:
-    /// offset from the step's first byte, number of chunks, and place in `since` of its first one.
+    /// Calls `f(begin, chunks, first)` for the table of each layer of a level: its offset from the
+    /// step's first byte, its number of chunks, and where in `since` its first chunk is.
     using TablePlace =
         std::function<void(std::uint64_t begin, std::uint32_t chunks, std::size_t first)>;
     void for_each_table(std::size_t level, const StepEntry& entry, const TablePlace& f) const;
@@ -77,7 +79,7 @@ class StepWriter {
         /// Chooses the levels for its bricks, if they depend on the values.
         LevelChooser chooser;
         std::optional<LevelMap> map;
-        std::optional<LevelMap::Extremes> extremes; ///< of the values so far
+        std::optional<LevelMap::Extremes> extremes; ///< extremes of the values so far
         PlaneStore waiting;                         ///< planes that cannot be packed yet
     };
 

@@ -21,7 +21,7 @@ namespace isochron::index {
 /// Where a pass writes.
 struct PassTarget {
     ByteSink& file;
-    std::uint64_t& end;           ///< of the file so far; moves to the end of what was written
+    std::uint64_t& end;           ///< end of the file so far; moves to the end of what was written
     std::filesystem::path beside; ///< for temporary files without a name: see ScratchFile
     unsigned threads = 1;
 };
@@ -33,7 +33,7 @@ struct ArrayPass {
     ChunkContents contents;
     WriterMeans means;
     ColorPass* colors; ///< gets each new step right after this array; null if there is none
-    std::vector<std::uint32_t> since = {}; ///< of the held chunks: see StepWriter::since
+    std::vector<std::uint32_t> since = {}; ///< history of the held chunks: see StepWriter::since
 };
 
 /// The results of the pass for an array, the same for every member of the team.

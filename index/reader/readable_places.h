@@ -11,7 +11,8 @@
 
 namespace isochron::index {
 
-/// Grows only. A reader that has started knows the places of its time; its fence cannot learn more.
+/// Places are only added. A reader knows the places that were there when it started; its fence
+/// cannot learn more.
 class ReadablePlaces {
   public:
     /// Adds the folder of a file, and of a symbolic link also the file that it leads to; of a
@@ -24,7 +25,7 @@ class ReadablePlaces {
     std::uint64_t age() const { return age_; }
 
   private:
-    /// Which file it is, as far as the fence is concerned: one that was made anew is another.
+    /// Identifies a file or folder by its inode: one that was removed and made anew is another.
     struct Which {
         dev_t device = 0;
         ino_t number = 0;

@@ -35,7 +35,7 @@ struct OpenFile {
     std::filesystem::path path;
     ReadOptions options;
     std::uint64_t most_memory = 0; ///< [bytes] that decoding may take; 0: what is free
-    std::uint64_t number = 0;      ///< by which later requests name it
+    std::uint64_t number = 0;      ///< number by which later requests name it
 };
 /// Sets the shared memory into which values go from now on; its descriptor is attached. Not
 /// answered.

@@ -23,7 +23,7 @@ class ReaderPool {
     /// From now on readers that are taken can read this file and all that is in its folder; where
     /// it is a folder, all that is in it. Where it is a symbolic link, also what it leads to.
     void let_read(const std::filesystem::path& file);
-    /// The same for many files, so that readers that are taken later are started once for all.
+    /// Lets readers read many files, so that readers that are taken later are started once for all.
     void let_read(std::span<const std::filesystem::path> files);
     /// Whether `let_read` has named the file, or a folder that it is in.
     bool may_read(const std::filesystem::path& file) const;

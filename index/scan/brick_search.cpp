@@ -30,8 +30,9 @@ std::size_t scan_percent(ValueType type) {
 }
 
 constexpr auto kCells = BrickGrid::kCells;
-constexpr std::size_t kRows = kCells[1] * kCells[2];                   ///< of cells
-constexpr std::size_t kVertexRows = (kCells[1] + 1) * (kCells[2] + 1); ///< of vertices
+constexpr std::size_t kRows = kCells[1] * kCells[2]; ///< rows of cells in a brick
+/// Rows of vertices in a brick.
+constexpr std::size_t kVertexRows = (kCells[1] + 1) * (kCells[2] + 1);
 constexpr std::size_t kPairs = kRows / 2; ///< two rows of eight cells make 16 bits
 constexpr std::size_t kBatch = 32;        ///< bricks that are tested together
 
@@ -220,7 +221,7 @@ class BrickSearch {
         return false;
     }
 
-    /// The same at the end of the step, where whole vectors would reach beyond it.
+    /// Compares at the end of the step, where whole vectors would reach beyond it.
     bool compare_last(const T* s, const BrickShape& shape, std::size_t slot) {
         std::array<T, kVertexRows * kRowValues> copy{};
         std::array<std::size_t, kVertexRows> rows;
@@ -268,7 +269,7 @@ class BrickSearch {
     std::span<const T> stored_;
     hn::Vec<D> cut_;
     std::array<BrickShape, 8> shapes_; ///< by bits: at the upper border of x (1), y (2), z (4)
-    std::array<CellId, kRows * kCells[0]> id_; ///< of a brick's cells, relative to its first
+    std::array<CellId, kRows * kCells[0]> id_; ///< ids of a brick's cells, relative to its first
     std::vector<CellId>& out_;
     CellBuffer buffer_{out_};
     Batch batch_;

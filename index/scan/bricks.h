@@ -55,7 +55,8 @@ std::uint64_t search_bricks(const StepValues& values, const LevelMap& levels,
                             std::span<const std::uint8_t> bricks, const Query& query,
                             std::vector<CellId>& out);
 
-/// The same, but never scans: reads only the vertices of bricks that may hold active cells.
+/// Like `search_bricks`, but never scans: reads only the vertices of bricks that may hold active
+/// cells.
 /// @return number of cells that were tested
 std::uint64_t test_bricks(const StepValues& values, const LevelMap& levels,
                           std::span<const std::uint8_t> bricks, const Query& query,

@@ -219,7 +219,7 @@ class PartsSearch {
     const ActiveCellsOrder& order_;
     const std::stop_token& stop_;
     LayerResults& results_;
-    LevelMapPtr levels_; ///< of the bricks; null: without them
+    LevelMapPtr levels_; ///< levels of the bricks; null: without them
     std::optional<LevelMap::Cut> cut_;
 };
 

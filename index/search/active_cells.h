@@ -1,4 +1,5 @@
-// Finds the active cells of a step, part by part: whole, by candidates among its chunks, or by a scan.
+// Finds the active cells of a step, part by part: in the whole step, among the candidates of its
+// chunks, or by a scan.
 #pragma once
 
 #include "index/file/step_view.h"
@@ -17,7 +18,7 @@ struct ActiveCellsOrder {
     bool by_bricks = false; ///< the index must have them; else by a scan
     bool shaded = false;    ///< also make points and rows, while each part is in memory
     ChunkFilter only = {};  ///< with bricks and by chunks: search these chunks alone
-    /// Likewise: cells that are not looked for.
+    /// With bricks and by chunks: cells that are not looked for.
     const StayingCells* staying = nullptr;
 };
 

@@ -134,7 +134,7 @@ void ChunkCube::copy(unsigned bit, const Chunk& chunk) {
     const std::byte* first = chunk.values.data() + part.first;
     if (blend_) {
         constexpr std::size_t kMost =
-            std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge; // of 8 bytes
+            std::size_t{kChunkEdge} * kChunkEdge * kChunkEdge; // values of 8 bytes
         part_.resize(3 * kMost);
         const auto& pair = static_cast<const ChunkPair&>(chunk);
         auto* const blended = reinterpret_cast<std::byte*>(part_.data());

@@ -32,9 +32,10 @@ class ChunkCube {
     const std::array<std::uint32_t, 3>& cells() const { return cells_; }
 
   private:
-    std::vector<std::uint64_t> memory_, part_; ///< of the cube, and of a part that is blended
+    /// Memory of the cube, and of a part that is blended.
+    std::vector<std::uint64_t> memory_, part_;
     StepValues values_;
-    const Blend* blend_ = nullptr; ///< of pairs; null at a step
+    const Blend* blend_ = nullptr; ///< blend of pairs; null at a step
     std::size_t stored_ = 0;       ///< bytes of a value of theirs
     std::array<std::uint32_t, 3> first_{}, cells_{};
 };

@@ -1,4 +1,4 @@
-// Which of the chunks around a chunk its cells need, by where in the chunk they lie.
+// Which neighboring chunks the cells of a chunk need, by where in the chunk the cells lie.
 #pragma once
 
 #include "index/file/chunks/chunk_grid.h"
@@ -14,8 +14,8 @@ namespace isochron::index {
 using ChunksAround = std::uint32_t;
 constexpr unsigned kChunksAround = 27, kOwnChunk = 13;
 
-/// The position of a cell in its chunk along an axis, by what it needs of the chunks next to it:
-/// nothing; one vertex below, for normals; a vertex two on, for normals; its own upper vertex.
+/// Where a cell lies in its chunk along an axis, told by what it needs beyond the chunk: nothing;
+/// for its normal the vertex below, or the second vertex above; or its own upper vertex.
 enum Side : unsigned { nothing, vertex_below, two_vertices_on, next_vertex };
 constexpr unsigned kSides = 4;
 
@@ -32,8 +32,8 @@ constexpr std::array<std::uint8_t, kChunkEdge> kSide = [] {
 using SidesOfCells = std::uint64_t;
 static_assert(kSides * kSides * kSides == 64);
 
-/// By combination of sides: the chunks that hold a cell's vertices, and, for normals, their
-/// neighbors along each axis.
+/// For each combination of sides: the chunks that hold the vertices of such a cell and, for
+/// normals, the neighbors of these vertices along each axis.
 using ReachOfSides = std::array<ChunksAround, 64>;
 constexpr ReachOfSides reach_of_sides(bool normals) {
     ReachOfSides reach{};
@@ -58,7 +58,8 @@ constexpr ReachOfSides reach_of_sides(bool normals) {
 inline constexpr ReachOfSides kReach = reach_of_sides(false),
                               kReachWithNormals = reach_of_sides(true);
 
-/// By chunk around (a bit of ChunksAround): the combinations of sides whose cells need it.
+/// For each neighboring chunk (a bit of ChunksAround): the combinations of sides whose cells need
+/// it.
 using SidesNeeding = std::array<SidesOfCells, kChunksAround>;
 constexpr SidesNeeding sides_needing(const ReachOfSides& reach) {
     SidesNeeding sides{};
@@ -76,7 +77,7 @@ inline unsigned side_of_cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) 
            kSides * (kSide[y % kChunkEdge] + kSides * unsigned{kSide[z % kChunkEdge]});
 }
 
-/// All chunks of the bits that are set.
+/// Joins the chunks of all bits that are set.
 template <class Bits, std::size_t kBits>
 ChunksAround joined(Bits bits, const std::array<ChunksAround, kBits>& of_bit) {
     ChunksAround around = 0;

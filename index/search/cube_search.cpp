@@ -39,7 +39,7 @@ void CubeSearch::find(const LayerCandidates& candidates, const Query& query, std
     layer_ = candidates.layer();
     for (auto& layer : there_)
         layer.assign(chunks_->chunks_of_layer(), nullptr);
-    for (auto& layer : missing_) // of a search that failed
+    for (auto& layer : missing_) // what a search that failed has left
         layer.clear();
     held_.clear();
     found_.clear();

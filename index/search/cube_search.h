@@ -34,7 +34,7 @@ class CubeSearch {
     struct Found {
         std::uint32_t x, y;
         CubeRows rows;
-        ChunksAround around;          ///< that its cells need for normals
+        ChunksAround around;          ///< chunks that its cells need for normals
         std::size_t first, count = 0; ///< among all places; none until it is shaded
     };
     void find(const LayerCandidates& candidates, const Query& query, std::uint64_t cut, bool shaded,
@@ -50,11 +50,11 @@ class CubeSearch {
     bool are_there(std::uint32_t x, std::uint32_t y, ChunksAround around) const;
     void fill_cube(std::uint32_t x, std::uint32_t y, ChunksAround around);
 
-    const StepView* step_ = nullptr;    ///< of the search that runs
-    const ChunkGrid* chunks_ = nullptr; ///< of that step
+    const StepView* step_ = nullptr;    ///< step of the search that runs
+    const ChunkGrid* chunks_ = nullptr; ///< chunks of that step
     const StayingCells* staying_ = nullptr;
     std::uint32_t layer_ = 0;
-    std::chrono::nanoseconds shading_{0}; ///< of this layer
+    std::chrono::nanoseconds shading_{0}; ///< time of this layer
     ChunkCube cube_;
     /// By layer (below, this, above) and place: the chunks that are there; those to fetch.
     std::array<std::vector<const Chunk*>, 3> there_;
@@ -63,7 +63,7 @@ class CubeSearch {
     std::vector<Found> found_; ///< by y, then x
     std::vector<PlaceInChunk> places_;
     std::vector<std::uint32_t> planes_;
-    std::vector<RowCounts> next_; ///< of the chunks with the same y
+    std::vector<RowCounts> next_; ///< counts of the chunks with the same y
 };
 
 } // namespace isochron::index

@@ -19,7 +19,7 @@ struct FirstCrossings {
     double isovalue = 0;
     std::vector<std::uint16_t> steps;
     std::vector<std::uint16_t> fractions =
-        {}; ///< of the way to the next step; empty: of steps alone
+        {}; ///< shares of the way to the next step; empty: steps alone
     bool blended() const { return !fractions.empty(); }
 };
 using FirstCrossingsPtr = std::shared_ptr<const FirstCrossings>;
@@ -28,9 +28,9 @@ using FirstCrossingsPtr = std::shared_ptr<const FirstCrossings>;
 /// among all that are active there. @return false when stopped
 using CrossingsBetween = std::function<bool(std::uint32_t step, FirstCrossings& found)>;
 
-/// Those of blends at a level of detail: the first instant at which a vertex of the cell comes to be
-/// on the other side of the isovalue than others, exactly. They read the chunks alone between whose
-/// values at both steps the isovalue lies. @throws Error as ChunkStore does
+/// Finds crossings of blends at a level of detail: the first instant at which a vertex of the cell
+/// comes to be on the other side of the isovalue than others, exactly. Reads the chunks alone
+/// between whose values at both steps the isovalue lies. @throws Error as ChunkStore does
 CrossingsBetween crossings_between(std::shared_ptr<const IndexFile> file, std::size_t level,
                                    double isovalue, std::stop_token stop);
 

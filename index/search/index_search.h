@@ -16,7 +16,7 @@ namespace isochron::index {
 /// Returns null when stopped. @throws Error when it fails
 using Search = std::function<CellSetPtr(const Query&, std::stop_token)>;
 
-/// The same, but fills an empty set of the caller, which may change it later. False when stopped.
+/// Fills an empty set of the caller, which may change it later. False when stopped.
 using SearchInto =
     std::function<bool(const StepView& step, double isovalue, std::stop_token, CellSet&)>;
 /// The step of a query. @throws Error if the series does not have it

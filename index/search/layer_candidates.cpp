@@ -119,7 +119,7 @@ std::size_t LayerCandidates::count_of(const ChunkLayer& table, const LevelMap::C
                                       std::uint32_t layer, const ChunkFilter& only) {
     if (only)
         return places_of(table, cut, layer, only).size();
-    std::size_t count = 0; // of a plain loop, which the compiler makes one of vectors
+    std::size_t count = 0; // counted by a plain loop, which the compiler makes one of vectors
     for (std::size_t place = 0; place < table.low.size(); ++place)
         count += may_hold(table.low[place], table.high[place], cut) ? 1 : 0;
     return count;

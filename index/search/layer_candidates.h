@@ -1,5 +1,5 @@
-// The chunks of a layer that may hold active cells, read before the layer is searched, with what
-// lies around them announced.
+// The chunks of a layer that may hold active cells. They are read before the layer is searched, and
+// the disk is told about the chunks around them.
 #pragma once
 
 #include "index/file/step_view.h"
@@ -43,7 +43,7 @@ class LayerCandidates {
     static std::vector<std::uint32_t> places_of(const ChunkLayer& table, const LevelMap::Cut& cut,
                                                 std::uint32_t layer = 0,
                                                 const ChunkFilter& only = {});
-    /// How many these are.
+    /// The number of these chunks.
     static std::size_t count_of(const ChunkLayer& table, const LevelMap::Cut& cut,
                                 std::uint32_t layer = 0, const ChunkFilter& only = {});
     /// Whether cells with ranks from `low` to `high` may be active.
@@ -52,18 +52,18 @@ class LayerCandidates {
     }
     /// The bricks that may hold active cells.
     static BricksOfChunk bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut);
-    /// The bricks that have cells at these places.
+    /// The bricks of a chunk that hold the cells at these places.
     static BricksOfChunk bricks_at(SidesOfCells sides);
 
     std::uint32_t layer() const { return layer_; }
-    /// Ascending.
+    /// The places of candidates, ascending.
     const std::vector<std::uint32_t>& places() const { return places_; }
     const ChunkPtr& chunk(std::size_t i) const { return chunks_[i]; }
     /// The bricks of a chunk that may hold active cells.
     BricksOfChunk bricks(std::size_t i) const { return bricks_[i]; }
     /// The chunks that hold vertices of the cells of these bricks, the chunk itself included.
     ChunksAround reach(std::size_t i) const;
-    /// Time that it took to read them.
+    /// Time that reading the candidates took.
     std::chrono::nanoseconds time() const { return time_; }
     /// Removes what has been announced from the `places` of this layer or of one next to it.
     void keep_unannounced(std::uint32_t layer, std::vector<std::uint32_t>& places) const;

@@ -34,7 +34,7 @@ class LayerResults {
     LayerResult begin();
     void add(std::uint32_t layer, LayerResult result);
 
-    /// Of all layers together; complete once all have been added.
+    /// Times of all layers together; complete once all have been added.
     std::chrono::nanoseconds searching{0}, shading{0};
     std::uint64_t cells = 0;
 

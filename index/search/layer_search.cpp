@@ -110,7 +110,7 @@ bool LayerSearch::for_each_part(const StepView& step, const Cells& cells, bool n
     return work_.for_each_layer(step, places, {}, work_on_slab, work_.threads(step), stop);
 }
 
-/// Those of some neighboring cells that need values.
+/// Which of some neighboring cells need values.
 std::vector<CellId> LayerSearch::without_earlier(const Cells& cells, std::span<const CellId> some) {
     const auto first = static_cast<std::size_t>(some.data() - cells.ids.data());
     std::vector<CellId> others;

@@ -1,5 +1,5 @@
-// Search, test, planes, meshes and colors of a step, part by part: whole, or by its chunks, layer by
-// layer, with all cores, reading only the chunks that are needed.
+// Searches a step part by part with all cores: finds and tests active cells, and makes their
+// planes, meshes and colors. Only the chunks that are needed are read.
 #pragma once
 
 #include "index/file/color_source.h"
@@ -22,16 +22,16 @@
 
 namespace isochron::index {
 
-/// What the vertices of a mesh get of an array to color by: color coordinates, or its values.
+/// What the vertices of a mesh get from an array to color by: color coordinates, or its values.
 struct VertexColors {
     const ColorSource* source = nullptr; ///< null: nothing; else as of LayerSearch::color_cells
     bool as_values = false;
 };
 
-/// A part of a step is a layer of chunks, or some or all planes of a step that is worked on as a
-/// whole. What is done with it is the same. By chunks, the index must carry its values. Functions
-/// throw Error as ChunkStore does. When they were stopped they return false, or throw Stopped, and the
-/// results are incomplete. Not thread-safe: keeps its work space.
+/// A part is a layer of chunks or, where StepView has the step as a whole, some or all of its
+/// planes. By chunks, the index must carry its values. Functions throw Error as ChunkStore does. A
+/// function that was stopped returns false or throws Stopped, and its results are incomplete. Not
+/// thread-safe: keeps its work space.
 class LayerSearch {
   public:
     explicit LayerSearch(std::shared_ptr<const IndexFile> file) : work_(std::move(file)) {}
@@ -42,7 +42,7 @@ class LayerSearch {
     /// @param only with bricks and by chunks: search these chunks alone
     bool search(const StepView& step, CellSet& set, bool by_bricks, bool shaded,
                 const std::stop_token& stop, const ChunkFilter& only = {});
-    /// The same by bricks, without the cells that stay.
+    /// Searches by bricks, without the cells that stay.
     bool search_others(const StepView& step, CellSet& set, const StayingCells& staying, bool shaded,
                        const std::stop_token& stop);
     /// The number of active cells, without keeping the cells; empty when stopped.
@@ -51,15 +51,15 @@ class LayerSearch {
     /// @param ids ascending
     bool keep_active(const StepView& step, const Query& query, std::vector<CellId>& ids,
                      const std::stop_token& stop);
-    /// Adds points and rows.
+    /// Adds points and rows to the cells of a set.
     bool shade_cells(const StepView& step, CellSet& set, const std::stop_token& stop);
     /// @param set in the order of `search`; with points, if the grid has wide ids
     /// @param earlier has the mesh of some cells; with colors if the mesh gets some by `colors`
     bool make_mesh(const StepView& step, const CellSet& set, CellMesh& mesh,
                    const std::stop_token& stop, const VertexColors& colors = {},
                    const EarlierMesh& earlier = {});
-    /// The same mesh in pieces, in their order, as PartsJoiner numbers them: by chunks the memory of
-    /// a few layers is enough. @param take called by one thread at a time, while the others wait
+    /// Makes the mesh in pieces, in their order, as PartsJoiner numbers them: by chunks the memory
+    /// of a few layers is enough. @param take called by one thread at a time, while the others wait
     bool make_mesh_pieces(const StepView& step, const CellSet& set,
                           const std::function<void(CellMesh piece)>& take,
                           const std::stop_token& stop, const VertexColors& colors = {});
@@ -79,11 +79,11 @@ class LayerSearch {
     /// Some of these cells, with the values around them.
     struct CellsOfPart {
         StepValues values;
-        CellId first = 0;              ///< id in the step of the cell with id 0 in `values`
+        CellId first = 0;              ///< id in the step of cell 0 of `values`
         std::uint32_t first_plane = 0; ///< z in the step of plane 0 of `values`
         std::span<const CellId> ids;   ///< counted from `first`, ascending
         std::size_t before = 0;        ///< cells of the parts before this one
-        std::size_t number = 0;        ///< of the part
+        std::size_t number = 0;        ///< number of the part
         unsigned worker = 0;
         std::uint32_t layer = 0; ///< by chunks
     };

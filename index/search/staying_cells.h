@@ -57,11 +57,13 @@ class StayingCells {
     const ChunkGrid* chunks_;
     std::vector<std::uint8_t> changed_; ///< by layer and place
     std::vector<SidesOfCells> others_;  ///< by position of the chunk, x fastest
-    std::vector<std::uint32_t> around_; ///< likewise: regions, all around which may have changed
+    /// By position of the chunk: regions, all around which may have changed.
+    std::vector<std::uint32_t> around_;
 };
 
-/// Of the chunks that may hold active cells of the isovalues at the step: the share that has the same
-/// bytes at both steps. 1 if there are none. Only tables are read. The index must have bricks.
+/// The share of chunks with the same bytes at both steps, among those that may hold active cells of
+/// the isovalues at the step. 1 if there are none. Only tables are read. The index must have
+/// bricks.
 double staying_share(const StepView& step, Instant at, std::span<const double> isovalues);
 
 } // namespace isochron::index

@@ -26,10 +26,10 @@ struct StepPart {
     StepValues cells;              ///< its cells and their vertices
     CellId first_cell = 0;         ///< id in the step of the cell with id 0 in `cells`
     StepValues around;             ///< with a plane more below and above, if the grid has them
-    CellId first_around = 0;       ///< the same for `around`
+    CellId first_around = 0;       ///< id in the step of the cell with id 0 in `around`
     std::uint32_t first_plane = 0; ///< z in the step of plane 0 of `around`
-    std::span<const std::uint8_t> bricks = {}; ///< of `cells`; empty: unknown
-    StepSlab* slab = nullptr; ///< that holds it, and has to fill what lies around cells
+    std::span<const std::uint8_t> bricks = {}; ///< bricks of `cells`; empty: unknown
+    StepSlab* slab = nullptr; ///< the slab that holds it, and has to fill what lies around cells
 
     /// The cells between two planes of a part without a slab.
     StepPart planes(std::uint32_t first, std::uint32_t end) const;
@@ -70,7 +70,7 @@ class StepSlab {
     /// The layer's cells and their vertices; ids are counted from `first_cell()`.
     StepValues cells() const;
     CellId first_cell() const { return plane_cells_ * layer_ * kChunkEdge; }
-    /// The same with one more plane below and above, if the grid has them; ids are counted from
+    /// The slab with one more plane below and above, if the grid has them; ids are counted from
     /// `first_around()`.
     StepValues around() const;
     CellId first_around() const { return plane_cells_ * first_plane_; }
@@ -95,14 +95,14 @@ class StepSlab {
     void fit(const StepView& step);
 
     const StepView* step_ = nullptr;
-    const ChunkGrid* chunks_ = nullptr; ///< of the step
+    const ChunkGrid* chunks_ = nullptr; ///< chunks of the step
     CellId plane_cells_ = 0;
     std::uint32_t layer_ = 0, first_plane_ = 0, end_plane_ = 0;
     LargeMemory values_;     ///< undefined until they are filled
     std::uint64_t room_ = 0; ///< [bytes] of `values_`
     std::vector<std::uint8_t> bricks_;
     std::array<std::vector<std::uint8_t>, 3> state_; ///< by layer (below, this, above) and place
-    std::vector<std::uint64_t> sides_;               ///< of each column: where its cells lie
+    std::vector<std::uint64_t> sides_;               ///< where the cells of each column lie
     std::vector<const Chunk*> by_column_;            ///< chunks to copy
     bool whole_ = false;                             ///< all chunks are put, or will be
     std::stop_token stop_;

@@ -48,7 +48,7 @@ struct SurfaceMesh {
 SurfaceMesh mesh_of(const std::shared_ptr<const IndexFile>& file, const Query& query,
                     const MeshWishes& wishes = {});
 
-/// The same for many queries. Not thread-safe: keeps its work space.
+/// Makes the meshes of many queries. Not thread-safe: keeps its work space.
 class SurfaceMeshes {
   public:
     explicit SurfaceMeshes(std::shared_ptr<const IndexFile> file);
@@ -59,12 +59,13 @@ class SurfaceMeshes {
     /// @return nothing when stopped @throws Error as `mesh_of` does
     std::optional<SurfaceMesh> make(const Query& query, const MeshWishes& wishes = {},
                                     const std::stop_token& stop = {});
-    /// The same mesh as it is found, a third as large. It has normals whether they are wished or
+    /// Makes the mesh as it is found, a third as large. It has normals whether they are wished or
     /// not. @param cells null, or gets the cells, with points
     std::optional<CellMesh> make_packed(const Query& query, const MeshWishes& wishes = {},
                                         const std::stop_token& stop = {}, CellSet* cells = nullptr);
 
-    /// The same in pieces, in their order: each has the vertices that those before it do not have,
+    /// Makes the mesh in pieces, in their order: each has the vertices that those before it do not
+    /// have,
     /// and triangles whose corners are numbered through all pieces. They are in its own piece or in
     /// the one before it. A step of any size needs the memory of its cells and a few layers.
     /// @param take called by one thread at a time @return false when stopped

@@ -20,8 +20,8 @@ constexpr std::uint16_t kColorSteps = 8190, kNoColor = 8191;
 /// NaN. If `low` and `high` are equal, it is 0.
 std::uint16_t color_coordinate(double value, double low, double high);
 
-/// The same for values at vertices, between which colors are interpolated: 0 to kFineColorSteps, or
-/// kNoFineColor for NaN and infinities.
+/// Fine coordinates in the color map, for values at vertices, between which colors are
+/// interpolated: 0 to kFineColorSteps, or kNoFineColor for NaN and infinities.
 constexpr std::uint16_t kFineColorSteps = 65534, kNoFineColor = 65535;
 std::uint16_t fine_color_coordinate(double value, double low, double high);
 

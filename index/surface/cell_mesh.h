@@ -28,8 +28,9 @@ struct CellMesh {
     std::vector<MeshVertex> vertices;
     /// Three vertices each, counter-clockwise as seen from the side of lower values.
     std::vector<std::uint32_t> triangles;
-    std::vector<std::uint8_t> cases; ///< of each cell, see mesh_cases.h: gives its triangle count
-    std::vector<float> values;       ///< of another array at the vertices, if they were asked for
+    /// Case of each cell, see mesh_cases.h: gives its triangle count.
+    std::vector<std::uint8_t> cases;
+    std::vector<float> values; ///< values of another array at the vertices, if they were asked for
     /// Fine color coordinates (cell_colors.h) of the vertices; empty if the surface has no colors.
     std::vector<std::uint16_t> colors;
 

@@ -30,8 +30,9 @@ struct CellPlane {
 /// stored as 1, 0 as 2048 and 1 as 4095; all bits 0 is no normal. Bits 24 to 31: the offset as a
 /// signed byte, 127 for kFarthest.
 namespace packed_plane {
-constexpr int kZero = 2048, kOne = 2047; ///< of a coordinate on the octahedron
-constexpr int kFarthest = 127;           ///< of the offset
+/// Code of 0 and steps to 1, for a coordinate on the octahedron.
+constexpr int kZero = 2048, kOne = 2047;
+constexpr int kFarthest = 127; ///< code of the farthest offset
 } // namespace packed_plane
 
 constexpr std::uint32_t kNormalBits = 0xffffff;

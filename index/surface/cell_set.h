@@ -22,9 +22,9 @@ struct FoundCells {
     SearchMethod method = SearchMethod::scan;
     std::vector<CellId> ids;      ///< ascending, unless the grid has wide ids
     std::uint64_t candidates = 0; ///< cells that the search found before the exact test
-    /// Of the active cells: those that were taken over from an earlier result and not looked for again.
+    /// Number of active cells that were taken over from an earlier result and not looked for again.
     std::uint64_t reused = 0;
-    std::chrono::nanoseconds search_time{0}; ///< of search and exact test
+    std::chrono::nanoseconds search_time{0}; ///< time of search and exact test
 };
 
 /// Found cells, and beside them what a renderer draws, in its formats.
@@ -32,7 +32,7 @@ struct CellSet : FoundCells {
     std::vector<CellPoint> points;            ///< in the order of the ids
     std::vector<CellRow> rows;                ///< ascending (z, y), non-empty rows only
     CellMeshPtr mesh;                         ///< null if none was asked for
-    std::chrono::nanoseconds shading_time{0}; ///< of positions, normals and the mesh
+    std::chrono::nanoseconds shading_time{0}; ///< time for positions, normals and the mesh
 };
 
 using CellSetPtr = std::shared_ptr<const CellSet>;

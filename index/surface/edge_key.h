@@ -1,4 +1,4 @@
-// A key for each edge of the grid, as one number.
+// Keys of the grid's edges: one number for each.
 #pragma once
 
 #include "index/surface/cell_mesh.h"

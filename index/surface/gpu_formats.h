@@ -26,7 +26,7 @@ struct CellRow {
 /// The point where the surface cuts an edge of the grid, in the GPU's format: 16 bytes, no padding.
 struct MeshVertex {
     std::uint16_t x, y, z; ///< the lower end of the edge, vertex index coordinates
-    std::uint16_t axis;    ///< of the edge, 0 to 2
+    std::uint16_t axis;    ///< axis of the edge, 0 to 2
     std::uint32_t share;   ///< fraction of the way to the edge's upper end, 0 to kWhole
     /// Normal towards lower values, in physical space, as coordinates on the octahedron (see
     /// cell_plane.h): signed 16 bits each from -32767 to 32767, x in the lower half. kNoNormal if

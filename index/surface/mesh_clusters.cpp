@@ -118,7 +118,7 @@ class Clustering {
         return true;
     }
 
-    /// Of the planes of all triangles that have a vertex in the cluster.
+    /// Adds the quadrics of the planes of all triangles that have a vertex in the cluster.
     bool add_quadrics() {
         quadrics_.resize(middles_.size());
         for (std::size_t i = 0; i < mesh_.triangles.size(); i += 3) {
@@ -159,7 +159,8 @@ class Clustering {
     }
 
     bool keep_triangles(CellMesh& fewer) {
-        std::vector<std::uint32_t> numbers(middles_.size(), kNone); // of the clusters' vertices
+        // Numbers of the clusters' vertices.
+        std::vector<std::uint32_t> numbers(middles_.size(), kNone);
         for (std::size_t i = 0; i < mesh_.triangles.size(); i += 3) {
             if (stops(i))
                 return false;
@@ -189,7 +190,7 @@ class Clustering {
     std::uint32_t edge_;
     const std::stop_token& stop_;
     std::vector<std::uint32_t> cluster_; ///< by vertex
-    std::vector<glm::vec3> middles_;     ///< of the clusters' cubes, from which quadrics count
+    std::vector<glm::vec3> middles_; ///< middles of the clusters' cubes, from which quadrics count
     std::vector<Quadric> quadrics_;
     std::vector<std::uint32_t> picked_; ///< vertex of each cluster
 };

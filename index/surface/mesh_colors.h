@@ -11,8 +11,8 @@ namespace isochron::index {
 
 /// Fine coordinates (cell_colors.h) of values.
 std::vector<std::uint16_t> colors_of(std::span<const float> values, double low, double high);
-/// Makes fine coordinates of the mesh's values, which it drops: between the ends of an edge they are
-/// interpolated, as anywhere on the surface.
+/// Turns the mesh's values into fine coordinates, and drops the values. Between the ends of an edge
+/// the values are interpolated, as anywhere on the surface.
 void color_by_values(CellMesh& mesh, double low, double high);
 /// Gives each vertex the color of the first cell that has it. @param colors of the cells
 void color_by_cells(CellMesh& mesh, std::span<const std::uint16_t> colors);

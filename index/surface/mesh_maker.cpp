@@ -237,7 +237,7 @@ CellsOfMesh cells_of(const CellMesh& mesh) {
     return cells;
 }
 
-/// Those of cells that the earlier mesh has come from there.
+/// Finds the cases of cells, taking over those that the earlier mesh has.
 void MeshMaker::find_cases_of(const StepValues& values, const Query& query, std::uint64_t cut,
                               std::span<const CellId> ids, const EarlierMesh& earlier,
                               std::span<std::uint8_t> cases) {
@@ -280,7 +280,7 @@ void MeshMaker::finish_cell(const EarlierMesh& earlier, std::size_t cell, std::u
         renumbered_[of_earlier[k]] = tables_.base + corners[k];
 }
 
-/// The same for the colors of cells that have been taken over together. @param cell the first of them
+/// Colors cells that have been taken over together. @param cell the first of them
 void MeshMaker::color_run(const EarlierMesh& earlier, std::size_t cell, std::uint32_t first,
                           std::uint32_t end, MeshPart& part) {
     if (!earlier.has_colors())
@@ -329,7 +329,7 @@ bool MeshMaker::make(const StepValues& values, const Query& query, std::span<con
     part.cases.resize(ids.size());
     tables_.fit(values.grid, ids.size());
     if (earlier.mesh) {
-        if (tables_.base == 1) // of a new table
+        if (tables_.base == 1) // the table is new
             renumbered_.clear();
         renumbered_.resize(earlier.mesh->vertices.size());
     }

@@ -19,7 +19,7 @@ using MeshPart = CellMesh;
 /// Where in a mesh each of its cells begins, and at last where the last one ends.
 struct CellsOfMesh {
     std::vector<std::uint32_t> corners;  ///< among its `triangles`
-    std::vector<std::uint32_t> vertices; ///< those that no cell before has
+    std::vector<std::uint32_t> vertices; ///< the vertices that no cell before has
 };
 CellsOfMesh cells_of(const CellMesh& mesh);
 
@@ -27,10 +27,10 @@ CellsOfMesh cells_of(const CellMesh& mesh);
 struct EarlierMesh {
     static constexpr std::uint32_t kNone = ~0u;
     const CellMesh* mesh = nullptr;
-    const CellsOfMesh* cells = nullptr; ///< of the mesh
-    /// Of each cell of the new set: its place in the earlier one, or kNone.
+    const CellsOfMesh* cells = nullptr; ///< cells of the mesh
+    /// The place of each cell of the new set in the earlier one, or kNone.
     std::span<const std::uint32_t> places;
-    /// Of each cell of the new set: whether it and all that share an edge with it, in either set, are as
+    /// Whether each cell of the new set and all that share an edge with it, in either set, are as
     /// they were; empty: unknown.
     std::span<const std::uint8_t> inner = {};
     /// `places` without the cells whose vertices may have other colors; empty: the new mesh has none.
@@ -80,12 +80,13 @@ class MeshMaker {
     void place_new(const StepValues& values, const Query& query, std::uint32_t first_plane,
                    std::span<MeshVertex> vertices);
     Tables tables_;
-    // Of the cells of a plane that the earlier mesh does not have:
+    // What is known about the cells of a plane that the earlier mesh does not have:
     std::vector<CellId> ids_;
     std::vector<std::uint8_t> cases_;
-    std::vector<std::uint32_t> numbers_; ///< of their vertices
+    std::vector<std::uint32_t> numbers_; ///< numbers of their vertices
     std::vector<std::uint32_t> uncolored_;
-    /// Of each vertex of the earlier mesh: its number plus Tables::base; less than that: it has none.
+    /// The number of each vertex of the earlier mesh plus Tables::base; less than that: it has
+    /// none.
     std::vector<std::uint32_t> renumbered_;
     std::vector<MeshVertex> vertices_;
 };

@@ -28,9 +28,9 @@ class PartsJoiner {
     };
     void find_known(const MeshPart& part, CellMesh& to);
 
-    std::uint32_t vertices_ = 0;         ///< of all parts
+    std::uint32_t vertices_ = 0;         ///< number of vertices of all parts
     std::vector<SharedVertex> shared_;   ///< in the last plane of the part before
-    std::vector<std::uint32_t> numbers_; ///< of the part's first vertices
+    std::vector<std::uint32_t> numbers_; ///< numbers of the part's first vertices
 };
 
 /// Joins the parts of consecutive planes, which together are all planes of a step. Vertices on the

@@ -115,7 +115,7 @@ class VertexPlacer {
             result[axis] = static_cast<Real>(v[steps_[axis]]) - static_cast<Real>(v[-steps_[axis]]);
         return result;
     }
-    /// The same, but one-sided at the border, and twice the slope where vertices are uneven.
+    /// Differences that are one-sided at the border, and twice the slope where vertices are uneven.
     Vector<Real> difference(const T* v, const std::array<std::uint32_t, 3>& at) const {
         Vector<Real> result;
         for (std::size_t axis = 0; axis < 3; ++axis) {

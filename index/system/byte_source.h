@@ -23,8 +23,8 @@ class ByteSource {
     /// Fills `out` with the bytes from `offset` on.
     /// @throws Error with the system's message, or saying that the file has become shorter
     void read(std::uint64_t offset, std::span<std::byte> out) const;
-    /// The same, for a caller that reads much of the file in order, on one thread: what follows is
-    /// read ahead.
+    /// Reads for a caller that reads much of the file in order, on one thread: what follows is read
+    /// ahead.
     void read_in_order(std::uint64_t offset, std::span<std::byte> out) const;
     /// Bytes that have been read so far.
     std::uint64_t bytes_read() const { return bytes_read_; }

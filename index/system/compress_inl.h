@@ -31,7 +31,7 @@ HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
 // Highway's own Compress has its tables in local variables, which g++ 12 copies to the stack in each
 // call. For eight lanes that is 1 KiB, and finding ids took four times as long.
 
-/// By the bits of eight lanes: the numbers of the chosen ones, in order, in four bits each.
+/// For each set of eight lanes, as bits: the numbers of its lanes in order, four bits each.
 constexpr std::array<std::uint32_t, 256> kChosenOfEight = [] {
     std::array<std::uint32_t, 256> chosen{};
     for (std::uint32_t bits = 0; bits < 256; ++bits)
@@ -41,7 +41,7 @@ constexpr std::array<std::uint32_t, 256> kChosenOfEight = [] {
     return chosen;
 }();
 
-/// The same for lanes of 16 bits, as numbers of bytes.
+/// Shuffles for lanes of 16 bits, as numbers of bytes.
 constexpr std::array<std::array<std::uint8_t, 16>, 256> kBytesOfEight = [] {
     std::array<std::array<std::uint8_t, 16>, 256> chosen{};
     for (std::size_t bits = 0; bits < 256; ++bits)

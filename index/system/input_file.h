@@ -44,8 +44,8 @@ class InputFile {
     /// @throws Error naming the file when the system cannot read it
     std::size_t read(std::uint64_t offset, std::span<std::byte> out) const;
 
-    /// The same file, opened once more: advice to the kernel on how one of them is read does not
-    /// hold for the other. Null if the system refuses.
+    /// Opens the file once more: advice to the kernel on how one of the two is read does not hold
+    /// for the other. Null if the system refuses.
     std::unique_ptr<InputFile> opened_again() const;
 
   private:

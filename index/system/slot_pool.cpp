@@ -32,9 +32,9 @@ struct alignas(kSlotAlignment) SlotPool::Block {
 
     static Block* make() { return begin(memory()); }
     /// A block with all its pages.
-    static Block* make_whole(PageChoice& choice) {
+    static Block* make_whole(PageSizeTrials& trials) {
         void* const memory = Block::memory();
-        const Pages pages = choice.next();
+        const Pages pages = trials.next();
         const auto started = std::chrono::steady_clock::now();
         const std::span bytes(static_cast<std::byte*>(memory), kBlock);
         if (pages == Pages::huge)
@@ -43,7 +43,7 @@ struct alignas(kSlotAlignment) SlotPool::Block {
             fetch_pages(bytes);
         for (std::size_t at = 0; at < kBlock; at += kSmallPage)
             bytes[at] = std::byte{0}; // a virtual machine may wait here once more
-        choice.took(pages, std::chrono::steady_clock::now() - started);
+        trials.took(pages, std::chrono::steady_clock::now() - started);
         Block* const block = begin(memory);
         block->there = block->end();
         return block;
@@ -80,8 +80,8 @@ struct alignas(kSlotAlignment) SlotPool::Block {
     }
 };
 
-SlotPool::SlotPool(std::size_t bytes, PageChoice& choice)
-    : bytes_((bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment), choice_(choice) {
+SlotPool::SlotPool(std::size_t bytes, PageSizeTrials& trials)
+    : bytes_((bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment), trials_(trials) {
     assert(bytes > 0 && bytes <= kBlock / 2);
 }
 
@@ -102,7 +102,7 @@ std::byte* SlotPool::take() {
                 made = Block::make();
             } else { // takes time, in which other threads give slots back, or make blocks, too
                 lock.unlock();
-                made = Block::make_whole(choice_);
+                made = Block::make_whole(trials_);
                 lock.lock();
             }
             free_.push_back(made);

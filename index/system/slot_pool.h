@@ -1,7 +1,7 @@
 // Memory for many objects of the same size, whose pages are allocated many at a time.
 #pragma once
 
-#include "index/system/page_choice.h"
+#include "index/system/page_size_trials.h"
 
 #include <cstddef>
 #include <memory>
@@ -17,8 +17,8 @@ namespace isochron::index {
 class SlotPool {
   public:
     /// @param bytes of a slot, at most 1 MiB
-    /// @param choice outlives this
-    explicit SlotPool(std::size_t bytes, PageChoice& choice = PageChoice::of_process());
+    /// @param trials outlives this
+    explicit SlotPool(std::size_t bytes, PageSizeTrials& trials = PageSizeTrials::of_process());
     ~SlotPool(); ///< all slots have been given back
     SlotPool(const SlotPool&) = delete;
     SlotPool& operator=(const SlotPool&) = delete;
@@ -35,7 +35,7 @@ class SlotPool {
     struct Block;
 
     const std::size_t bytes_;
-    PageChoice& choice_;
+    PageSizeTrials& trials_;
     mutable std::mutex mutex_;
     std::vector<Block*> free_; ///< blocks that have a free slot
     std::size_t blocks_ = 0;

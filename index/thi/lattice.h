@@ -45,7 +45,7 @@ std::vector<OrderKey> lattice_lines(const DistinctKeys& extremes, std::uint32_t 
 /// Number of the element that holds the key; `lines.size()` for keys above the last line.
 std::uint32_t element_of(std::span<const OrderKey> lines, OrderKey key);
 
-/// The same, faster if the key is in element `guess`. @param guess below `lines.size()`
+/// `element_of`, faster if the key is in element `guess`. @param guess below `lines.size()`
 std::uint32_t element_near(std::span<const OrderKey> lines, OrderKey key, std::uint32_t guess);
 
 } // namespace isochron::index

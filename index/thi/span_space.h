@@ -15,9 +15,9 @@ namespace isochron::index {
 /// then the lists of the interval trees of the diagonal elements.
 template <template <class> class Array>
 struct SpanSpace {
-    std::span<const OrderKey> lines; ///< of its lattice
+    std::span<const OrderKey> lines; ///< lines of its lattice
     Array<std::uint32_t> row_starts; ///< into the lists: one for each line, then the last row's end
-    Array<std::uint32_t> roots;      ///< of an interval tree for each line
+    Array<std::uint32_t> roots;      ///< root of an interval tree for each line
     Lists<Array> lists;
 };
 

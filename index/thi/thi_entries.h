@@ -30,7 +30,7 @@ class ThiEntries {
 
     const ThiOptions& options() const { return options_; }
     std::uint32_t steps() const { return steps_; }
-    const std::vector<OrderKey>& lines() const { return lines_; } ///< of the lattice
+    const std::vector<OrderKey>& lines() const { return lines_; } ///< lines of the lattice
     std::size_t nodes() const { return nodes_; }                  ///< as TimeNode numbers them
     std::uint64_t count(std::size_t node) const;
 

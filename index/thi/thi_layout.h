@@ -36,7 +36,7 @@ struct ThiNodeStart {
 /// row of span space, then the lists of the interval trees of the diagonal elements.
 template <template <class> class Array>
 struct ThiParts {
-    Array<OrderKey> lines;           ///< of the lattice
+    Array<OrderKey> lines;           ///< lines of the lattice
     Array<ThiNodeStart> node_starts; ///< time nodes + 1
     Array<std::uint32_t> row_starts; ///< (elements + 1) for each time node; the last is an end
     Array<std::uint32_t> roots;      ///< an interval tree for each time node and element

@@ -33,7 +33,7 @@ namespace isochron::index {
 /// @throws Error when an option is out of its range, or there is no step
 std::vector<std::byte> build_thi_tree(const StepValues& values, const ThiOptions& options,
                                       const Progress& progress = {}, unsigned threads = 0);
-/// The same from entries that were found before.
+/// Builds the tree from entries that were found before.
 std::vector<std::byte> build_thi_tree(ThiEntries entries, const Progress& progress,
                                       unsigned threads);
 
@@ -51,7 +51,7 @@ class ThiTree {
     std::uint32_t steps() const { return header_.steps; }
     std::uint64_t entries() const {
         return header_.entries;
-    } ///< of all nodes; at most 1 for each cell and step, fewer with temporal coherence
+    } ///< entries of all nodes; at most 1 for each cell and step, fewer with temporal coherence
 
     /// Appends every cell that may be active (section 4.1), unordered: all active cells, once each,
     /// and false positives of temporal merging. The step must be one of the tree's.

@@ -86,7 +86,7 @@ void blend_sided(const float* a, const float* b, std::size_t count, std::uint32_
     const auto some = [&](const float* from_a, const float* from_b) HWY_ATTR {
         const Lanes first = hn::Mul(hn::PromoteTo(d, hn::LoadU(halves, from_a)), of_a);
         const Lanes second = hn::Mul(hn::PromoteTo(d, hn::LoadU(halves, from_b)), of_b);
-        const Lanes sum = hn::Add(first, second); // of exact products
+        const Lanes sum = hn::Add(first, second); // the products are exact
         Lanes blend = hn::Mul(sum, hn::Set(d, 1.0 / Instant::kFractions));
         for (const Blend::Side& side : sides) {
             // Only at a tie does it matter what the sum was rounded by.
@@ -257,7 +257,7 @@ double blended(double a, double b, std::uint32_t n) {
     exponent -= std::countr_zero(Instant::kFractions);
     constexpr int kBits = std::numeric_limits<double>::digits;
     constexpr int kLowest =
-        std::numeric_limits<double>::min_exponent - kBits; // of subnormal numbers
+        std::numeric_limits<double>::min_exponent - kBits; // exponent of subnormal numbers
     const int surplus = std::max({bits_of(sum) - kBits, kLowest - exponent, 0});
     return std::ldexp(static_cast<double>(static_cast<std::int64_t>(shifted_right(sum, surplus))),
                       exponent + surplus);

@@ -11,16 +11,16 @@
 
 namespace isochron::index {
 
-/// The greatest double that is not above ((N - n) a + n b) / N, N = Instant::kFractions, of the
-/// exact quotient. For every double v, it is at least v if and only if the exact quotient is: what
-/// is compared with isovalues later needs nothing more. NaN unless both are finite.
+/// The blend ((N - n) a + n b) / N of two values, rounded down to a double; N is
+/// Instant::kFractions. A double v is at most the result if and only if v is at most the exact
+/// blend, so comparing the result with an isovalue is exact. NaN unless both are finite.
 /// @param n 0 to N
 double blended(double a, double b, std::uint32_t n);
 
 /// Blends the stored values of two steps: scales both as queries do, and blends each pair exactly.
 /// Whole numbers of 8 and 16 bits without scaling become i32 in units of 1/N, which hold the exact
-/// blend; all other values become f64, as `blended` gives them. Half as large are f32 that are blended
-/// for some isovalues alone: each is the exact blend rounded to the nearest f32, or, if that would
+/// blend; all other values become f64, as `blended` gives them. If only some isovalues are asked
+/// for, f32 stays f32, half as large: the exact blend rounded to the nearest f32, or, if that would
 /// cross one of the isovalues, to the nearest f32 on the blend's own side.
 class Blend {
   public:
@@ -34,7 +34,7 @@ class Blend {
     /// What blended values are stored as.
     ValueType type() const { return type_; }
     const Scaling& scaling() const { return scaling_; }
-    /// Those that it was made for, finite and each once; empty: any.
+    /// The isovalues that it was made for, finite and each once; empty: any.
     std::span<const double> isovalues() const { return std::span(isovalues_).first(count_); }
 
     /// @param a, b aligned stored values of the two steps, equally many
@@ -56,7 +56,7 @@ class Blend {
     std::uint32_t n_;
     std::array<double, kMostIsovalues> isovalues_{};
     std::size_t count_ = 0;
-    std::array<Side, kMostIsovalues> sides_{}; ///< of the isovalues, if f32 stays f32
+    std::array<Side, kMostIsovalues> sides_{}; ///< sides of the isovalues, if f32 stays f32
 };
 
 } // namespace isochron::index

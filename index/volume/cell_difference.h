@@ -37,7 +37,7 @@ struct AxisTaps {
     double low_weight, high_weight;
 };
 
-/// The same on a rectilinear grid, where the differences are slopes per even coordinate
+/// Differences on a rectilinear grid, where they are slopes per even coordinate
 /// (`Grid::slope_weights`). Apart from AxisTaps, as it takes twice the time.
 struct UnevenAxisTaps {
     UnevenAxisTaps(const Grid& grid, std::size_t axis, std::uint32_t cell, std::ptrdiff_t step)

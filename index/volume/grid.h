@@ -79,7 +79,7 @@ struct Grid {
     /// The part of the grid between some planes of vertices along z, seen for itself: its vertices
     /// count from 0, and so do its distances along z. The origin stays.
     Grid planes(std::uint32_t first, std::uint32_t end) const;
-    /// The same of the part between some planes along each axis.
+    /// The part between some planes along each axis, as a grid.
     Grid part(const std::array<std::uint32_t, 3>& first,
               const std::array<std::uint32_t, 3>& end) const;
 

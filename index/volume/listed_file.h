@@ -11,13 +11,13 @@ namespace isochron::index {
 struct ListedFile {
     std::filesystem::path path; ///< relative to where the program runs
     double time = 0;
-    std::string part = {}; ///< which part of the volume of its time it is, if the list says so
+    std::string part = {}; ///< the part of the volume at its time, if the list says so
 
     auto fields() { return std::tie(path, time, part); }
     auto fields() const { return std::tie(path, time, part); }
 };
 
-/// As the list has them, from its beginning.
+/// The files of a list, in its order.
 using ListedFiles = std::vector<ListedFile>;
 
 } // namespace isochron::index

@@ -65,7 +65,7 @@ struct SurfacesQuery {
     /// has; 0: none.
     std::uint64_t mesh_room = 0;
     DetailQuery detail{};
-    std::uint32_t array = 0;  ///< of the index, by number
+    std::uint32_t array = 0;  ///< number of the index's array
     std::uint32_t colors = 0; ///< array to color by (ColorSource), by number: for coloring `value`
 
     Query surface(std::size_t i) const { return {instant, isovalues[i]}; }

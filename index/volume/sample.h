@@ -19,7 +19,7 @@ std::optional<double> value_at(const StepValues& values, std::uint32_t step, con
 
 /// Gives the scaled value of a vertex, by its coordinates along x, y and z.
 using ScaledVertex = std::function<double(const std::array<std::uint32_t, 3>&)>;
-/// The same for values that `vertex` gives.
+/// The value at a place between vertices whose values `vertex` gives.
 std::optional<double> value_at(const Grid& grid, const glm::dvec3& at, const ScaledVertex& vertex);
 
 } // namespace isochron::index

@@ -18,7 +18,7 @@ namespace {
 constexpr double kDay = 86400; // s
 
 struct TimeUnit {
-    double seconds = 0; ///< of one unit
+    double seconds = 0; ///< length of one unit
     bool dated = false;
     std::int64_t day = 0; ///< number of the reference date's day
     double clock = 0;     ///< [s] of the reference date since its midnight

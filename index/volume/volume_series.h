@@ -22,7 +22,7 @@ namespace isochron::index {
 enum class Anatomy : std::uint8_t { none, ras, lps, enu };
 
 struct SeriesInfo {
-    std::vector<std::string> arrays; ///< that there are to choose from, each with its type
+    std::vector<std::string> arrays; ///< arrays that there are to choose from, each with its type
     std::string array;       ///< name of the scalar array, with its component: `velocity.magnitude`
     std::string value_unit;  ///< empty when the files do not say
     std::string length_unit; ///< `mm`, `m`, ... or empty
@@ -98,16 +98,16 @@ class VolumeSeries {
     /// @throws Error naming the file when it cannot be read or disagrees with the first step
     virtual void read(std::size_t step, std::span<std::byte> out) = 0;
 
-    /// The same in consecutive pieces of whole values; a piece is valid until `take` returns. If
-    /// the format allows it, the whole step is never in memory.
+    /// Reads a step in consecutive pieces of whole values; a piece is valid until `take` returns.
+    /// If the format allows it, the whole step is never in memory.
     virtual void stream(std::size_t step, const TakePiece& take) {
         std::vector<std::byte> whole(info().step_bytes());
         read(step, whole);
         take(whole);
     }
 
-    /// The same series for another thread that reads at the same time; null if that gains nothing,
-    /// as for many steps in one file that is decoded from its start.
+    /// This series, opened for another thread that reads at the same time; null if that gains
+    /// nothing, as for many steps in one file that is decoded from its start.
     virtual std::unique_ptr<VolumeSeries> another() const { return nullptr; }
 
     /// A number that changes when the source of a step is written to; 0 if that cannot be told

@@ -23,8 +23,8 @@ constexpr double kLongestFrame = 0.1;    ///< [s] for rates: a stall must not be
 constexpr double kLongestPlayback = 1.0; ///< [s] that time may play on in one slow frame
 constexpr double kRangeSeconds = 4.0;    ///< isovalue: whole range at full deflection
 constexpr double kCoarse = 0.01;         ///< isovalue per key press, of the range
-constexpr double kFine = 0.001;          ///< the same with Shift, or per notch of the wheel
-constexpr float kEyeStep = 0.001f;       ///< [m]
+constexpr double kFine = 0.001;    ///< isovalue per key press with Shift, or per notch of the wheel
+constexpr float kEyeStep = 0.001f; ///< [m]
 
 } // namespace
 
@@ -36,7 +36,7 @@ struct Controls::State {
     TimeControls time_controls;
     ToolBox tools;
     Commands found;                 ///< by tools, not yet taken
-    std::vector<std::string> notes; ///< of tools, not yet taken
+    std::vector<std::string> notes; ///< notes of tools, not yet taken
     int stamps = 0;
     std::optional<Seconds> clicked; ///< the mouse's last click, if it was not the second one
 

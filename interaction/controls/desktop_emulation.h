@@ -19,7 +19,7 @@ struct EmulationOptions {
     float look_speed = 2.0f;             ///< [rad per window height dragged]
     float wand_reach = 0.45f;            ///< [m] wand ahead of the head
     bool gamepad = true;                 ///< false: gamepads are ignored
-    float dead_zone = 0.15f;             ///< of a gamepad's axes, below 1
+    float dead_zone = 0.15f;   ///< deflection of a gamepad's axes that counts as none, below 1
     float vertical_fov = 0.9f; ///< [rad] of the window, to aim the wand's ray at the cursor
 };
 

@@ -20,8 +20,8 @@ struct StillnessLimits {
     Seconds settle{0.150};     ///< how long everything must be still before `settled`
 };
 
-/// What time that plays means: a picture that moves all the time, or one that moves with each step,
-/// so that a step which stands for long may settle.
+/// How a picture moves while time plays: all the time, or with each step, so that a step that is
+/// shown for long may settle.
 enum class Playing : std::uint8_t { moves, moves_by_steps };
 
 /// `settled`: no button is down, no valuator is off rest, no command changes isovalue, surfaces,

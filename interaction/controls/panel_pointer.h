@@ -25,7 +25,7 @@ struct PanelTouch {
     std::optional<PanelHit> hit; ///< may lie beside the panel while something is dragged
     bool pressed = false;
     double scroll = 0;  ///< rate by the stick, -1 to 1, up positive
-    double notches = 0; ///< of the mouse's wheel, up positive
+    double notches = 0; ///< notches of the mouse's wheel, up positive
 };
 
 /// A button that goes down while the ray meets the panel belongs to the panel until it is let go;

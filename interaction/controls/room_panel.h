@@ -11,7 +11,7 @@
 
 namespace isochron::interaction {
 
-/// [m]
+/// Width and height of the panel [m].
 struct PanelSize {
     float width = 0.46f, height = 0.62f;
     bool operator==(const PanelSize&) const = default;
@@ -42,7 +42,7 @@ Pose facing(const glm::vec3& middle, const glm::vec3& eyes);
 /// and heading count.
 /// @param distance [m] from the eyes
 Pose ahead_of(const Pose& head, float distance);
-/// The same, but to the left, so that it does not hide the data.
+/// A place ahead, but to the left, so that it does not hide the data.
 Pose beside(const Pose& head, float distance);
 
 /// The panel after its button was pressed: hidden if it was in sight and in reach, otherwise shown

@@ -24,7 +24,7 @@ struct Reading {
     const DeviceState* keys;
     const DeviceState* gamepad;
     const DeviceState* pointer; ///< the eye's ray through the cursor
-    ButtonLevels before;        ///< of the frame before
+    ButtonLevels before;        ///< buttons in the frame before
 
     /// @param levels of the frame before; needed by `pressed`
     explicit Reading(const InputState& input, const ButtonLevels& levels = {})

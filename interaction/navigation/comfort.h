@@ -25,8 +25,8 @@ struct ComfortOptions {
 
 /// Strengths for the renderer, each from 0 (no effect) to 1.
 struct ComfortState {
-    double fade = 0;     ///< of the whole picture towards black
-    double vignette = 0; ///< of the field of view
+    double fade = 0;     ///< how far the whole picture fades towards black
+    double vignette = 0; ///< how far the field of view is narrowed
     bool operator==(const ComfortState&) const = default;
 };
 

@@ -25,7 +25,7 @@ constexpr double kTurnAgain = 0.3;        ///< deflection below which the next o
 constexpr double kGrowth = 2.0;           ///< scale per second
 constexpr double kTeleportReach = 20.0;   ///< [m] of the wand's ray
 constexpr double kAheadOf = 0.6;          ///< [rad] off the heading that still counts as ahead
-constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  ///< of the room
+constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  ///< up in the room
 
 /// Whether the head's pose is finite; otherwise nothing is turned about it.
 bool can_see(const Reading& now) {
@@ -60,7 +60,7 @@ Similarity dragged(const Reading& now, const ControlContext& context, bool left_
 Similarity flown(const Reading& now, Similarity volume, double seconds) {
     const double speed = kFlySpeed * (now.key(Action::shift) ? kHurry : 1.0);
     const double along = now.wand_rate(WandValuator::fly) + now.wand_button(WandButton::fly);
-    glm::dvec3 velocity(0.0); // of the viewer through the volume
+    glm::dvec3 velocity(0.0); // velocity of the viewer through the volume
     if (const auto wand = Reading::hand(now.wand); wand && along != 0)
         velocity += glm::normalize(glm::dquat(wand->orientation)) * glm::dvec3(0, 0, -1) * along;
     const glm::dvec3 stick(now.axis(GamepadAxis::left_x), -now.axis(GamepadAxis::right_y),

@@ -15,7 +15,7 @@
 
 namespace isochron::interaction {
 
-inline constexpr double kUnitTolerance = 1e-3; ///< of a quaternion's length from 1
+inline constexpr double kUnitTolerance = 1e-3; ///< how far a quaternion's length may be from 1
 
 /// A value as it may appear in an error line: short, ASCII, without line breaks.
 std::string excerpt(const nlohmann::json& value);

@@ -24,7 +24,7 @@ constexpr std::size_t kLongestLine = std::size_t{16} << 20; ///< [byte]
 constexpr int kDeepest = 16;                                ///< nesting of a line
 constexpr std::size_t kMostFrames = 4'000'000;              ///< 9 hours at 120 Hz
 constexpr std::size_t kMostStates = 40'000'000;             ///< devices of all frames together
-constexpr std::size_t kMostValuators = 200'000'000;         ///< of all frames together
+constexpr std::size_t kMostValuators = 200'000'000;         ///< valuators of all frames together
 
 std::string system_message() {
     return std::strerror(errno);

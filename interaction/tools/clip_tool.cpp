@@ -13,9 +13,10 @@ namespace isochron::interaction {
 namespace {
 
 constexpr glm::vec4 kClipColor(1.0f, 0.62f, 0.32f, 0.95f);
-constexpr double kBeside = 0.05; ///< of the box: the mouse can pull the plane this far outside it
-constexpr double kFaces = 0.12;  ///< the same below which a plane faces the user: 20 degrees
-constexpr double kAlong = 0.02;  ///< squared sine below which a ray runs along the normal
+/// Share of the box: the mouse can pull the plane this far outside it.
+constexpr double kBeside = 0.05;
+constexpr double kFaces = 0.12; ///< squared sine below which a plane faces the user: 20 degrees
+constexpr double kAlong = 0.02; ///< squared sine below which a ray runs along the normal
 
 glm::dvec3 ahead_of(const Pose& ray) {
     return glm::normalize(glm::dquat(ray.orientation)) * glm::dvec3(0, 0, -1);
@@ -51,8 +52,8 @@ std::optional<double> nearest_along(const glm::dvec3& at, const glm::dvec3& dire
     return (glm::dot(between, direction) - cosine * glm::dot(between, way)) / sine2;
 }
 
-/// The same where the ray runs along the line, as of a plane that faces the user: dragging up moves
-/// the plane away, as far as the cursor moves on it. @param before the ray that met `at`
+/// The place where the ray runs along the line, as towards a plane that faces the user: dragging up
+/// moves the plane away, as far as the cursor moves on it. @param before the ray that met `at`
 double moved_along(const glm::dvec3& at, const glm::dvec3& direction, const Pose& before,
                    const Pose& ray) {
     const glm::dvec3 way = ahead_of(before);

@@ -17,7 +17,7 @@ class GrabTool final : public Tool {
         Pose hand;
         std::optional<Span> span;    ///< between two hands, when the grab began
         std::optional<Span> newest;  ///< between them in the last frame
-        glm::dquat turn{1, 0, 0, 0}; ///< of the span since the grab began
+        glm::dquat turn{1, 0, 0, 0}; ///< turn of the span since the grab began
         Similarity held;             ///< the volume when the grab began
         Similarity result;           ///< the last result; differs if anything else moved the volume
     };

@@ -16,8 +16,8 @@ class ToolBox {
     ToolBox();
 
     struct Outcome {
-        Commands commands; ///< that depend on devices alone
-        Commands found;    ///< that depend on the surfaces shown, too
+        Commands commands; ///< commands that depend on devices alone
+        Commands found;    ///< commands that depend on the surfaces shown, too
         std::vector<std::string> notes;
     };
     /// Call once a frame, after navigation.

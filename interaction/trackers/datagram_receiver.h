@@ -39,16 +39,16 @@ class DatagramReceiver {
     DatagramReceiver(const DatagramReceiver&) = delete;
     DatagramReceiver& operator=(const DatagramReceiver&) = delete;
 
-    /// Of the datagrams since the last call that `admits` accepts, the newest `kept` of each worth,
-    /// all in the order of their arrival.
+    /// Takes the newest `kept` of each worth among the datagrams since the last call that `admits`
+    /// accepts, all in the order of their arrival.
     std::vector<Datagram>
     take(std::size_t kept, const Admission& admits = [](const Endpoint&, Seconds) { return true; });
     /// Throws away all that is waiting, uncounted.
     void drain();
     /// As UdpSocket::hear_only.
     void hear_only(const std::optional<Endpoint>& sender);
-    /// Of all other senders few datagrams wait from now on, so that a flood of them costs the next
-    /// `take` little; none: of no sender.
+    /// Prefers a sender: few datagrams of all others wait from now on, so that a flood of them
+    /// costs the next `take` little. None: no sender is preferred.
     void prefer(const std::optional<Endpoint>& sender);
     /// Number of datagrams of others that did not wait.
     std::uint64_t others() const;
@@ -64,7 +64,7 @@ class DatagramReceiver {
         std::uint64_t number = 0; ///< in the order of reception
         Worth worth = Worth::nonsense;
     };
-    static constexpr std::size_t kMostWaiting = UdpSocket::kMostTaken; ///< of each worth
+    static constexpr std::size_t kMostWaiting = UdpSocket::kMostTaken; ///< datagrams of each worth
     static constexpr std::size_t kMostOfOthers = 64;
 
     void receive();

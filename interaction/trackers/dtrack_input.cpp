@@ -5,7 +5,7 @@
 #include "interaction/trackers/device_clock.h"
 #include "interaction/trackers/dtrack_protocol.h"
 #include "interaction/trackers/frame_sequence.h"
-#include "interaction/trackers/sender_choice.h"
+#include "interaction/trackers/used_sender.h"
 
 #include <algorithm>
 
@@ -60,7 +60,7 @@ struct DTrackInput::State {
         TrackedDevice tracked;
     };
     std::vector<Device> devices;
-    SenderChoice senders;
+    UsedSender senders;
     bool narrows; ///< the kernel drops others while the configured sender is heard
     std::optional<Endpoint> chosen; ///< the sender that is heard
     FrameSequence sequence;

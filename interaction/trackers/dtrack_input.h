@@ -32,7 +32,7 @@ struct DTrackOptions {
 
 /// A datagram whose frame counter is not newer than the newest so far is dropped. The time of a
 /// pose is the controller's time stamp if it sends one (`ts`), else the time of arrival. One sender
-/// counts at a time (`SenderChoice`).
+/// counts at a time (`UsedSender`).
 class DTrackInput final : public TrackedInput {
   public:
     /// @throws Error when the address cannot be bound

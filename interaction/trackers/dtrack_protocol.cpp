@@ -9,8 +9,8 @@ namespace isochron::interaction {
 namespace {
 
 constexpr double kMillimeter = 1e-3;     ///< [m]
-constexpr double kMostBlocks = 1024;     ///< of one line
-constexpr std::size_t kMostNumbers = 64; ///< of one block; the longest known has 12
+constexpr double kMostBlocks = 1024;     ///< blocks in one line
+constexpr std::size_t kMostNumbers = 64; ///< numbers in one block; the longest known has 12
 
 void skip_blanks(std::string_view& text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))

@@ -32,7 +32,7 @@ struct DTrackMarker {
 
 struct DTrackFrame {
     std::uint32_t counter = 0;
-    std::optional<Seconds> time; ///< of the measurement, since midnight UTC
+    std::optional<Seconds> time; ///< time of the measurement, since midnight UTC
     std::optional<int> calibrated_bodies;
     std::vector<DTrackBody> bodies;
     std::vector<DTrackFlystick> flysticks;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMostMessages = 512; ///< datagrams per poll or latch; each may be one button
 constexpr int kDeepest = 4;                ///< levels of bundles within bundles
 constexpr std::string_view kBundle("#bundle\0", 8);
-constexpr double kFraction = 4294967296.0; ///< of a second in a time tag
+constexpr double kFraction = 4294967296.0; ///< fractions of a second in a time tag
 
 std::uint32_t big_endian(std::string_view bytes) {
     std::uint32_t value = 0;
@@ -100,7 +100,7 @@ struct OscInput::State {
     struct Device {
         std::string address; ///< PREFIX/NAME/
         TrackedDevice tracked;
-        std::optional<Velocity> velocity; ///< of the next pose
+        std::optional<Velocity> velocity; ///< velocity of the next pose
     };
     DatagramReceiver receiver;
     std::vector<Device> devices;

@@ -15,7 +15,7 @@ struct PoseSample {
     Seconds time; ///< session time of the measurement
     Pose pose;
     std::optional<Velocity> velocity = std::nullopt;   ///< if the device sends it
-    std::optional<Seconds> device_time = std::nullopt; ///< of measuring, by the device's clock
+    std::optional<Seconds> device_time = std::nullopt; ///< time of measuring, by the device's clock
 };
 
 /// Whether it is finite, at most 10 km from the origin, and its quaternion nearly of unit length.

@@ -112,9 +112,9 @@ std::vector<sock_filter> filter_for(const sockaddr& sender) {
         code.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 1, 0));
         code.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
     };
-    code.push_back(BPF_STMT(BPF_LD | BPF_H | BPF_ABS, 0)); // of UDP's header: the sender's port
+    code.push_back(BPF_STMT(BPF_LD | BPF_H | BPF_ABS, 0)); // the sender's port in UDP's header
     expect(port);
-    for (const auto& [at, value] : words) { // of IP's header: the sender's address
+    for (const auto& [at, value] : words) { // the sender's address in IP's header
         code.push_back(
             BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(SKF_NET_OFF) + at));
         expect(value);

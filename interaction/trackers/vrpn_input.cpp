@@ -60,7 +60,7 @@ struct VrpnInput::State {
     /// One device: the thread fills `received`, the polling side takes it over.
     struct Source {
         VrpnDevice options;
-        TrackedDevice tracked; ///< of the polling side
+        TrackedDevice tracked; ///< the device, for the polling side
         DeviceClock clock;
         std::mutex mutex;
         Received received;

@@ -11,7 +11,7 @@ namespace isochron::interaction {
 struct VrpnDevice {
     DeviceOptions device;
     std::string tracker, buttons, analog;
-    int sensor = 0; ///< of the tracker
+    int sensor = 0; ///< number of the tracker's sensor
 };
 
 struct VrpnOptions {

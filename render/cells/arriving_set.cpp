@@ -22,9 +22,9 @@ ArrivingSet::ArrivingSet(const Gl& gl)
       message_(gl, "changed cells", GL_R32UI, kMessageWord, 1, DeviceArray::Storage::whole),
       styles_(gl, "colored cells", GL_R32UI, kMessageWord, 1, DeviceArray::Storage::whole) {}
 
-void ArrivingSet::begin(index::ExtractionPtr set, std::unique_ptr<SlotPlan> plan) {
-    ranked_ = plan ? nullptr : std::make_unique<RankedPoints>(*set);
-    plan_ = std::move(plan);
+void ArrivingSet::begin(index::ExtractionPtr set, std::unique_ptr<SlotAssignment> assignment) {
+    ranked_ = assignment ? nullptr : std::make_unique<RankedPoints>(*set);
+    assignment_ = std::move(assignment);
     merged_ = false;
     words_sent_ = styles_sent_ = 0;
     set_ = std::move(set);
@@ -32,13 +32,13 @@ void ArrivingSet::begin(index::ExtractionPtr set, std::unique_ptr<SlotPlan> plan
 
 index::ExtractionPtr ArrivingSet::end() {
     ranked_ = nullptr;
-    plan_ = nullptr;
+    assignment_ = nullptr;
     return std::exchange(set_, nullptr);
 }
 
 bool ArrivingSet::send_points(SendBudget& budget, UploadCount& count) {
     if (!merged_ && !ranked_)
-        merged_ = plan_->merge(kIdsLookedAt);
+        merged_ = assignment_->merge(kIdsLookedAt);
     if (merged_)
         return true;
     if (!ranked_)
@@ -62,15 +62,16 @@ bool ArrivingSet::send_changes(StagingRing& ring, SendBudget& budget, UploadCoun
 }
 
 bool ArrivingSet::send_message(StagingRing& ring, SendBudget& budget, UploadCount& count) {
-    message_.reserve(plan_->words(), DeviceArray::Contents::dropped);
+    message_.reserve(assignment_->words(), DeviceArray::Contents::dropped);
     std::size_t cells = kIdsLookedAt;
-    while (!plan_->done()) {
-        const std::size_t rest = (plan_->words() - words_sent_) * kMessageWord;
+    while (!assignment_->done()) {
+        const std::size_t rest = (assignment_->words() - words_sent_) * kMessageWord;
         const std::size_t most = std::min(budget.left(), rest);
         const std::span<std::byte> room = ring.room(most);
-        const std::size_t words = plan_->message({reinterpret_cast<std::uint32_t*>(room.data()),
-                                                  std::min(room.size(), most) / kMessageWord},
-                                                 cells);
+        const std::size_t words =
+            assignment_->message({reinterpret_cast<std::uint32_t*>(room.data()),
+                                  std::min(room.size(), most) / kMessageWord},
+                                 cells);
         if (words == 0)
             break;
         ring.copy(words * kMessageWord, message_.buffer(), words_sent_ * kMessageWord);
@@ -78,7 +79,7 @@ bool ArrivingSet::send_message(StagingRing& ring, SendBudget& budget, UploadCoun
         budget.sent += words * kMessageWord;
         count.id_bytes += words * kMessageWord;
     }
-    return plan_->done();
+    return assignment_->done();
 }
 
 /// Styles also change in cells that stay, so they are sent for all cells, in the order of slots.
@@ -86,7 +87,7 @@ bool ArrivingSet::send_styles(StagingRing& ring, SendBudget& budget, UploadCount
     constexpr std::size_t kStyle = sizeof(CellPlace::style);
     if (set_->colors.empty())
         return true;
-    const std::span<const CellPlace> places = plan_->slots().places;
+    const std::span<const CellPlace> places = assignment_->slots().places;
     styles_.reserve((places.size() * kStyle + kMessageWord - 1) / kMessageWord,
                     DeviceArray::Contents::dropped);
     while (styles_sent_ < places.size()) {

@@ -3,7 +3,7 @@
 
 #include "index/extraction/extraction.h"
 #include "render/cells/ranked_points.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/cells/upload_count.h"
 #include "render/gl/device_array.h"
 #include "render/gl/staging_ring.h"
@@ -26,8 +26,8 @@ class ArrivingSet {
     explicit ArrivingSet(const Gl& gl);
 
     /// Begins with a set.
-    /// @param plan how the set differs from the shown one; null: the set comes with its points
-    void begin(index::ExtractionPtr set, std::unique_ptr<SlotPlan> plan);
+    /// @param assignment how the set differs from the shown one; null: the set comes with its points
+    void begin(index::ExtractionPtr set, std::unique_ptr<SlotAssignment> assignment);
     /// Gives the set up, or ends when it is shown; `set` is null from then on. @return the set
     index::ExtractionPtr end();
 
@@ -46,24 +46,25 @@ class ArrivingSet {
     /// @return the slots of the cells
     Slots swap_points(DeviceArray& points);
     /// For a set without points, when all changes are sent.
-    SlotPlan& plan() { return *plan_; }
+    SlotAssignment& assignment() { return *assignment_; }
     const DeviceArray& message() const { return message_; } ///< changed cells, for CellCompute
-    const DeviceArray& styles() const { return styles_; }   ///< likewise, of all cells by slot
+    /// Styles of all cells, by slot, for CellCompute.
+    const DeviceArray& styles() const { return styles_; }
 
-    static DeviceArray points_array(const Gl& gl); ///< of index::CellPoint
+    static DeviceArray points_array(const Gl& gl); ///< a buffer of index::CellPoint
 
   private:
     bool send_message(StagingRing& ring, SendBudget& budget, UploadCount& count);
     bool send_styles(StagingRing& ring, SendBudget& budget, UploadCount& count);
 
     const Gl* gl_;
-    DeviceArray points_;  ///< of a set that comes with its points
-    DeviceArray message_; ///< of another set
+    DeviceArray points_;  ///< points of a set that comes with its points
+    DeviceArray message_; ///< changed cells of another set
     DeviceArray styles_;
     index::ExtractionPtr set_;
-    std::unique_ptr<RankedPoints> ranked_; ///< if the set comes with its points
-    std::unique_ptr<SlotPlan> plan_;       ///< else
-    bool merged_ = false;                  ///< whether `send_points` is done
+    std::unique_ptr<RankedPoints> ranked_;       ///< if the set comes with its points
+    std::unique_ptr<SlotAssignment> assignment_; ///< else
+    bool merged_ = false;                        ///< whether `send_points` is done
     std::size_t words_sent_ = 0, styles_sent_ = 0;
 };
 

@@ -9,10 +9,10 @@
 
 namespace isochron::render {
 
-/// In even coordinates (`index::Grid::physical_from_index`).
+/// Places and sizes in even coordinates (`index::Grid::physical_from_index`).
 struct AxisPlaces {
-    std::vector<float> place; ///< of each vertex
-    /// Of the cell behind each vertex; for the last vertex, which has none, of the last cell.
+    std::vector<float> place; ///< place of each vertex
+    /// Side of the cell behind each vertex; for the last vertex, which has none, of the last cell.
     std::vector<float> side;
 };
 

@@ -12,7 +12,7 @@
 namespace isochron::render {
 namespace {
 
-constexpr GLuint kUnit = 10; ///< of cell_place.glsl
+constexpr GLuint kUnit = 10; ///< texture unit of cell_place.glsl
 
 } // namespace
 

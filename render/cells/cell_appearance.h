@@ -16,7 +16,7 @@ namespace isochron::render {
 /// How one isosurface looks.
 struct SurfaceAppearance {
     glm::vec3 color{0.97f, 0.88f, 0.70f}; ///< as a display shows it (sRGB), 0 to 1
-    float opacity = 1.0f;                 ///< of the surface seen face-on, 0 to 1
+    float opacity = 1.0f;                 ///< opacity of the surface seen face-on, 0 to 1
 };
 
 inline bool is_translucent(const SurfaceAppearance& surface) {
@@ -61,7 +61,7 @@ struct CellAppearance {
     /// to 1.
     float occlusion = 0.6f;
     std::optional<NearFade> near_fade;
-    /// Of the footprint `mesh`: which of the set's meshes is drawn (CellBuffers::mesh).
+    /// Which of the set's meshes the footprint `mesh` draws (CellBuffers::mesh).
     std::size_t mesh_level = 0;
     /// Surfaces that are drawn, one bit for each; quads and splats show all of them.
     std::uint32_t drawn = ~0u;

@@ -42,7 +42,7 @@ CellBuffers::CellBuffers(const Gl& gl, const index::Grid& grid, std::size_t stag
       surroundings_(gl), arriving_(gl) {}
 
 index::Shading CellBuffers::wanted_shading(const Gl& gl) {
-    return takes_processor_ways(gl) ? index::Shading::cells : index::Shading::none;
+    return is_drawn_for_processor(gl) ? index::Shading::cells : index::Shading::none;
 }
 
 CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoint> points,
@@ -64,7 +64,7 @@ CellBuffers CellBuffers::of_points(const Gl& gl, std::span<const index::CellPoin
 
 void CellBuffers::prepare(index::ValueType held) {
     blocks_.emplace(*gl_, grid_, held);
-    volume_version_ = 0; // of no set
+    volume_version_ = 0; // no set's volume
     held_ = held;
     const auto [made, is_new] = computes_.try_emplace(held, *gl_, grid_, *axes_, held);
     compute_ = &made->second;
@@ -72,7 +72,7 @@ void CellBuffers::prepare(index::ValueType held) {
         return;
     const index::Extraction none;
     compute_->enter_pages(*blocks_);
-    compute_->place_cells(SlotPlan(grid_, nullptr, *slots_, none), none, arriving_.message(),
+    compute_->place_cells(SlotAssignment(grid_, nullptr, *slots_, none), none, arriving_.message(),
                           points_);
     compute_->set_styles(none, arriving_.styles(), points_);
     compute_->fill_planes(none, *blocks_, points_);
@@ -137,7 +137,7 @@ void CellBuffers::give_up(const index::ExtractionPtr& set, const OutOfMemory& wh
     colors_sent_ = 0;
     for (KeptMeshes& meshes : meshes_)
         meshes.sending = false;
-    volume_version_ = 0; // of no set
+    volume_version_ = 0; // no set's volume
     if (blocks_)         // which may have got only a part
         blocks_.emplace(*gl_, grid_, held_);
 }
@@ -163,7 +163,7 @@ bool CellBuffers::make_room_for(const index::VolumeBlocks& blocks) {
         return false;
     if (!blocks_->has_room_for(blocks)) {
         blocks_->forget();
-        volume_version_ = 0; // of no set
+        volume_version_ = 0; // no set's volume
     }
     return true;
 }
@@ -189,11 +189,11 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
     if (set->coarse() ||
         (with_points && volume == SendVolume::with_cells && !make_room_for(set->blocks)))
         volume = SendVolume::never;
-    std::unique_ptr<SlotPlan> plan;
+    std::unique_ptr<SlotAssignment> assignment;
     if (!with_points)
-        plan = !by_changes_ || (shown_ && shown_->coarse())
-                   ? std::make_unique<SlotPlan>(grid_, nullptr, kNoSlots, *set)
-                   : std::make_unique<SlotPlan>(grid_, shown_.get(), *slots_, *set);
+        assignment = !by_changes_ || (shown_ && shown_->coarse())
+                   ? std::make_unique<SlotAssignment>(grid_, nullptr, kNoSlots, *set)
+                   : std::make_unique<SlotAssignment>(grid_, shown_.get(), *slots_, *set);
     sending_blocks_ = volume == SendVolume::with_cells || !with_points;
     colors_sent_ = 0;
     if (sending_blocks_)
@@ -202,7 +202,7 @@ bool CellBuffers::begin(index::ExtractionPtr set, SendVolume volume) {
         meshes.sending = &meshes == &meshes_[0] && with_points && set->meshed();
     if (meshes_[0].sending)
         meshes_[0].buffers.begin(set->meshes(0));
-    arriving_.begin(std::move(set), std::move(plan));
+    arriving_.begin(std::move(set), std::move(assignment));
     return true;
 }
 
@@ -218,7 +218,7 @@ bool CellBuffers::send_on(SendBudget& budget) {
     if (!ranked && !arriving_.send_changes(ring_, budget, count_))
         return false;
     return !sending_blocks_ ||
-           send_colors(*arriving_.set(), ranked ? kNoSlots : arriving_.plan().slots(), ranked,
+           send_colors(*arriving_.set(), ranked ? kNoSlots : arriving_.assignment().slots(), ranked,
                        budget);
 }
 
@@ -336,14 +336,14 @@ void CellBuffers::show() {
 /// Applies the changes of the arriving set. @return the new slots
 Slots CellBuffers::place_cells() {
     const index::Extraction& set = *arriving_.set();
-    SlotPlan& plan = arriving_.plan();
+    SlotAssignment& assignment = arriving_.assignment();
     points_.reserve(set.cells(), DeviceArray::Contents::kept);
-    compute_->place_cells(plan, set, arriving_.message(), points_);
+    compute_->place_cells(assignment, set, arriving_.message(), points_);
     if (!set.colors.empty() || (shown_ && !shown_->colors.empty()))
         compute_->set_styles(set, arriving_.styles(), points_);
     compute_->fill_planes(set, *blocks_, points_);
-    count_.ids += plan.ids();
-    return plan.take();
+    count_.ids += assignment.ids();
+    return assignment.take();
 }
 
 std::size_t CellBuffers::compute_corners(std::size_t most) {

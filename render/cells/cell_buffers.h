@@ -11,7 +11,7 @@
 #include "render/cells/block_pool.h"
 #include "render/cells/cell_compute.h"
 #include "render/cells/mesh_buffers.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/cells/surroundings.h"
 #include "render/cells/upload_count.h"
 #include "render/gl/staging_ring.h"
@@ -82,7 +82,7 @@ class CellBuffers {
     /// are drawn, which decides where two are equally near, then does not depend on earlier sets.
     void send_whole() { by_changes_ = false; }
 
-    /// The same for one set, without showing it; the next `upload` of this set shows it.
+    /// Stages one set like `upload`, without showing it; the next `upload` of this set shows it.
     /// @return true when it is completely on the GPU, or refused
     bool stage(const index::ExtractionPtr& set, std::size_t byte_budget);
 
@@ -111,7 +111,7 @@ class CellBuffers {
     }
     const MeshBuffers& mesh(std::size_t level = 0) const { return meshes_[level].buffers; }
     const AxisTable& axes() const { return *axes_; }
-    /// Of the shown set.
+    /// Surroundings of the shown set.
     const Surroundings& surroundings() const { return surroundings_; }
 
     /// Whether the shown set's part of the volume is on the GPU, as the exact surface needs.
@@ -122,9 +122,9 @@ class CellBuffers {
     /// volume must be on the GPU.
     /// @throws Error when there are more than `corner_limit()` cells
     void compute_corners() { compute_corners(std::numeric_limits<std::size_t>::max()); }
-    /// The same in pieces, of at most so many cells. @return how many cells it was; 0: none is left
+    /// Computes in pieces, of at most so many cells. @return how many cells it was; 0: none is left
     std::size_t compute_corners(std::size_t most);
-    /// The same of some cells, into arrays of the caller.
+    /// Computes the corners of some cells, into arrays of the caller.
     /// @param cells slots in use, or numbers in the list; the set's volume is on the GPU
     void write_corners(DrawPart cells, const CellCompute::Corners& to) const;
     static DeviceArray corner_values_array(const Gl& gl);
@@ -156,13 +156,14 @@ class CellBuffers {
     /// What is kept for exact surfaces: see the textures.
     struct KeptCorners {
         DeviceArray values, gradients;
-        std::uint64_t version = 0; ///< of the set whose corners they are
+        std::uint64_t version = 0; ///< version of the set whose corners they are
         std::size_t done = 0;      ///< cells
     };
     struct KeptMeshes {
         MeshBuffers buffers;
-        std::uint64_t version = 0; ///< of the set whose meshes they are
-        bool sending = false;      ///< of the arriving set, or later ones of the shown set
+        std::uint64_t version = 0; ///< version of the set whose meshes they are
+        /// Meshes of the arriving set, or later ones of the shown set, are being sent.
+        bool sending = false;
     };
     struct Refusal {
         index::ExtractionPtr set; ///< null: none
@@ -190,24 +191,27 @@ class CellBuffers {
     StagingRing ring_;
     DeviceArray points_;
     KeptCorners corners_;
-    DeviceArray corner_colors_, arriving_colors_; ///< of the shown volume's cells; of the next one
-    std::vector<std::uint16_t> colors_by_slot_; ///< that are being sent, where slots are not ranks
-    std::size_t colors_sent_ = 0;               ///< cells
+    /// Colors of the shown volume's cells; of the next one.
+    DeviceArray corner_colors_, arriving_colors_;
+    /// Colors that are being sent, where slots are not ranks.
+    std::vector<std::uint16_t> colors_by_slot_;
+    std::size_t colors_sent_ = 0;                       ///< cells
     std::array<KeptMeshes, index::kMeshLevels> meshes_; ///< by level
     Surroundings surroundings_;
     std::optional<BlockPool> blocks_;                  ///< made when the type is known
-    index::ValueType held_{};                          ///< of its values
+    index::ValueType held_{};                          ///< type of the blocks' values
     std::map<index::ValueType, CellCompute> computes_; ///< by type of the values
     CellCompute* compute_ = nullptr;                   ///< for `held_`; likewise
     bool by_changes_ = true;                           ///< else each set is sent whole
     index::ExtractionPtr shown_;
     Refusal refused_;
-    std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< of the shown set
+    std::shared_ptr<const Slots> slots_ = std::make_shared<Slots>(); ///< slots of the shown set
     std::uint64_t version_ = 0, volume_version_ = 0;
-    std::uint64_t no_volume_version_ = 0; ///< of the set whose volume found no memory
+    std::uint64_t no_volume_version_ = 0; ///< version of the set whose volume found no memory
     UploadCount count_;
     ArrivingSet arriving_;
-    bool sending_blocks_ = false; ///< of the arriving set, or later of the shown one
+    /// Blocks of the arriving set, or later ones of the shown set, are being sent.
+    bool sending_blocks_ = false;
 };
 
 } // namespace isochron::render

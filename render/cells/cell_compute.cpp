@@ -137,17 +137,17 @@ void CellCompute::enter_pages(const BlockPool& blocks) const {
     run(pages_, blocks.page_changes(), {}, [](std::size_t, std::size_t) {});
 }
 
-void CellCompute::place_cells(const SlotPlan& plan, const index::Extraction& set,
+void CellCompute::place_cells(const SlotAssignment& assignment, const index::Extraction& set,
                               const DeviceArray& message, const DeviceArray& points) const {
     const auto cells = grid_.cells();
-    Work work{.whole = plan.whole(), .cells = {cells[0], cells[1]}};
+    Work work{.whole = assignment.whole(), .cells = {cells[0], cells[1]}};
     std::uint32_t end = 0;
     for (std::size_t i = 0; i < work.surface_ends.size(); ++i)
         work.surface_ends[i] = end +=
             i < set.surfaces.size() ? std::uint32_t(set.surfaces[i].ids.size()) : 0;
     bind(0, points);
     bind(1, message);
-    run(places_, plan.ids(), work, [](std::size_t, std::size_t) {});
+    run(places_, assignment.ids(), work, [](std::size_t, std::size_t) {});
 }
 
 void CellCompute::set_styles(const index::Extraction& set, const DeviceArray& styles,

@@ -5,7 +5,7 @@
 #include "render/cells/axis_table.h"
 #include "render/cells/block_pool.h"
 #include "render/cells/draw_part.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <array>
 #include <cstddef>
@@ -25,10 +25,10 @@ class CellCompute {
     /// Applies the changes of the new set to the pool's page table.
     void enter_pages(const BlockPool& blocks) const;
 
-    /// Writes the cells of a slot plan's message into `points` (three words per slot, see
+    /// Writes the cells of a slot assignment's message into `points` (three words per slot, see
     /// index::CellPoint), without their planes.
-    void place_cells(const SlotPlan& plan, const index::Extraction& set, const DeviceArray& message,
-                     const DeviceArray& points) const;
+    void place_cells(const SlotAssignment& assignment, const index::Extraction& set,
+                     const DeviceArray& message, const DeviceArray& points) const;
 
     /// Gives every point of the set its style, see index::CellPoint.
     /// @param styles by slot, two per word. If the set has no colors, `styles` is not read and all

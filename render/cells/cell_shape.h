@@ -25,7 +25,7 @@ struct SplatShape {
 
     bool is_cut() const { return quad && shape == CellShape::plane; }
 
-    // Of ellipsoids on planes, as shares of the radius, as ellipse.glsl has them:
+    // How ellipsoids on planes are drawn, as shares of the radius, as ellipse.glsl has them:
     static constexpr float kThickness = 0.125f; ///< along the normal
     static constexpr float kLengthwise = 1.3f;  ///< over the part in the cell
     static constexpr float kLeastWidth = 0.15f; ///< in the plane
@@ -33,7 +33,7 @@ struct SplatShape {
     /// stored offset, so that a plane at the cell's very end still has an extent [voxels].
     static constexpr float kLeastRest = 0.007f;
 
-    // Of quads on planes, as cut.glsl has them:
+    // How quads on planes are drawn, as cut.glsl has them:
     /// Least cosine between the plane's normal and the way to the eye: a plane that is seen edge-on
     /// is turned so far.
     static constexpr float kLeastCosine = 0.02f;

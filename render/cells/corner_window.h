@@ -40,7 +40,7 @@ class CornerWindow {
     const Gl* gl_;
     DeviceArray values_, gradients_;
     std::size_t most_;
-    std::uint64_t version_ = 0; ///< of the cells; 0 for those in a list
+    std::uint64_t version_ = 0; ///< version of the cells; 0 for cells in a list
     DrawPart shown_{0, 0};
 };
 

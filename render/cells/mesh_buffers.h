@@ -29,14 +29,14 @@ class MeshBuffers {
     struct Surface {
         std::size_t first_vertex = 0, first_index = 0, indices = 0;
     };
-    /// Of the shown set.
+    /// Surfaces of the shown set.
     std::span<const Surface> surfaces() const { return shown_.surfaces; }
     /// What is shown, by surface.
     std::span<const index::CellMeshPtr> meshes() const { return shown_.meshes; }
     std::size_t triangles() const { return shown_.index_bytes / sizeof(std::uint32_t) / 3; }
     GLuint vertices() const { return shown_.vertices.name(); }
     GLuint indices() const { return shown_.indices.name(); }
-    /// Of the vertices, 16 bits each (CellMesh::colors); 0 if they have none.
+    /// Colors of the vertices, 16 bits each (CellMesh::colors); 0 if they have none.
     GLuint colors() const { return shown_.color_bytes > 0 ? shown_.colors.name() : 0; }
 
   private:

@@ -24,7 +24,7 @@ class OrderCache {
     std::span<const std::uint32_t> order(const CellBuffers& cells, const TraversalKey& key) {
         return entry(cells, key).order;
     }
-    /// The same order as a GL_TEXTURE_BUFFER, one R32UI texel per cell.
+    /// The order as a GL_TEXTURE_BUFFER, one R32UI texel per cell.
     GLuint texture(const CellBuffers& cells, const TraversalKey& key);
 
     /// Work of sorting an order ahead of its first use; 0 if it is there.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/extraction/extraction.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <cstddef>
 #include <span>

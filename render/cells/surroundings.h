@@ -11,8 +11,8 @@
 
 namespace isochron::render {
 
-/// The fields of all surfaces, one above the other, as GL_TEXTURE_3D. Before the first set the
-/// field of a surface that nothing surrounds.
+/// The fields of all surfaces, one above the other, as GL_TEXTURE_3D. Before the first set it is
+/// the field of a surface that nothing surrounds.
 class Surroundings {
   public:
     explicit Surroundings(const Gl& gl);

@@ -34,7 +34,7 @@ constexpr double kFarthest = 1 << 20; // [cells]; beyond this only the direction
 /// References are middles of quarter cells, in eighths of a cell. They are never half way between
 /// the middles of two cells, so that the cell of the eye is always the nearer one.
 constexpr int kPart = 2, kCell = 8, kMiddle = 4, kPartsOfCell = kCell / kPart;
-constexpr double kSnapsPerRadian = 512; // of a reference outside the grid
+constexpr double kSnapsPerRadian = 512; // directions of a reference outside the grid
 
 /// Weights as fixed point numbers, relative to the smallest. A weight of at least 1 keeps cells
 /// apart that are a whole cell apart, and rounding to its units keeps their order.

@@ -9,7 +9,7 @@
 // splats.
 #pragma once
 
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -49,9 +49,9 @@ TraversalKey traversal_key(const glm::vec4& eye, const glm::ivec3& cells, const 
 void order_back_to_front(const Slots& slots, const TraversalKey& key,
                          std::vector<std::uint32_t>& order);
 
-class SortPasses; ///< of a radix sort
+class SortPasses; ///< the passes of a radix sort
 
-/// The same sort in pieces, as all of it may take longer than a frame.
+/// Sorts back to front in pieces, as all of it may take longer than a frame.
 class BackToFrontSort {
   public:
     BackToFrontSort(const Slots& slots, const TraversalKey& key);

@@ -11,10 +11,11 @@ namespace isochron::render {
 
 namespace {
 
-constexpr float kLarger = 1.01f;    ///< times the box, for what its rays may find beside it
-constexpr float kPixels = 0.0625f;  ///< added on all sides
-constexpr float kNearer = 4e-6f;    ///< taken off window depths
-constexpr float kLeastShare = 0.1f; ///< of its middle's w, for a box that is not near the eye
+constexpr float kLarger = 1.01f;   ///< times the box, for what its rays may find beside it
+constexpr float kPixels = 0.0625f; ///< added on all sides
+constexpr float kNearer = 4e-6f;   ///< taken off window depths
+/// Share of the w of its middle, for a box that is not near the eye.
+constexpr float kLeastShare = 0.1f;
 
 /// The most by which a row changes from the middle of a box to its surface.
 float reach(const glm::vec3& row, const glm::vec3& half) {

@@ -30,7 +30,7 @@ class BoxProjection {
     std::optional<BoxBounds> bounds(const glm::vec3& middle, const glm::vec3& half) const;
 
   private:
-    glm::vec2 size_, center_; ///< of the viewport [pixel]
+    glm::vec2 size_, center_; ///< size and center of the viewport [pixel]
     glm::vec4 x_, y_, w_;     ///< rows from even coordinates to clip space, x and y in pixels
     /// Clip depth is `slope_` + (this row) / w. In perspective this row is constant, so that bounding
     /// both terms bounds the depth.

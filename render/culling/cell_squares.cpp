@@ -252,7 +252,7 @@ void CellSquares::begin(const View& view, const Placement& placement, const Spla
         projection_.sides[axis] = axes_[axis].side.data();
         projection_.last[axis] = static_cast<std::int32_t>(axes_[axis].place.size()) - 1;
     }
-    if (slots.largest > 0) // of mixed levels
+    if (slots.largest > 0) // the cells are of mixed levels
         kind_ = grid_ ? CellKind::mixed_uneven : CellKind::mixed;
     else
         kind_ = grid_ ? CellKind::uneven : CellKind::even;

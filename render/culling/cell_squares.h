@@ -4,7 +4,7 @@
 #include "render/cells/axis_places.h"
 #include "render/cells/cell_shape.h"
 #include "render/cells/placement.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/culling/square_projection.h"
 #include "render/gl/view.h"
 
@@ -34,7 +34,7 @@ class CellSquares {
         project_to(size_, slots, back_to_front);
     }
 
-    /// The same in pieces: begins, with no cell projected yet.
+    /// Projects in pieces: begins, with no cell projected yet.
     void begin(const View& view, const Placement& placement, const SplatShape& shape,
                const Slots& slots);
     /// Goes on until the nearest `to` cells, or a few more, are projected. @param slots the same
@@ -44,7 +44,7 @@ class CellSquares {
 
     std::size_t size() const { return size_; }
     // Nearest first:
-    const float* x() const { return x_.data(); } ///< of the middle [pixel of the viewport]
+    const float* x() const { return x_.data(); } ///< x of the middle [pixel of the viewport]
     const float* y() const { return y_.data(); }
     const float* z() const { return z_.data(); } ///< clip depth
     /// Half the length of a side [pixel]; `inner` is 0 if no inner square is known, or it hides
@@ -54,7 +54,7 @@ class CellSquares {
     /// Radii [pixel]. The inner one is 0 also if the vertex shader fades the cell near the eye.
     const float* inner_disc() const { return inner_disc_.data(); }
     const float* outer_disc() const { return outer_disc_.data(); }
-    /// Of quads on planes: the ends of the rows between which the quad lies [pixel of the
+    /// The ends of the rows between which a quad on a plane lies [pixel of the
     /// viewport], the upper one first beyond the lower one if there is nothing of it.
     const float* low() const { return low_.data(); }
     const float* high() const { return high_.data(); }

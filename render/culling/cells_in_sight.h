@@ -26,9 +26,9 @@ struct SightWanted {
     bool all_cells = false; ///< for comparisons: takes all to be in sight
 };
 
-/// Leaves out cells that are outside the views, or behind what is drawn: drawing one takes twenty
-/// times as long as finding that. Depths are read back every now and then, so what has been drawn before is known
-/// exactly, whatever it was, and the picture stays the same to the bit.
+/// Leaves out cells that are outside the views, or behind what is drawn: drawing a cell takes
+/// twenty times as long as finding that. Depths are read back every now and then, so that what has
+/// been drawn before is known exactly, whatever it was, and the picture stays the same to the bit.
 class CellsInSight {
   public:
     explicit CellsInSight(const Gl& gl);
@@ -60,7 +60,7 @@ class CellsInSight {
     const Gl* gl_;
     BufferTexture texels_; ///< what was found
     // The picture:
-    std::uint64_t version_ = 0; ///< of the cells
+    std::uint64_t version_ = 0; ///< version of the cells
     GLint framebuffer_ = 0;
     std::vector<View> views_;
     Placement placement_;
@@ -70,7 +70,7 @@ class CellsInSight {
     std::size_t unread_ = 0;                 ///< cells that are drawn since depths were read
     std::vector<BoxProjection> projections_; ///< by view, as are depths
     std::vector<DrawnDepths> depths_;
-    std::array<AxisPlaces, 3> axes_; ///< of a rectilinear grid
+    std::array<AxisPlaces, 3> axes_; ///< places of a rectilinear grid
 
     std::span<const CellPlace> places_; ///< during `next`
     std::vector<std::uint32_t> found_;

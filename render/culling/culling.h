@@ -12,7 +12,7 @@ namespace isochron::render {
 /// A square of whole pixels of the viewport.
 struct PixelSquare {
     std::uint32_t corner = 0; ///< its lower left pixel: x, and y from bit 16 on
-    std::uint32_t size = 0;   ///< of its sides [pixel]; 0 where it is not known
+    std::uint32_t size = 0;   ///< length of its sides [pixel]; 0 where it is not known
 };
 
 /// The cells from number `first`, a multiple of `CellSquares::kBlock`, to `end`.
@@ -24,11 +24,11 @@ struct CellRange {
 /// it, like a hierarchical z-buffer (Greene, Kass and Miller 1993, doi:10.1145/166117.166147). A
 /// cell is hidden if nearer squares cover all tiles that its square may touch.
 /// @param seen takes the numbers of the visible cells, in the order of the squares; has room for all
-/// @return how many these are
+/// @return number of visible cells
 std::size_t find_squares(const CellSquares& squares, const TileNumbers& tiles, CellRange range,
                          std::uint32_t* seen);
 
-/// The same for quads that are cut at their cells.
+/// Finds which quads that are cut at their cells are seen.
 /// @param parts takes a square around what is seen of each
 std::size_t find_cuts(const CellSquares& cuts, const TileNumbers& tiles, CellRange range,
                       std::uint32_t* seen, PixelSquare* parts);

@@ -10,7 +10,7 @@ namespace isochron::render {
 void DrawnDepths::clear(const Gl& gl, const View& view) {
     size_ = view.size;
     GLint samples = 0;
-    gl.GetIntegerv(GL_SAMPLES, &samples); // of the target
+    gl.GetIntegerv(GL_SAMPLES, &samples); // samples of the target
     one_sample_ = samples <= 1;
     largest_.clear();
 }

@@ -23,9 +23,9 @@ class DrawnDepths {
     bool hide(const BoxBounds& bounds) const;
 
   private:
-    static constexpr int kBits = 1; ///< of a tile's pixels along each side
+    static constexpr int kBits = 1; ///< bits of a tile's pixels along each side
 
-    glm::ivec2 size_{0}; ///< of the viewport
+    glm::ivec2 size_{0}; ///< size of the viewport
     bool one_sample_ = true;
     int columns_ = 0, rows_ = 0;
     std::vector<float> largest_; ///< row by row; empty: nothing is drawn

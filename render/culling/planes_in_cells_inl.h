@@ -41,11 +41,11 @@ HWY_INLINE V3 select(Mask which, const V3& yes, const V3& no) {
             hn::IfThenElse(which, yes.z, no.z)};
 }
 
-/// As plane.glsl has it.
+/// Planes of several cells at a time; plane.glsl has the same for one.
 struct Planes {
     Mask are_there; ///< cells with a plane
     V3 normal;      ///< (0, 0, 1) if there is none
-    V3 size;        ///< of the normal's components, a little above 0
+    V3 size;        ///< absolute values of the normal's components, a little above 0
     V3 middle;      ///< from the cell's [voxels]; zero if there is none
     V rest;
 };

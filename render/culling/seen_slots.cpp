@@ -49,9 +49,9 @@ std::span<const std::uint32_t> SeenSlots::advance(std::size_t to, const Slots& s
 void SeenSlots::lay_out_tiles() {
     constexpr float kFarthestDepth = std::numeric_limits<float>::max(), kAllLight = 1.0f;
     struct Layout {
-        const float* half; ///< of the cells [pixel]
+        const float* half; ///< half the side of the cells' squares [pixel]
         float tiles;       ///< in this
-        int most_bits;     ///< of a tile's side
+        int most_bits;     ///< bits of a tile's side
         float empty;       ///< what a tile has at first
     };
     const auto [half, across, most_bits, empty] =

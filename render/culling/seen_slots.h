@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/cells/placement.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/culling/cell_squares.h"
 #include "render/culling/culling.h"
 #include "render/culling/picture_tiles.h"
@@ -17,8 +17,8 @@
 namespace isochron::render {
 
 /// Projects the cells, then visits them nearest first with tiles that know what nearer ones hide.
-/// Of opaque quads the cells that are left give exactly the same picture; of splats the same to
-/// within a step of an 8-bit picture. This takes 20 to 100 ns per quad on the processor; drawing
+/// With opaque quads, the cells that are left give exactly the same picture; with splats, the same
+/// to within a step of an 8-bit picture. This takes 20 to 100 ns per quad on the processor; drawing
 /// one takes 200 to 1000 ns.
 class SeenSlots {
   public:
@@ -31,7 +31,7 @@ class SeenSlots {
     std::size_t work() const { return (1 + kVisit) * squares_.size(); }
     /// Goes on until so much of the work is done.
     /// @param slots the same as before
-    /// @param back_to_front slots in this order, likewise
+    /// @param back_to_front slots in this order, the same as before
     /// @return slots of the visible cells once all is done, quads nearest first and splats back to
     /// front; valid until the next call
     std::span<const std::uint32_t> advance(std::size_t to, const Slots& slots,
@@ -44,8 +44,9 @@ class SeenSlots {
         begin(view, placement, shape, slots, falloff);
         return advance(work(), slots, back_to_front);
     }
-    /// Of each visible quad that is cut at its cell, once all is done, a square around all that
-    /// others do not hide of it; empty for other cells. Valid as long as the slots.
+    /// What is seen of each quad that is cut at its cell, once all slots are done: a square around
+    /// the part of the quad that nearer cells do not hide; empty for other cells. Valid as long as
+    /// the slots.
     std::span<const PixelSquare> parts() const {
         return kind_ == Kind::cuts ? std::span<const PixelSquare>(parts_).first(seen_.size())
                                    : std::span<const PixelSquare>();

@@ -14,19 +14,19 @@ namespace isochron::render {
 /// Where the cells of a set lie.
 enum class CellKind : std::uint8_t {
     even,        ///< on a regular grid
-    mixed,       ///< of mixed levels of detail, on a regular grid
+    mixed,       ///< mixed levels of detail, on a regular grid
     uneven,      ///< on a rectilinear grid
-    mixed_uneven ///< of mixed levels of detail, on a rectilinear grid
+    mixed_uneven ///< mixed levels of detail, on a rectilinear grid
 };
 
 /// The data that all cells share.
 struct SquareProjection {
     glm::vec4 row_x, row_y, row_z, row_w; ///< from index to clip space, x and y in pixels
-    glm::vec2 middle;                     ///< of the viewport, pixels
+    glm::vec2 middle;                     ///< middle of the viewport, pixels
     float radius;
     glm::mat3 index_from_normal; ///< normals of planes from physical to index space
-    glm::vec3 extent;            ///< of the volume in index space
-    /// Of a rectilinear grid, as AxisPlaces has them; null for a regular one.
+    glm::vec3 extent;            ///< extent of the volume in index space
+    /// Places and sides of a rectilinear grid, as AxisPlaces has them; null for a regular one.
     const float *places[3], *sides[3];
     std::int32_t last[3]; ///< vertex along each axis
 };

@@ -24,8 +24,8 @@
 namespace isochron::render {
 namespace {
 
-constexpr GLuint kColorMapUnit = 7;     ///< of appearance.glsl
-constexpr GLuint kSurroundingsUnit = 9; ///< of surroundings.glsl
+constexpr GLuint kColorMapUnit = 7;     ///< texture unit of appearance.glsl
+constexpr GLuint kSurroundingsUnit = 9; ///< texture unit of surroundings.glsl
 
 /// Whether only as many cells are drawn at once as a window of corners holds.
 bool comes_in_windows(Footprint footprint, bool blended) {
@@ -77,7 +77,7 @@ CellPass::FootprintPrograms CellPass::footprint_programs(std::string_view fragme
 
 CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::string& grid_prelude)
     : gl_(&gl), shapes_(shapes), grid_prelude_(grid_prelude),
-      two_views_at_once_(draws_to_two_viewports(gl)), seen_only_(takes_processor_ways(gl)),
+      two_views_at_once_(draws_to_two_viewports(gl)), seen_only_(is_drawn_for_processor(gl)),
       largest_point_(Limits(gl).largest_point),
       quad_programs_(footprint_programs("cell_quad.frag", Footprint::quad)),
       gaussian_programs_(footprint_programs("cell_gaussian.frag", Footprint::gaussian)),

@@ -76,7 +76,7 @@ class CellPass {
     const OrderCache& orders() const { return sequences_.orders(); }
 
   private:
-    /// The same shaders for one view and for two.
+    /// Each program for one view and for two.
     struct Programs {
         Program one;
         std::optional<Program> two;
@@ -153,8 +153,8 @@ class CellPass {
     FootprintPrograms quad_programs_, gaussian_programs_;
     MeshPass mesh_;
     SurfacePass surface_;
-    CornerWindow corners_;  ///< of opaque surfaces
-    CellsInSight in_sight_; ///< the same
+    CornerWindow corners_;  ///< corners of the cells of opaque surfaces
+    CellsInSight in_sight_; ///< opaque surfaces' cells that nothing hides
     QuadIndices quads_;
     CellSequences sequences_;
     Buffer frame_;

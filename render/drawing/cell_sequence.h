@@ -33,7 +33,7 @@ struct SequenceWanted {
     const Placement& placement;
     const CellBuffers& cells;
     SplatShape shape;
-    float falloff;   ///< of splats, see SeenSlots
+    float falloff;   ///< falloff of splats, see SeenSlots
     bool blended;    ///< splats, back to front; else quads, nearest first
     bool leaves_out; ///< cells that cannot be seen are culled
 };

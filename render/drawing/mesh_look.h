@@ -17,8 +17,8 @@ namespace isochron::render {
 /// How triangles are drawn, apart from their order.
 struct MeshLook {
     std::int32_t surfaces = 0;         ///< one bit for each drawn surface
-    std::span<const glm::vec4> colors; ///< of each surface, linear light
-    std::size_t level = 0;             ///< of the set's meshes: CellBuffers::mesh
+    std::span<const glm::vec4> colors; ///< color of each surface, linear light
+    std::size_t level = 0;             ///< which of the set's meshes is drawn: CellBuffers::mesh
     bool colored = false;              ///< by the vertices' coordinates
     bool near = false;  ///< so near that some may be cut away or fade, or large in the view
     bool small = false; ///< triangles are of few pixels: lit at their vertices

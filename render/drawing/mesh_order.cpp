@@ -86,7 +86,7 @@ void append_in_order(const index::CellMesh& mesh, PlaneOrder order,
 std::vector<std::uint32_t> far_first(std::span<const index::CellMeshPtr> meshes,
                                      std::span<const std::size_t> first_vertices,
                                      const glm::vec4& ahead) {
-    std::vector<float> distances; // of all triangles
+    std::vector<float> distances; // distance of each triangle
     std::vector<std::uint32_t> corners;
     for (std::size_t i = 0; i < meshes.size(); ++i)
         for (std::size_t k = 0; meshes[i] && k < meshes[i]->triangles.size(); ++k) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/surface/cell_mesh.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -37,7 +37,7 @@ PlaneOrder near_planes_first(const glm::vec4& eye, const glm::vec3& extent,
 /// @param corners of triangles: three vertices each
 void append_in_order(std::span<const CellPlace> cells, const index::CellMesh& mesh,
                      PlaneOrder order, std::vector<std::uint32_t>& corners);
-/// The same of a mesh whose triangles belong to no cells, by their first vertices.
+/// Appends a mesh whose triangles belong to no cells, ordered by their first vertices.
 void append_in_order(const index::CellMesh& mesh, PlaneOrder order,
                      std::vector<std::uint32_t>& corners);
 

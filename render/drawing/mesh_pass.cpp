@@ -10,7 +10,7 @@
 
 namespace isochron::render {
 
-constexpr GLint kFirstVertices = 1; ///< of mesh.vert
+constexpr GLint kFirstVertices = 1; ///< uniform location in mesh.vert
 constexpr GLuint kColors = 1;       ///< attribute of mesh.vert
 
 /// Triangles that are put in order in some milliseconds. More are drawn as they come.

@@ -45,7 +45,7 @@ class MeshPass {
 
   private:
     enum class Kind : std::uint8_t { plain, colored, blended };
-    enum class Way : std::uint8_t { plain, near, small }; ///< of MeshLook
+    enum class Way : std::uint8_t { plain, near, small }; ///< which shader a MeshLook asks for
     Program make_program(Kind kind, Way way, const std::string& grid_prelude) const;
     GLuint program(Kind kind, const MeshLook& look) const;
     void put_near_first(const CellBuffers& cells, std::size_t level, PlaneOrder order);
@@ -63,8 +63,8 @@ class MeshPass {
     Buffer near_first_, order_; ///< vertex indices, also to be blended
     std::vector<std::uint32_t>
         first_of_cell_;            ///< first triangle of each cell, by slot, and the end
-    PlaneOrder sorted_;            ///< of `near_first_`
-    std::size_t sorted_level_ = 0; ///< likewise
+    PlaneOrder sorted_;            ///< order of `near_first_`
+    std::size_t sorted_level_ = 0; ///< mesh level of `near_first_`
     std::uint64_t cells_version_ = 0, sorted_version_ = 0;
 };
 

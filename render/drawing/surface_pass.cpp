@@ -31,7 +31,7 @@ void SurfacePass::draw(const QuadIndices& quads, const Corners& corners, bool bl
     if (colored)
         gl_->BindTextureUnit(8, corners.colors);
     GLint samples = 0;
-    gl_->GetIntegerv(GL_SAMPLES, &samples); // of the target
+    gl_->GetIntegerv(GL_SAMPLES, &samples); // samples of the target
     gl_->UseProgram(programs_[colored][samples > 1][blended][views - 1]->name());
     quads.draw(part.count, static_cast<int>(views), part.first);
 }

@@ -8,9 +8,9 @@
 
 namespace isochron::render {
 
-/// Bytes of storage for a buffer texture that holds so many: at least as many, and such that every
-/// such texture is of one kind for Mesa's llvmpipe. It compiles a shader once more, which takes up
-/// to half a second in the middle of a session, for a texture whose size is a power of two, or whose
+/// How large to make a buffer texture that holds so many bytes: at least that, and of a size that
+/// needs no further shader of Mesa's llvmpipe. It compiles a shader once more, which takes up to
+/// half a second in the middle of a session, for a texture whose size is a power of two, or whose
 /// size in bytes has none of bits 8 to 15 (there it reads the last level of other textures).
 /// @param most bytes that the GL can hold: no more than these, if `bytes` is not
 std::size_t texel_storage(std::size_t bytes, std::size_t most);

@@ -19,7 +19,7 @@ bool draws_in_software(const Gl& gl) {
     });
 }
 
-bool takes_processor_ways(const Gl& gl) {
+bool is_drawn_for_processor(const Gl& gl) {
     if (gl.drawn_by != DrawnBy::automatic)
         return gl.drawn_by == DrawnBy::processor;
     const char* text = std::getenv("ISOCHRON_DRAWN_BY");

@@ -11,7 +11,7 @@ bool draws_in_software(const Gl& gl);
 /// Whether cells are drawn as suits a processor: it computes their normals, sends sets whole, culls
 /// hidden cells, and draws footprints one eye at a time. Decided by `gl.drawn_by`, else by the
 /// environment variable ISOCHRON_DRAWN_BY (`gpu` or `processor`, for tests), else by the driver.
-bool takes_processor_ways(const Gl& gl);
+bool is_drawn_for_processor(const Gl& gl);
 
 /// Call once a frame. @throws Error when the context is lost, for example after a reset of the GPU,
 /// if the driver tells

@@ -215,7 +215,7 @@ struct Gl {
     ISOCHRON_GL_ENTRY_POINTS(ISOCHRON_GL_MEMBER)
 #undef ISOCHRON_GL_MEMBER
 
-    /// Whether passes draw as suits a GPU or a processor, see `takes_processor_ways`.
+    /// Whether passes draw as suits a GPU or a processor, see `is_drawn_for_processor`.
     DrawnBy drawn_by;
 };
 

@@ -38,7 +38,7 @@ void expect_enough(const Gl& gl);
 /// Checks the size of a target to draw into. @param what its name for the error: "render target"
 /// @throws Error when it is empty or larger than `limits.target`
 void expect_target(const Limits& limits, const char* what, glm::ivec2 size);
-/// The same for a texture that is only read, with `limits.texture_side`.
+/// Checks the size of a texture that is only read against `limits.texture_side`.
 void expect_texture(const Limits& limits, const char* what, glm::ivec2 size);
 
 /// Most items for one dispatch (one per invocation), if each has `bytes` in a storage block. It is

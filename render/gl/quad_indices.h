@@ -19,7 +19,7 @@ class QuadIndices {
     /// @param begin number of the first quad
     void draw(std::size_t quads, int instances = 1, std::size_t begin = 0) const;
 
-    /// The same for shaders that place one point per vertex.
+    /// Draws with shaders that place one point per vertex.
     void draw_points(std::size_t points, int instances = 1) const;
 
   private:

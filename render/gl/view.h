@@ -10,7 +10,7 @@ namespace isochron::render {
 struct View {
     glm::mat4 clip_from_eye{1.0f}; ///< off-axis perspective (or orthographic), GL clip space
     glm::mat4 eye_from_room{1.0f}; ///< rotation and translation only
-    glm::ivec2 size{0};            ///< of the viewport, pixels
+    glm::ivec2 size{0};            ///< size of the viewport, pixels
     glm::ivec2 corner{0};          ///< lower left of the viewport in the target, pixels
 
     bool operator==(const View&) const = default;

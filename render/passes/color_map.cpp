@@ -111,7 +111,7 @@ float spun_hue(const Msh& saturated, float unsaturated_m) {
     const float spin = saturated.s *
                        std::sqrt(unsaturated_m * unsaturated_m - saturated.m * saturated.m) /
                        (saturated.m * std::sin(saturated.s));
-    constexpr float kThird = -1.0471976f; ///< of a half turn, backwards
+    constexpr float kThird = -1.0471976f; ///< a third of a half turn, backwards
     return saturated.h > kThird ? saturated.h + spin : saturated.h - spin;
 }
 

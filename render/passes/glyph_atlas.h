@@ -14,8 +14,8 @@ namespace isochron::render {
 struct Glyph {
     /// Its rectangle relative to the pen; with a margin, so that its edge is filtered.
     glm::vec2 low{0.0f}, high{0.0f};
-    glm::vec2 texture_low{0.0f}, texture_high{0.0f}; ///< the same in the atlas, 0 to 1
-    float advance = 0.0f;                            ///< of the pen to the next character
+    glm::vec2 texture_low{0.0f}, texture_high{0.0f}; ///< its rectangle in the atlas, 0 to 1
+    float advance = 0.0f;                            ///< advance of the pen to the next character
 };
 
 struct GlyphAtlas {

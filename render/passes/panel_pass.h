@@ -15,7 +15,7 @@ namespace isochron::render {
 struct PanelQuad {
     std::array<glm::vec3, 4>
         corners{};                ///< in the room: lower left, upper left, upper right, lower right
-    GLuint texture = 0;           ///< of a PanelPicture
+    GLuint texture = 0;           ///< texture of a PanelPicture
     std::optional<glm::vec2> dot; ///< fractions of width and height from the top left
     bool operator==(const PanelQuad&) const = default;
 };

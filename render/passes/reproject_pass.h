@@ -11,7 +11,7 @@ namespace isochron::render {
 /// A view of a finished picture of cells.
 struct PictureWithDepth {
     GLuint color = 0, depth = 0; ///< textures; depth 1: nothing was drawn
-    View view;                   ///< that it was drawn for, and its place in the textures
+    View view;                   ///< the view that it was drawn for, and its place in the textures
     glm::mat4 room_from_box{1};  ///< the cells lay in the box of 0 to 1 along each axis
 };
 

@@ -20,7 +20,7 @@ class Wake {
 
     /// Ends the wait that goes on, or else the next one. Safe in a signal handler.
     void operator()() const noexcept;
-    /// The same for callers that have only its address, such as signal handlers.
+    /// Wakes through the address, for callers that have nothing else, such as signal handlers.
     static void call(const void* wake) noexcept { (*static_cast<const Wake*>(wake))(); }
     /// Whether somebody has called it since the last time.
     bool take() const noexcept;

@@ -13,7 +13,7 @@
 
 namespace isochron::stereo {
 
-/// The pointing hand and the other one: devices `wand` and `wand2`.
+/// A hand that points, and the other hand: devices `wand` and `wand2`.
 enum class Hand : std::uint8_t { wand, other };
 inline constexpr std::array kHands{Hand::wand, Hand::other};
 

@@ -15,7 +15,7 @@ using interaction::Seconds;
 using interaction::WandButton;
 using interaction::WandValuator;
 
-constexpr float kDeadZone = 0.15f; ///< of a thumbstick
+constexpr float kDeadZone = 0.15f; ///< deflection of a thumbstick that counts as none
 constexpr float kStepAt = 0.6f;    ///< deflection of a thumbstick that counts as a step
 
 constexpr XrSpaceLocationFlags kKnown =

@@ -67,7 +67,7 @@ class OpenXrSession {
     std::array<Images, 2> images_;
     bool filled_ = false;                 ///< the runtime has got pictures
     std::array<XrView, 2> views_{};       ///< as located last
-    std::array<XrView, 2> drawn_views_{}; ///< of the pictures that the images hold
+    std::array<XrView, 2> drawn_views_{}; ///< views of the pictures that the images hold
     XrEnvironmentBlendMode blending_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::optional<XrTime> display_time_;
 };

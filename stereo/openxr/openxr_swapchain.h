@@ -16,8 +16,9 @@ namespace isochron::stereo {
 /// The contents of a swapchain's pictures.
 enum class SwapchainContent : std::uint8_t { color, depth };
 
-/// The format to use among the formats that a runtime offers. Color: sRGB, else linear light in half floats.
-/// Depth: only 32-bit floats, as drawn depth can be copied only to these. Empty if none fits.
+/// The format to use among those that a runtime offers. Color: sRGB, else linear light in half
+/// floats. Depth: only 32-bit floats, as drawn depth can be copied only to these. Empty if none
+/// fits.
 std::optional<std::int64_t> chosen_format(std::span<const std::int64_t> offered,
                                           SwapchainContent content);
 

@@ -53,7 +53,7 @@ void print(const BetweenRow& row) {
     std::fflush(stdout);
 }
 
-/// Of the last minute: other work on the machine.
+/// Load of the last minute: other work on the machine.
 double load_of_minute() {
     double load = NAN;
     return getloadavg(&load, 1) == 1 ? load : NAN;

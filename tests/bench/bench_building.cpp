@@ -69,7 +69,7 @@ std::vector<std::byte> stored(std::span<const float> field, F&& value_of) {
 struct BuildingRow {
     std::string what;
     double index_over_data = 0, zstd_over_data = 0;
-    double build_seconds = 0, zstd_seconds = 0; ///< of processor time
+    double build_seconds = 0, zstd_seconds = 0; ///< seconds of processor time
     double over_zstd() const { return build_seconds / zstd_seconds; }
 };
 

@@ -61,7 +61,7 @@ struct ChangeRow {
     bool again = false; ///< both sets have been looked at before
     std::size_t cells = 0;
     double kept_ms = 0;  ///< from the set at hand
-    double sent_ms = 0;  ///< of it: sending the set to the GPU
+    double sent_ms = 0;  ///< part of it: sending the set to the GPU
     double anew_ms = 0;  ///< made anew, right after the other set
     double alone_ms = 0; ///< made anew, where nothing of the step before has been decoded
     double over_anew = 0, over_alone = 0, floor = 0;
@@ -180,7 +180,7 @@ void write_rows(const fs::path& path, const std::vector<ChangeRow>& rows, const 
                          "\n");
 }
 
-/// Of the last minute: other work on the machine.
+/// Load of the last minute: other work on the machine.
 std::string load_now() {
     double load = 0;
     return getloadavg(&load, 1) == 1 ? fmt::format("{:.1f}", load) : "unknown";

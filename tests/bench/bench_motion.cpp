@@ -26,7 +26,7 @@ struct MotionArguments {
     bool full = false;
 };
 
-constexpr int kSheetWidth = 400, kSmallWidth = 240; ///< of a picture
+constexpr int kSheetWidth = 400, kSmallWidth = 240; ///< widths of a picture
 
 void run_bench_motion(const MotionArguments& arguments) {
     const app::CancelOnSignal signals;

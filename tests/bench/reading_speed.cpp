@@ -143,7 +143,7 @@ void write(const fs::path& file, std::span<const float> values) {
                static_cast<std::streamsize>(values.size_bytes()));
 }
 
-constexpr std::size_t kZarrSlices = 16; ///< of a chunk
+constexpr std::size_t kZarrSlices = 16; ///< slices of a chunk
 
 fs::path make_zarr(const fs::path& folder, const std::vector<float>& values) {
     fs::create_directories(folder);

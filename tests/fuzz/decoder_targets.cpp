@@ -128,7 +128,7 @@ void fuzz_xdmf(Bytes input) {
         input);
 }
 
-/// Of 1 to 64 pages, as many as the input's length leaves.
+/// A TIFF of 1 to 64 pages, as many as the input's length leaves.
 void fuzz_tiff_description(Bytes input) {
     const std::string text(input.begin(), input.end());
     const std::size_t pages = 1 + input.size() % 64;

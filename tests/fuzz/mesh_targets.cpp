@@ -156,7 +156,7 @@ vtkSmartPointer<vtkDataObject> unstructured(Choices& choices) {
     return grid.GetPointer();
 }
 
-/// Of triangles and lines.
+/// A surface of triangles and lines.
 vtkSmartPointer<vtkDataObject> surface(Choices& choices) {
     const vtkNew<vtkPolyData> grid;
     const int points = 3 + choices.below(8);

@@ -120,7 +120,7 @@ TEST_P(FuzzInputs, DoesNoHarmOnceChanged) {
 
 #ifndef FUZZ_TARGETS
 TEST(FuzzFolders, EveryInputBelongsToATarget) {
-    std::vector<std::string> names{"mesh", "vtk_text"}; // of VTK's
+    std::vector<std::string> names{"mesh", "vtk_text"}; // VTK's targets
     for (const Target& target : all_targets())
         names.emplace_back(target.name);
     for (const char* kind : {"corpus", "found"})

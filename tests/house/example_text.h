@@ -12,7 +12,7 @@ namespace isochron::house {
 inline constexpr std::string_view kExampleIndent = "//     ";
 
 struct Example {
-    int line = 0; ///< of its first line, from 1
+    int line = 0; ///< number of its first line, from 1
     std::string
         text; ///< the code, one line for each line of the comment, from the first to the last
 };

@@ -28,7 +28,7 @@
 #include "index/formats/foreign_file.h"
 #include "index/formats/format.h"
 #include "index/formats/series/series_writer.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "index/reader/reader_messages.h"
 #include "index/scan/bricks.h"
 #include "index/search/layer_search.h"

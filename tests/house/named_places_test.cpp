@@ -117,7 +117,7 @@ void add_words(std::string_view text, Words& words) {
 Found misplaced_names(const fs::path& root, const std::vector<std::string>& pages) {
     static const std::regex kCode("`([^`]+)`");
     const Files files = files_of(root);
-    Words of_sources; // of all of them, as most items name no file
+    Words of_sources; // words of all sources, as most items name no file
     for (const auto& [path, text] : files)
         if (path.ends_with(".h") || path.ends_with(".cpp"))
             add_words(text, of_sources);

@@ -153,7 +153,7 @@ Findings unknown_options(const std::filesystem::path& root, const std::vector<st
             for (std::sregex_iterator at(text.begin(), text.end(), kOffered), end; at != end; ++at)
                 known.insert((*at)[1].str());
         }
-    // Those of mpirun, cmake and apt.
+    // Options of mpirun, cmake and apt.
     known.insert({"--hostfile", "--oversubscribe", "--preset", "--target", "--install", "--build",
                   "--prefix", "--strip", "--no-install-recommends", "--serve"});
     Findings unknown;

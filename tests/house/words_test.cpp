@@ -1,10 +1,12 @@
-// The developers' table of words: each is said once, and used in the file that its row names.
+// Words: those of the developers' table are each said once and used in the file that their row names,
+// and comments name what they speak of.
 #include "tests/house/source_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -91,6 +93,48 @@ TEST(Words, SaidTwiceOrNowhereUsedAreFound) {
         (std::vector<std::string>{"cell: said twice", "brick: not used in the file that is named",
                                   "tile, cell: several words in one row",
                                   "tile, cell: not used in the file that is named"}));
+}
+
+/// Comments that leave out their noun: what they speak of would have to be found in the line before.
+/// A comment that goes on below has the marker in its column.
+std::vector<std::string> comments_without_noun(const std::filesystem::path& root) {
+    std::vector<std::string> found;
+    for (const char* folder : {"index", "interaction", "render", "stereo", "app", "tests"})
+        for (const std::string& source : sources(root, folder)) {
+            std::ifstream file(root / source);
+            std::string line;
+            std::size_t before = line.npos; // column of the comment in the line before
+            for (int number = 1; std::getline(file, line); ++number) {
+                const std::size_t at = line.find("//");
+                const bool in_text = std::ranges::count(line.substr(0, at), '"') % 2 != 0;
+                const std::size_t column = in_text ? line.npos : at;
+                const bool goes_on = column != line.npos && column == before &&
+                                     line.find_first_not_of(' ') == column;
+                before = column;
+                if (column == line.npos || goes_on)
+                    continue;
+                const std::size_t words = line.find_first_not_of("/<! ", column);
+                for (const char* none : {"Of ", "of ", "The same ", "the same ", "Likewise"})
+                    if (words != line.npos && line.compare(words, std::strlen(none), none) == 0)
+                        found.push_back(source + ":" + std::to_string(number));
+            }
+        }
+    return found;
+}
+
+TEST(Words, NoCommentLeavesOutItsNoun) {
+    EXPECT_EQ(comments_without_noun(checkout()), std::vector<std::string>{})
+        << "say `size of the picture` instead of `of the picture`, and what it is instead of `the "
+           "same`";
+}
+
+TEST(Words, ACommentWithoutItsNounIsFound) {
+    const PlantedTree tree;
+    tree.plant("index/bad.h", "/// Of a file: its bytes.\nint size; ///< of the file\n"
+                              "/// The same for two.\nint two;\n");
+    tree.plant("index/good.h", "/// The bytes\n/// of a file.\nint size; ///< size of the file\n");
+    EXPECT_EQ(comments_without_noun(tree.root()),
+              (std::vector<std::string>{"index/bad.h:1", "index/bad.h:2", "index/bad.h:3"}));
 }
 
 } // namespace

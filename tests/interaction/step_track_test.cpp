@@ -71,7 +71,7 @@ TEST(StepTrack, ToAndFroEachStepLastsAsLongAsItDoesInTheData) {
         PlaybackState state{.playing = true, .ping_pong = true};
         const StepTrack track(times, {}, state);
         const double round = track.duration() + track.start(track.last()) - track.start(1);
-        constexpr int kFrames = 100'000; // of one way up and down
+        constexpr int kFrames = 100'000; // frames of one way up and down
         const Seconds apart(round / (kFrames * track_rate(state, times)));
         Playback playback;
         std::vector<int> frames(times.size(), 0);

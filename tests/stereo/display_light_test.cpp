@@ -36,7 +36,7 @@ class DisplayLight : public testing::TestWithParam<ContextKind> {
 };
 
 TEST_P(DisplayLight, HalfTheLightIsHalfTheLightInEveryModeAndWithSeveralSamples) {
-    constexpr int kHalfLight = 188; // of white, as sRGB
+    constexpr int kHalfLight = 188; // half the light of white, as sRGB
     for (const int samples : {1, 4}) {
         Display display(gl_, *context_, {}, {.samples = samples});
         render::LinePass lines(gl_);

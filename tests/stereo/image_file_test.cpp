@@ -305,7 +305,7 @@ TEST(ImageCompare, SeesSmallDifferencesAndWritesThem) {
     const double mean = 4.0 / (3 * 16 * 8);
     EXPECT_TRUE(images_match(other, image, {.maximum = 4, .mean = 1.001 * mean}, "compare"));
     EXPECT_FALSE(images_match(other, image, {.maximum = 4, .mean = 0.999 * mean}, "compare"));
-    // Of the channels of all pixels, two differ by more than eight.
+    // Two channels of all pixels differ by more than eight.
     Image strays = image;
     for (const std::size_t i : {4, 6, 81})
         strays.rgba[i] ^= i == 81 ? 8 : 16;

@@ -26,7 +26,7 @@ constexpr std::string_view kFragment = R"(#version 450 core
 uniform int viewport;
 uniform float blue;
 uniform int height;
-uniform ivec2 corner; // of the viewport in the target
+uniform ivec2 corner; // corner of the viewport in the target
 out vec4 color;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy) - corner;
@@ -65,7 +65,7 @@ class MultiplexTest : public testing::TestWithParam<ContextKind> {
     }
 
     std::unique_ptr<GlContext> context_ = make_context(GetParam(), {});
-    std::unique_ptr<GlContext> picture_; ///< of the window's size
+    std::unique_ptr<GlContext> picture_; ///< context of the window's size
     render::Gl gl_{context_->loader()};
     render::Program program_ = render::link_program(
         gl_, {render::shader_file("full_screen.vert"), {"pattern.frag", kFragment}});

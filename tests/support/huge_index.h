@@ -77,7 +77,7 @@ class HugeIndex final : public ByteSource {
         if (offset < kDataBegin)
             return std::byte{0};
         const std::uint64_t begin = *std::prev(std::ranges::upper_bound(begins_, offset));
-        if (begin > kDataBegin) // of a level
+        if (begin > kDataBegin) // the bytes of a level
             return records_[0][(offset - begin) % kRecord];
         const std::uint64_t number = (offset - kDataBegin) / kRecord;
         if (number >= chunks_.count())
@@ -172,11 +172,11 @@ class HugeIndex final : public ByteSource {
 
     Grid grid_;
     ChunkGrid chunks_;
-    std::vector<Grid> grids_; ///< of all levels
+    std::vector<Grid> grids_; ///< grids of all levels
     std::set<ChunkAt> high_;
-    std::vector<Record> records_;       ///< by kind
-    std::vector<std::uint64_t> begins_; ///< of each level's records, which are all of one kind but
-                                        ///< those of level 0
+    std::vector<Record> records_; ///< by kind
+    /// Where the records of each level begin; they are all of one kind but for level 0.
+    std::vector<std::uint64_t> begins_;
     std::uint64_t records_end_ = kDataBegin;
     std::vector<std::byte> tail_; ///< tables and sections
     HeaderSlot header_{};

@@ -54,7 +54,8 @@ struct VirtualDisplay::Connection {
             XCloseDisplay(display);
     }
     Atom atom(const char* name) const { return XInternAtom(display, name, False); }
-    /// Of the protocol XDND (https://freedesktop.org/wiki/Specifications/XDND), version 5.
+    /// Sends a message of the protocol XDND (https://freedesktop.org/wiki/Specifications/XDND),
+    /// version 5.
     void send_dnd(Window source, Window target, const char* type,
                   const std::array<long, 4>& data) const {
         XEvent event{};

@@ -21,7 +21,8 @@ namespace {
 
 constexpr float kArmsLength = 1.5f;    ///< [m] from a sensor to what it is fixed on, at most
 constexpr float kSteepestHead = 40.0f; ///< [degrees] off the eyes, of a screen on the head
-constexpr double kLargestScale = 10, kSmallestScale = 1e-4; ///< of units that trackers have
+/// Limits of the units that trackers have.
+constexpr double kLargestScale = 10, kSmallestScale = 1e-4;
 
 /// The line of `key = ` in a table of a file; 0: it is not there.
 int line_of_key(const std::string& text, std::string_view table, std::string_view key) {

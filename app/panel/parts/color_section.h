@@ -13,7 +13,7 @@ namespace isochron::app {
 /// A color map that the user can choose.
 struct OfferedMap {
     std::string name, words;
-    std::vector<std::uint32_t> colors; ///< of a map of the configuration
+    std::vector<std::uint32_t> colors; ///< colors of a map of the configuration
 };
 std::vector<OfferedMap> offered_maps(const PanelModel& model);
 

@@ -1,4 +1,4 @@
-// What is exported as files for other programs, and how far an export is.
+// The panel's menu for exports: what is exported as files, and how far an export is.
 #pragma once
 
 #include "app/panel/panel_model.h"

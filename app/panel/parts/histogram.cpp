@@ -23,7 +23,7 @@ namespace {
 using interaction::Commands;
 
 constexpr float kPlotHeight = 120.0f, kAxisHeight = 20.0f;
-constexpr float kReach = 7.0f; ///< of a line, for the hand, panel pixels
+constexpr float kReach = 7.0f; ///< how far from a line the hand takes it, panel pixels
 constexpr int kNobody = -1;
 
 /// Where values lie in the plot.

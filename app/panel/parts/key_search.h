@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/panel/found_settings.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "interaction/input/actions.h"
 
 #include <cstddef>
@@ -30,7 +30,7 @@ std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command);
 /// out.
 const std::vector<KeyCommand>& key_commands();
 
-/// Those whose words or key have all the words of a text, upper or lower case.
+/// The commands whose words or key have all the words of a text, upper or lower case.
 std::vector<const KeyCommand*> found(std::string_view text);
 
 class KeySearch {
@@ -44,7 +44,8 @@ class KeySearch {
     /// @return what is to be pressed for the command that the user chose
     std::vector<interaction::WindowEvent> draw(const PanelModel& model, const PanelBox& picture,
                                                interaction::Commands& commands);
-    /// The same on a panel in the room, which it covers: the text is typed on keys of the panel.
+    /// Draws the search on a panel in the room, which it covers: the text is typed on keys of the
+    /// panel.
     /// @param place that it covers
     /// @return the command that the user chose; null: none
     const KeyCommand* draw_in_room(const PanelModel& model, const PanelBox& place,

@@ -16,7 +16,7 @@ class RoomKeys {
 
     /// The keys of the current Dear ImGui context; null: it has a keyboard.
     static RoomKeys* here();
-    /// Makes them those of the current context, as long as they live.
+    /// Lets the fields of the current context use these keys, as long as they live.
     void use();
 
     /// @param field that asks @param text that it has now

@@ -34,12 +34,13 @@ struct FieldRange {
 bool number_field(const char* id, double& value, const FieldRange& range, const char* format);
 bool number_field(const char* id, float& value, const FieldRange& range, const char* format);
 
-/// A whole number likewise, between two bounds; NumberEntry knows then that it is whole, and
+/// A field for a whole number between two bounds; NumberEntry knows then that it is whole, and
 /// remembers the number that it had. @param low at least 0
 bool whole_number_field(const char* id, int* value, int low, int high, const char* format);
 
-/// One word of several. @param effect its tip @return the one that the user chose
+/// A choice of one word among several. @param effect tip of the control
 /// @param notes beside the words in the list, dim; empty: none
+/// @return number of the word that the user chose
 std::optional<std::size_t> choice_field(const char* id, const std::string& current,
                                         std::span<const std::string> words, const char* effect,
                                         std::span<const std::string> notes = {});

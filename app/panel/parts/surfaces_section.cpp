@@ -40,7 +40,7 @@ Isosurface another(const PanelModel& model) {
 /// What the user did with the list, beside what a row changes in its surface.
 struct ListChange {
     std::optional<std::uint32_t> removed, picked;
-    std::optional<double> isovalue; ///< of `picked`
+    std::optional<double> isovalue; ///< new isovalue of `picked`
 };
 
 /// Hides a surface, and shows it again as opaque as it was.

@@ -23,12 +23,12 @@ enum class Ink : std::uint8_t {
     good,    ///< the picture is exact
     warning, ///< what the user should know
     error,   ///< what went wrong
-    paper,   ///< of sections
-    bar,     ///< of the bars at the top and at the bottom
-    control, ///< of fields and buttons
-    chosen,  ///< of a control that is switched on, and the filled part of a field
+    paper,   ///< the ground of sections
+    bar,     ///< the ground of the bars at the top and at the bottom
+    control, ///< the ground of fields and buttons
+    chosen,  ///< a control that is switched on, and the filled part of a field
     line,    ///< between parts
-    columns  ///< of the histogram, and of the steps at hand
+    columns  ///< columns of the histogram, and of the steps at hand
 };
 
 ImVec4 color_of(Ink ink);

@@ -23,7 +23,7 @@ constexpr float kReachOfEnd = 8.0f, kReachOfFlag = 7.0f; ///< for the hand, pane
 
 /// The steps on the track. A step has its width; its middle stands for its time.
 struct Track {
-    ImVec2 low, high; ///< of the track; the lane lies above it
+    ImVec2 low, high; ///< corners of the track; the lane lies above it
     std::uint32_t steps;
 
     float width() const { return (high.x - low.x) / static_cast<float>(steps); }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "interaction/commands.h"
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct OfferedSession {
     interaction::Commands commands; ///< sets all that it had
 };
 /// The offer to go on with one of the sessions before: the first one, or another one of the list.
-/// @param chosen number of the one that the user wants
+/// @param chosen number of the session that the user wants
 Answer earlier_card(const PanelBox& picture, float top, const std::vector<OfferedSession>& earlier,
                     std::size_t& chosen);
 

@@ -21,11 +21,11 @@ namespace {
 
 using interaction::AxisView;
 
-constexpr float kSide = 92.0f;     ///< of its window, panel pixels
-constexpr float kHalfEdge = 25.0f; ///< of the cube: its corners stay in the window
+constexpr float kSide = 92.0f;     ///< side of the cube's window, panel pixels
+constexpr float kHalfEdge = 25.0f; ///< half an edge of the cube: its corners stay in the window
 constexpr float kCornerReach = 7.0f;
 constexpr double kSeen = 0.08;   ///< cosine from which on a face is drawn
-constexpr double kLegible = 0.4; ///< likewise, with its name
+constexpr double kLegible = 0.4; ///< cosine from which on a face is drawn with its name
 
 /// From directions of the data to the window: x to the right, y down, z towards the viewer.
 class Turn {

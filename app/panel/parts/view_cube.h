@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/panel/panel_model.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "interaction/commands.h"
 
 #include <imgui.h>

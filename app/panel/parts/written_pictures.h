@@ -1,4 +1,4 @@
-// What pictures and movies that are written show, and their size.
+// Rows for written pictures and movies: what they show, their size and their folder.
 #pragma once
 
 #include "app/panel/panel_model.h"

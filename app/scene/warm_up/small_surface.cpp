@@ -75,7 +75,8 @@ SmallSurface::SmallSurface(const render::Gl& gl, const index::Grid& volume,
         for (const render::Footprint footprint : footprints)
             for (const float opacity : {1.0f, 0.5f}) {
                 if ((opacity < 1 && !render::has_layers(footprint)) ||
-                    (size > 1 && footprint == render::Footprint::surface)) // the same at any size
+                    // Surfaces are drawn alike at any size.
+                    (size > 1 && footprint == render::Footprint::surface))
                     continue;
                 ways_.push_back({footprint, size, opacity, false});
                 if (render::has_layers(footprint)) // which have other shaders for colors by value

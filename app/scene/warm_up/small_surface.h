@@ -51,7 +51,7 @@ class SmallSurface {
     render::CellBuffers cells_;
     render::Texture map_;
     render::Placement far_;
-    glm::vec3 middle_; ///< of the volume
+    glm::vec3 middle_; ///< middle of the volume
     std::vector<Way> ways_;
 };
 

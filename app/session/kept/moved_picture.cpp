@@ -1,7 +1,7 @@
 // The last exact picture, moved to where its cells are seen now.
 #include "app/session/kept/moved_picture.h"
 
-#include "app/scene/kept_cells.h"
+#include "app/scene/cells_picture.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

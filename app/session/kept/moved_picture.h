@@ -6,8 +6,9 @@
 
 namespace isochron::app {
 
-/// How far a picture is moved at most [m in the room, of a viewer's head beside the data]: what was
-/// hidden from the old eyes is not in it, and shows up the more, the farther the eyes have gone.
+/// How far a viewer's head may have gone, relative to the data, before the picture is no longer
+/// moved [m in the room]. A moved picture lacks what was hidden from the old eyes, and lacks more
+/// of it the farther the eyes have gone.
 constexpr double kMovedAtMost = 0.04;
 
 /// Whether an exact picture of the same cells, looks and viewers shows, once it is moved, what is to

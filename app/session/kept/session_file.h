@@ -16,11 +16,12 @@
 namespace isochron::app {
 
 struct SavedSession {
-    std::string program;             ///< that wrote it
-    std::string data;                ///< path of the index
-    std::string data_hash;           ///< 16 hexadecimal digits
-    interaction::Commands state;     ///< sets all settings
-    interaction::StandingPlace head; ///< of the emulation by mouse and keyboard
+    std::string program;         ///< program that wrote it
+    std::string data;            ///< path of the index
+    std::string data_hash;       ///< 16 hexadecimal digits
+    interaction::Commands state; ///< sets all settings
+    /// Where the head of the emulation by mouse and keyboard stands.
+    interaction::StandingPlace head;
     /// How arrays of the surfaces that are not shown were left: each sets `array`, `isosurfaces`,
     /// `picked` and `coloring`.
     std::vector<interaction::Commands> arrays = {};

@@ -47,12 +47,12 @@ struct DicomImage {
 /// What all images of a file share.
 struct DicomFile {
     std::uint32_t columns = 0, rows = 0, frames = 1;
-    std::uint32_t samples = 1;   ///< of a pixel: 1, or 3 for red, green and blue
+    std::uint32_t samples = 1;   ///< samples per pixel: 1, or 3 for red, green and blue
     std::uint64_t pixels_at = 0; ///< [bytes] where they are stored as they are; 0: to be decoded
-    bool big_endian = false;     ///< of pixels that are stored as they are
+    bool big_endian = false;     ///< byte order of pixels that are stored as they are
     bool planar = false;         ///< samples lie apart, in each frame
     StoredType type = StoredType::u8;
-    std::uint32_t bits = 8, lowest_bit = 0; ///< of the value that a sample holds
+    std::uint32_t bits = 8, lowest_bit = 0; ///< bits of a sample that hold its value
     std::string modality = {}, value_unit = {};
     double slice_spacing = 0;       ///< [mm]; 0: not said
     double temporal_resolution = 0; ///< [ms] between temporal positions; 0: not said

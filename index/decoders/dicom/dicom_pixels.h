@@ -26,7 +26,7 @@ class DicomPixels {
     void decode(const std::filesystem::path& path, const DicomFile& file, std::uint32_t frame);
 
     std::filesystem::path decoded_; ///< the file that `pixels_` are of
-    std::uint32_t frame_ = 0;       ///< which frame they begin with
+    std::uint32_t frame_ = 0;       ///< the frame that they begin with
     bool planar_ = false;           ///< samples lie apart, each frame for itself
     std::vector<char> pixels_;
 };

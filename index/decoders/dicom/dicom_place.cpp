@@ -19,7 +19,7 @@ constexpr std::uint32_t kPixels = 0x7fe00010, kItem = 0xfffee000, kItemEnd = 0xf
 struct Element {
     std::uint32_t tag = 0, length = 0;
     std::uint64_t value_at = 0;
-    bool unknown = false; ///< of kind UN: what is in it is written without kinds
+    bool unknown = false; ///< the element has the kind UN: what is in it is written without kinds
 };
 
 class Walk {

@@ -15,7 +15,7 @@ struct DicomCoding {
 
 struct PixelPlace {
     std::uint64_t at = 0;    ///< [bytes] from the start of the file
-    std::uint64_t bytes = 0; ///< that the element says to have
+    std::uint64_t bytes = 0; ///< size that the element states
     bool packed = false;     ///< compressed: in fragments, without a length of the whole
 };
 

@@ -44,7 +44,7 @@ std::vector<Slice> slices_of(std::vector<DicomImage> images) {
         return slices;
     }
     std::ranges::stable_sort(images, {}, height_of);
-    constexpr double kSame = 0.01; // of the distance between pixels
+    constexpr double kSame = 0.01; // share of the distance between pixels
     for (DicomImage& image : images) {
         const double slack = kSame * image.spacing.value_or(glm::dvec2(1)).x;
         if (slices.empty() || height_of(image) - height_of(slices.back().front()) > slack)

@@ -15,7 +15,7 @@ struct DicomStack {
     Grid grid;
     bool in_space = false;                      ///< positions are said: in mm, LPS
     std::vector<std::vector<DicomImage>> steps; ///< each from its first slice to its last
-    std::vector<double> times = {};             ///< of the steps; empty: not said
+    std::vector<double> times = {};             ///< times of the steps; empty: not said
     std::string time_unit = {};
     std::vector<std::string> notes = {};
 };

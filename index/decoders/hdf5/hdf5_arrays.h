@@ -13,16 +13,17 @@ namespace isochron::index {
 
 /// One dataset, or several whose paths differ only in the number of one group: one for each step.
 struct Hdf5Array {
-    std::string name;                      ///< its path; `/data/*/rho` where there are several
-    std::vector<Hdf5Dataset> steps;        ///< in the order of their numbers
-    std::vector<std::string> groups;       ///< of several: what `*` stands for, with all before it
+    std::string name;               ///< its path; `/data/*/rho` where there are several
+    std::vector<Hdf5Dataset> steps; ///< in the order of their numbers
+    /// Where there are several: what `*` stands for, with all before it.
+    std::vector<std::string> groups;
     std::vector<std::string> offered = {}; ///< what it was chosen from, with types
     std::optional<std::string> note = {};  ///< how the numbers of the groups are read
 };
 
 /// Dimensions of a dataset, counted from the slowest.
 struct Hdf5Layout {
-    std::array<std::size_t, 3> space{}; ///< of the index axes, fastest first
+    std::array<std::size_t, 3> space{}; ///< dimensions of the index axes, fastest first
     std::optional<std::size_t> time, component;
 };
 

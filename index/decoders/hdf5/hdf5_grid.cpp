@@ -298,7 +298,7 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const Hdf5Layout& l
         if (!unit.empty())
             info.time_unit = "s";
     }
-    // The same number for all steps is a number of the group around them, not their time.
+    // A number that is equal for all steps belongs to the group around them and is not their time.
     if (times.size() == 1 || times.front() != times.back())
         info.times = std::move(times);
 }

@@ -55,7 +55,8 @@ Hdf5Values::Hdf5Values(const Hdf5File& file, const Hdf5Dataset& dataset,
     expect_room_for(properties.id(), file.name());
     if (chunk_.empty())
         return;
-    double bytes = static_cast<double>(size_of(*dataset.type)), chunks = 1; // of one step
+    // Bytes of a chunk, chunks of a step.
+    double bytes = static_cast<double>(size_of(*dataset.type)), chunks = 1;
     for (std::size_t i = 0; i < rank; ++i) {
         bytes *= static_cast<double>(chunk_[i]);
         if (i != shared)

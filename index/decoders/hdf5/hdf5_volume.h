@@ -17,7 +17,8 @@ struct Hdf5Volume {
     std::vector<Hdf5Dataset> datasets; ///< one, or one for each step
     Hdf5Layout layout;
     bool on_cells = false;
-    std::vector<std::uint64_t> places = {}; ///< of the steps along time; empty: 0, 1, 2, ...
+    /// Indices of the steps along time; empty: 0, 1, 2, ...
+    std::vector<std::uint64_t> places = {};
 };
 
 /// Sets the number of vertices of the grid from the layout. @throws Error naming the file: too few

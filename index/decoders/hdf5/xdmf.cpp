@@ -314,14 +314,14 @@ class XdmfFile final : public DecodedFile {
 
     std::string name_;
     std::vector<XdmfGrid> steps_;
-    std::vector<std::vector<XdmfItem>> items_; ///< of the chosen array, by step and part
+    std::vector<std::vector<XdmfItem>> items_; ///< items of the chosen array, by step and part
     bool blocks_ = false;                      ///< a step has several parts
     ChosenScalar chosen_;
     SeriesInfo info_;
     std::unique_ptr<Hdf5File> heavy_; ///< the file that was opened last
     fs::path heavy_path_;
     Hdf5Dataset dataset_;
-    std::optional<Hdf5Values> values_;    ///< of `dataset_`
+    std::optional<Hdf5Values> values_;    ///< values of `dataset_`
     const XdmfItem* values_of_ = nullptr; ///< whose `values_` are
     std::vector<std::byte> tuples_;
 };

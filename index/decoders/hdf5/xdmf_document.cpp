@@ -141,7 +141,7 @@ class XdmfParser {
         if (chain_.size() > kDeepest ||
             std::ranges::find(chain_, other.lexically_normal()) != chain_.end())
             fail(fmt::format("includes {}, which includes it", excerpt(href)));
-        constexpr std::size_t kCost = 100; // of a document, in grids
+        constexpr std::size_t kCost = 100; // what reading a document costs, in grids
         seen_ += kCost;
         XdmfParser parser(other, chain_, seen_);
         parser.add(parser.grid_at(pointer), depth);
@@ -225,7 +225,7 @@ class XdmfParser {
             const std::string center = lower_case(attribute(element, {"Center"}));
             const XMLElement* data = child_of(element, "DataItem");
             if (!data || (!center.empty() && center != "node" && center != "cell"))
-                continue; // of the grid, of faces and edges
+                continue; // an attribute of the grid, of faces or edges
             part.attributes.push_back({attribute(element, {"Name"}),
                                        attribute(element, {"AttributeType", "Type"}),
                                        center == "cell", item_of(*data)});

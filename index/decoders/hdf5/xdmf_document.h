@@ -20,7 +20,8 @@ namespace isochron::index {
 struct XdmfItem {
     enum class Where : std::uint8_t { document, hdf5, plain };
 
-    std::filesystem::path document; ///< that has the item; other files are relative to its folder
+    /// The document that has the item; other files are relative to its folder.
+    std::filesystem::path document;
     Where where = Where::document;
     StoredType type = StoredType::f32;
     std::vector<std::uint64_t> dimensions; ///< slowest first

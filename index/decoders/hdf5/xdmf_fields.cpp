@@ -18,7 +18,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Of each element the attributes that are read.
+/// Elements with the attributes that are read from them.
 const std::map<std::string_view, std::set<std::string_view>>& read_in_xdmf() {
     static const std::map<std::string_view, std::set<std::string_view>> kRead{
         {"Xdmf", {"Version"}},

@@ -86,7 +86,7 @@ class Mesh {
     fs::path path_;
     MeshSource source_;
     std::vector<double> times_;
-    vtkSmartPointer<vtkImageData> image_; ///< of the step `held_`
+    vtkSmartPointer<vtkImageData> image_; ///< image of the step `held_`
     std::size_t held_ = 0;
 };
 

@@ -15,7 +15,7 @@ struct MeshSource {
     vtkSmartPointer<vtkAlgorithm> reader;
     /// Selects all arrays; the reader knows them once its information has been updated.
     std::function<void()> select_all;
-    std::string length_unit, time_unit; ///< that the format sets; empty if none
+    std::string length_unit, time_unit; ///< units that the format sets; empty if none
     std::vector<std::string> notes;
     /// What the file states and nobody reads, as `note_on_unread` takes it; once the reader's
     /// information has been updated.

@@ -43,7 +43,7 @@ std::vector<std::string> bounds_in(const NetcdfFile& file) {
                             file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
 }
 
-/// Those with three dimensions.
+/// The file's variables with three dimensions.
 std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
     const std::vector<std::string> bounds = bounds_in(file);
     std::vector<StoredArray> offered;

@@ -24,7 +24,7 @@ struct Positions {
     double first = 0, step = 1; ///< the step may be negative
     std::string unit;           ///< tidy; empty: none
     bool downwards = false;
-    std::vector<double> at = {}; ///< of all vertices, where they are not even
+    std::vector<double> at = {}; ///< positions of all vertices, where they are not even
 };
 
 struct Role {
@@ -225,7 +225,7 @@ std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariab
 
 void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
                 const ReadOptions& options, SeriesInfo& info) {
-    std::array<Positions, 3> axes; // of physical space
+    std::array<Positions, 3> axes; // axes of physical space
     for (std::size_t a = 0; a < 3; ++a) {
         const int physical = layout.physical[a];
         const NetcdfDimension& dimension = variable.dimensions[layout.space[a]];
@@ -252,7 +252,7 @@ void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const Ne
     for (std::size_t a = 0; a < 3; ++a) {
         const Positions& axis = axes[a];
         std::string unit = axis.unit + scaled_by(to_go_with(axes[0], axis));
-        unit.erase(0, unit.find_first_not_of(' ')); // of a number without a unit
+        unit.erase(0, unit.find_first_not_of(' ')); // the space before a unit without a factor
         info.axis_names[a] = with_own_unit((axis.downwards ? "-" : "") + axis.name,
                                            one_unit || options.spacing ? "" : unit);
     }

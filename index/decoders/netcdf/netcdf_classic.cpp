@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 /// The place of one variable's values in the file.
 struct Extent {
     double begin = 0,
-           bytes = 0; ///< of one record, if there are records; a false one may exceed 64 bits
+           /// Bytes of one record, if there are records; a false size may exceed 64 bits.
+        bytes = 0;
     bool in_records = false;
 };
 

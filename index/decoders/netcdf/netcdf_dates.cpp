@@ -53,7 +53,7 @@ std::optional<double> seconds_of(const std::string& text) {
 
 /// What the digits before the point of such a number are.
 struct AbsoluteUnit {
-    const char* begin; ///< of the unit
+    const char* begin; ///< how the name of the unit begins
     int months, days;  ///< whether there are digits of it
 };
 constexpr std::array<AbsoluteUnit, 3> kAbsoluteUnits{

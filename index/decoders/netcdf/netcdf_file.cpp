@@ -191,7 +191,7 @@ std::optional<double> NetcdfFile::fill(const NetcdfVariable& variable) const {
     if (const std::vector<double> given = numbers(variable, "_FillValue"); !given.empty())
         return given.front();
     if (variable.type == StoredType::f32 || variable.type == StoredType::f64)
-        return NC_FILL_FLOAT; // of f64, too
+        return NC_FILL_FLOAT; // also the fill value of f64
     return std::nullopt;
 }
 
@@ -240,7 +240,8 @@ void NetcdfFile::keep_chunks(const NetcdfVariable& variable, std::size_t time) c
     const std::vector<std::size_t> chunk = chunk_of(variable);
     if (chunk.empty() || chunk[time] == 1)
         return;
-    double bytes = static_cast<double>(size_of(*variable.type)), chunks = 1; // of one step
+    // Bytes of a chunk, chunks of a step.
+    double bytes = static_cast<double>(size_of(*variable.type)), chunks = 1;
     for (std::size_t i = 0; i < chunk.size(); ++i) {
         bytes *= static_cast<double>(chunk[i]);
         if (i != time)

@@ -133,7 +133,8 @@ class TiffVolume final : public DecodedFile {
         info_.value_unit = stack_.value_unit;
     }
 
-    /// Of plain files it says how large a print is, or how large a pixel: nobody can tell.
+    /// Notes the resolution of a plain file: it may be that of a print or of a pixel, nobody can
+    /// tell.
     void note_resolution() {
         const double x = first_.resolution(0), y = first_.resolution(1);
         const unsigned unit = first_.resolution_unit();

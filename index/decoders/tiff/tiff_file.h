@@ -18,7 +18,7 @@ namespace isochron::index {
 /// What all pages of a volume share.
 struct TiffShape {
     std::uint32_t width = 0, height = 0;
-    std::uint32_t samples = 1; ///< of a pixel
+    std::uint32_t samples = 1; ///< samples per pixel
     StoredType type = StoredType::u8;
     bool half = false; ///< stored as float16, of type f32
     std::size_t stored_bytes() const { return half ? 2 : size_of(type); }
@@ -43,7 +43,7 @@ class TiffFile {
     /// Pixels for each unit of length along x (axis 0) or y (axis 1); 0 if the file does not give
     /// it. The description may say what the unit is.
     double resolution(int axis) const { return resolution_[axis]; }
-    /// Of the resolution: 1 none, 2 inch, 3 centimeter.
+    /// Unit of the resolution: 1 none, 2 inch, 3 centimeter.
     unsigned resolution_unit() const { return resolution_unit_; }
     /// Tags of the first page that are not used.
     const std::vector<std::string>& notes() const { return notes_; }
@@ -75,7 +75,7 @@ class TiffFile {
     TiffShape shape_;
     std::string description_;
     double resolution_[2]{};
-    std::vector<std::uint64_t> offsets_; ///< of the pages' directories
+    std::vector<std::uint64_t> offsets_; ///< offsets of the pages' directories
     std::uint64_t appended_at_ = 0;      ///< [bytes] where pages lie without directories; 0: none
     std::size_t page_ = 0;
     std::vector<std::byte> piece_;

@@ -27,7 +27,7 @@ struct TiffStack {
     glm::dvec3 spacing{1.0}, origin{0.0};
     Scaling scaling = {};
     std::string value_unit = {};
-    std::vector<double> times = {}; ///< of frames, where they are said one by one
+    std::vector<double> times = {}; ///< times of frames, where they are said one by one
     std::string length_unit = {}, time_unit = {};
     double time_step = 0; ///< 0: not said
     /// Channel fastest, then slice, then frame; empty: in this order.
@@ -41,7 +41,7 @@ struct TiffStack {
 /// @throws Error naming the file: damaged, without pixels, impossible sizes
 TiffStack ome_stack(const std::string& description, std::uint32_t samples, const std::string& file);
 
-/// The file beside that has the OME-XML of this one; empty if it has its own.
+/// Name of the file that has the OME-XML of this file; empty if the file has its own.
 std::string ome_metadata_file(const std::string& description);
 
 /// ImageJ's lines of `key=value`: calibration, places and units as ImageJ shows them.
@@ -50,7 +50,8 @@ std::string ome_metadata_file(const std::string& description);
 TiffStack imagej_stack(const std::string& description, std::size_t pages, double x_resolution,
                        double y_resolution, const std::string& file);
 
-/// OME-XML or ImageJ's, by how the description begins; else slices, or tifffile's `shape`.
+/// Reads OME-XML or ImageJ's lines, told by how the description begins; in other descriptions pages
+/// are slices, or have tifffile's `shape`.
 /// @throws Error naming the file, as above
 TiffStack stack_of(const std::string& description, std::size_t pages, std::uint32_t samples,
                    double x_resolution, double y_resolution, const std::string& file);

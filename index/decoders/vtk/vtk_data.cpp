@@ -89,7 +89,7 @@ class VtkData {
 
     vtkDataObject& read() const { return *read_; }      ///< as it was read
     vtkDataSet& data() const { return *data_; }         ///< on the grid
-    const std::string& title() const { return title_; } ///< of a legacy file, else empty
+    const std::string& title() const { return title_; } ///< title of a legacy file, else empty
     bool resampled() const { return resampled_; }
     const Grid& grid() const { return info_.grid; }
     const std::vector<std::string>& notes() const { return info_.notes; } ///< on the grid

@@ -146,7 +146,7 @@ class MarkupFields {
         if (name == kUnit && of_chosen)
             info_.value_unit = trimmed(text);
         else if (name == kUnit && group_ != "FieldData")
-            return; // of an array that is not shown
+            return; // the unit of an array that is not shown
         else if (!is_one_of(kRanges, name))
             unread_.add(fmt::format("{} {}", array_, name), trimmed(text));
     }

@@ -14,7 +14,7 @@ namespace isochron::index {
 /// an XML file up to its appended data.
 void take_fields_of_markup(std::string_view markup, const ChosenScalar& chosen, SeriesInfo& info);
 
-/// The same from what VTK has read.
+/// Takes unit and note from what VTK has read.
 /// @param title of a legacy file, or empty
 void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, const std::string& title,
                         SeriesInfo& info);

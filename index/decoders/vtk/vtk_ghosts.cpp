@@ -28,7 +28,8 @@ std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t 
         // ghost.
         const bool levels = std::string_view(name) != kGhostFlags[0];
         for (std::size_t i = 0; i < tuples; ++i) {
-            const double flag = flags->GetTuple1(static_cast<vtkIdType>(i)); // of any type
+            // Flags may have any type.
+            const double flag = flags->GetTuple1(static_cast<vtkIdType>(i));
             constexpr double kMost = 255;
             if (levels ? flag != 0
                        : flag > 0 && flag <= kMost && (static_cast<int>(flag) & hiding) != 0)

@@ -15,7 +15,7 @@ namespace isochron::index {
 /// @throws Error naming the file, when it has these numbers already
 std::optional<std::string> with_stand_ins(std::string_view text, const std::string& file);
 
-/// The same of a file; none also where its numbers are binary.
+/// The text of a file with stand-ins. None also where the file's numbers are binary.
 std::optional<std::string> text_with_stand_ins(const std::filesystem::path& file);
 
 /// Puts NaN and infinities back into all arrays of f32 and f64.

@@ -186,7 +186,7 @@ vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData&
 
 std::string note_on_resampling(vtkDataObject& data, vtkImageData& image, const ChosenScalar& chosen,
                                std::span<const std::uint8_t> hidden) {
-    constexpr vtkIdType kMostPlaces = 1 << 20; // of each grid
+    constexpr vtkIdType kMostPlaces = 1 << 20; // compared vertices of each grid
     Misfit misfit;
     const char* name = chosen.array.name.c_str();
     vtkDataArray* values = image.GetPointData()->GetArray(name);
@@ -197,7 +197,7 @@ std::string note_on_resampling(vtkDataObject& data, vtkImageData& image, const C
             own = grid.GetCellData()->GetArray(name);
         if (!own || !values)
             return;
-        // Of cells that finer ones stand for, values are not shown.
+        // Cells that finer ones stand for do not show their values.
         vtkUnsignedCharArray* ghosts = on_cells ? grid.GetCellGhostArray() : nullptr;
         const vtkIdType count = on_cells ? grid.GetNumberOfCells() : grid.GetNumberOfPoints();
         const vtkIdType stride = count / kMostPlaces + 1;

@@ -17,7 +17,7 @@ class vtkImageData;
 
 namespace isochron::index {
 
-/// Every grid of a composite one, or the one that there is.
+/// Calls `take` for each grid of a composite data set, or for the one grid of another.
 void each_grid(vtkDataObject& data, const std::function<void(vtkDataSet&)>& take);
 
 /// Vertices along each axis of a regular grid as fine as the smallest cell.
@@ -32,7 +32,7 @@ vtkSmartPointer<vtkImageData> onto_image(vtkDataObject& data,
                                          const std::array<std::uint32_t, 3>& vertices,
                                          const std::string& file);
 
-/// The same onto the vertices of another image.
+/// Resamples the data onto the vertices of another image.
 vtkSmartPointer<vtkImageData> onto_image_like(vtkDataObject& data, vtkImageData& like,
                                               const std::string& file);
 

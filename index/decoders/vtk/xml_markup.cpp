@@ -88,7 +88,7 @@ void expect_names(std::string_view markup, const std::string& file) {
         }
         return false;
     };
-    // Those of positions are told by their places.
+    // Arrays of positions are told by their places.
     const auto among_positions = [&](std::size_t at) {
         const std::string_view before = markup.substr(0, at);
         return std::ranges::any_of(std::array{"Coordinates", "Points"}, [&](const char* element) {

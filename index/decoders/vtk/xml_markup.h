@@ -45,7 +45,7 @@ bool holds_hard_infinities(std::string_view text);
 /// The lowest f32, which replaces -inf while VTK reads the values.
 inline constexpr float kLowest = std::numeric_limits<float>::lowest();
 
-/// The same text with these numbers replaced by `inf` and `kLowest`.
+/// The text with these numbers replaced by `inf` and `kLowest`.
 /// @return none when it has `kLowest` itself, which could not be told from -inf after VTK
 std::optional<std::string> with_easy_infinities(std::string_view text);
 

@@ -144,7 +144,7 @@ class ZarrVolume final : public DecodedFile {
     }
 
   private:
-    /// Of one component.
+    /// Reads a slab of one component.
     void read_with_gaps(std::size_t step, Slices slices, const Grid& slab,
                         std::span<std::byte> out) {
         ChosenScalar alone = chosen_;
@@ -351,7 +351,7 @@ class ZarrVolume final : public DecodedFile {
     SeriesInfo info_;
     std::optional<VolumePart> part_; ///< if not all is wanted
     std::vector<double> missing_;    ///< values that stand for missing ones
-    std::size_t first_channel_ = 0;  ///< of the chosen array's components
+    std::size_t first_channel_ = 0;  ///< number of the chosen array's first component
 };
 
 } // namespace

@@ -52,7 +52,7 @@ class ZarrArray {
     /// Where the chunks of a shard lie.
     struct ShardIndex {
         ZarrBytes entries = {};  ///< offset and size of each chunk; empty: there is no shard
-        std::uint64_t bytes = 0; ///< of the whole shard
+        std::uint64_t bytes = 0; ///< size of the whole shard
     };
     ZarrArray(const ZarrStore& store, ZarrDescription said)
         : store_(&store), said_(std::move(said)) {}

@@ -19,22 +19,24 @@ namespace isochron::index {
 struct ZarrPipeline {
     std::vector<ZarrCodec> codecs; ///< in the order of decoding
     bool big_endian = false;
-    std::vector<std::size_t> order; ///< of the dimensions as stored; empty: as they are
+    std::vector<std::size_t> order; ///< order of the dimensions as stored; empty: as they are
 };
 
 struct ZarrDescription {
     std::string path;               ///< in the store; empty for its root
-    std::optional<StoredType> type; ///< of the values; empty if no volume can have it
+    std::optional<StoredType> type; ///< type of the values; empty if no volume can have it
     bool half = false;              ///< stored as float16, of type f32
     std::string type_name;          ///< as the array has it
     std::vector<std::uint64_t> shape, chunk, inner; ///< inner: of chunks in a shard, if there are
-    std::vector<std::string> names; ///< of the dimensions; empty if the array does not give them
+    /// Names of the dimensions; empty if the array does not give them.
+    std::vector<std::string> names;
     nlohmann::json attributes;
-    std::string prefix, separator = "."; ///< of the keys of chunks
-    ZarrPipeline pipeline, index;        ///< of chunks, and of the index of a shard
-    bool index_at_end = true;            ///< of a shard
-    ZarrBytes fill;                      ///< one value
-    std::optional<double> fill_number;   ///< if there is one
+    /// How the keys of chunks begin, and what stands between their numbers.
+    std::string prefix, separator = ".";
+    ZarrPipeline pipeline, index;      ///< how chunks, and the index of a shard, are decoded
+    bool index_at_end = true;          ///< where the index of a shard stands
+    ZarrBytes fill;                    ///< one value
+    std::optional<double> fill_number; ///< if there is one
 
     /// Bytes of a stored value.
     std::size_t element() const { return half ? 2 : type ? size_of(*type) : 1; }

@@ -13,7 +13,7 @@ namespace isochron::index {
 /// @param group empty: the root @throws Error naming the store: no JSON object
 nlohmann::json attributes_of_group(const ZarrStore& store, const std::string& group);
 
-/// Of OME-Zarr: the part of the attributes that describes the image; null: none.
+/// What describes the image in the attributes of OME-Zarr; null: none.
 nlohmann::json multiscale_of(const nlohmann::json& attributes);
 
 /// Adds the paths of the arrays below a group, at most 1000.

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 30; ///< of a value
+constexpr std::uint64_t kMostBytes = std::uint64_t{16} << 30; ///< largest size of a value
 constexpr std::size_t kMostNames = 100'000;
 
 class FolderStore final : public ZarrStore {
@@ -147,7 +147,7 @@ class ZipStore final : public ZarrStore {
 
     /// So that no memory is taken for what cannot be there.
     void check_size(const ZipEntry& entry, const std::string& key) const {
-        constexpr std::uint64_t kBest = 1032; // of deflate
+        constexpr std::uint64_t kBest = 1032; // most that deflate can compress
         if (entry.bytes > kMostBytes || entry.packed > file_.size() ||
             (entry.method == 0 ? entry.packed != entry.bytes : entry.bytes / kBest > entry.packed))
             fail(key);

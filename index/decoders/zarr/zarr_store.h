@@ -39,7 +39,7 @@ class ZarrStore {
     /// Reads the value of a key as `path/to/array/c/0/1`. @return false where there is none
     /// @throws Error naming the file: unreadable, damaged
     virtual bool read(const std::string& key, ZarrBytes& into) const = 0;
-    /// The same, without memory of the caller's.
+    /// Reads a value into memory of its own.
     std::optional<ZarrBytes> read(const std::string& key) const {
         ZarrBytes bytes;
         return read(key, bytes) ? std::optional(std::move(bytes)) : std::nullopt;

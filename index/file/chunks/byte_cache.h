@@ -33,7 +33,7 @@ class ByteCache {
     std::shared_ptr<const T> find(const Key& key) {
         return std::static_pointer_cast<const T>(find_any(key));
     }
-    /// The same for many keys at once, in their order.
+    /// Finds many keys at once, in their order.
     template <class T>
     std::vector<std::shared_ptr<const T>> find_all(std::span<const Key> keys) {
         std::vector<std::shared_ptr<const T>> found;

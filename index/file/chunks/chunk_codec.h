@@ -15,7 +15,8 @@
 namespace isochron::index {
 
 /// How values are packed. `fitting`: in packed rows; of types of several bytes, in files of earlier
-/// versions, with Zstandard. `none` stores values as they are; so does every codec if a chunk would hardly shrink.
+/// versions, with Zstandard. `none` stores values as they are; so does every codec if a chunk would
+/// hardly shrink.
 enum class Codec : std::uint8_t { fitting, none, lz4, zstd };
 constexpr std::array<std::string_view, 4> kCodecNames{"fitting", "none", "lz4", "zstd"};
 std::optional<Codec> codec_from_name(std::string_view name);

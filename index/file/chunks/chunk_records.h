@@ -39,7 +39,7 @@ struct ChunkArray {
 
 /// Records that are read together.
 struct RecordRun {
-    std::size_t first, last; ///< of the places
+    std::size_t first, last; ///< first and last of the places
     std::uint64_t begin, end;
 };
 
@@ -67,7 +67,7 @@ class ChunkDecoder {
                std::span<const std::byte> record, ChunkBricks& bricks,
                std::span<std::byte> values) const;
     [[noreturn]] void damaged(std::uint32_t step, const std::string& what) const;
-    /// The same of a chunk.
+    /// Says that a chunk is damaged.
     [[noreturn]] void damaged(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                               const std::string& what) const;
     /// Whether the values of a chunk are in the record of the step since which it has stayed.
@@ -76,7 +76,7 @@ class ChunkDecoder {
     }
 
   private:
-    /// Of a record: what comes before the values.
+    /// Bytes of a record before its values.
     std::size_t head_bytes() const {
         return sizeof(RecordChecksum) + (array_.has_bricks ? sizeof(ChunkBricks) : 0);
     }

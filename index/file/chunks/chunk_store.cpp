@@ -98,7 +98,7 @@ std::uint64_t ChunkStore::levels_at(const StepEntry& entry) const {
            layer_table_bytes(grid_.chunks_of_layer(), array_.has_since) * grid_.layers();
 }
 
-/// Of a type that has levels in each step.
+/// Keeps the levels of a type that has levels in each step.
 LevelMapPtr ChunkStore::keep_levels(std::uint32_t step, std::span<const std::byte> bytes) const {
     const auto levels = step_levels(array_.info.type, bytes);
     if (!levels)
@@ -120,7 +120,7 @@ std::vector<std::uint32_t> ChunkStore::missing(std::uint32_t step, std::uint32_t
     return missing;
 }
 
-/// Those of the places whose values lie in earlier steps, by step.
+/// Which of the places have values that lie in earlier steps, by step.
 std::vector<ChunkStore::PlacesOfStep>
 ChunkStore::elsewhere(std::uint32_t step, const ChunkLayer& table,
                       std::span<const std::uint32_t> places) const {

@@ -27,7 +27,7 @@ struct alignas(32) Chunk {
     ChunkBricks bricks{};                ///< undefined in an index without bricks
     std::span<const std::byte> values;   ///< [z][y][x], x fastest; empty if the file has none
     ChunkPtr earlier;        ///< the chunk of an earlier step that has the values, if any
-    std::uint32_t since = 0; ///< that step
+    std::uint32_t since = 0; ///< number of that step
 };
 
 using LevelMapPtr = std::shared_ptr<const LevelMap>;
@@ -73,8 +73,8 @@ class ChunkStore {
     std::uint64_t expect(std::uint32_t step, std::uint32_t layer,
                          std::span<const std::uint32_t> places) const;
 
-    /// The same; if most of a layer's bytes must be read, all of it is read in one go, and this waits
-    /// until it has come from the disk.
+    /// Fetches; if most of a layer's bytes must be read, all of it is read in one go, and this
+    /// waits until it has come from the disk.
     std::uint64_t fetch(std::uint32_t step, std::uint32_t layer,
                         std::span<const std::uint32_t> places, const std::stop_token& stop) const;
     /// Reads bytes of a step that are read in order, the kernel reading ahead as it sees fit. Near the
@@ -90,7 +90,7 @@ class ChunkStore {
     /// The values and bricks of one whole step, for work that needs all of it.
     /// @throws Stopped as well
     LoadedStep whole(std::uint32_t step, const std::stop_token& stop = {}) const;
-    /// The same of some chunks of a layer, to their places; keeps nothing.
+    /// Decodes some chunks of a layer to their places; keeps nothing.
     /// @param planes of the layer, [z][y][x]; unused if the file has no values
     /// @param bricks of the whole step, as from `build_bricks`; empty: they are not wanted
     void decode(std::uint32_t step, std::uint32_t layer, std::span<const std::uint32_t> places,
@@ -101,7 +101,7 @@ class ChunkStore {
 
     /// Bytes of the values of a chunk of so many vertices.
     std::size_t bytes_of(const std::array<std::uint32_t, 3>& size) const;
-    /// The same of a chunk that is not clipped.
+    /// Bytes of the values of a chunk that is not clipped.
     std::size_t most_values() const { return bytes_of({kChunkEdge, kChunkEdge, kChunkEdge}); }
 
     /// Number of chunks of a layer that are as in the step before.
@@ -140,7 +140,7 @@ class ChunkStore {
                      const std::stop_token& stop) const;
     std::shared_ptr<Chunk> decoded(std::uint32_t step, std::uint32_t layer, std::uint32_t place,
                                    std::span<const std::byte> record, bool with_values) const;
-    /// Of a table in the cache.
+    /// Bytes of a table in the cache.
     std::uint64_t table_bytes() const {
         return grid_.chunks_of_layer() * (sizeof(std::uint64_t) + sizeof(std::uint32_t) + 2);
     }

@@ -19,7 +19,7 @@ void from_differences(ValueType type, const std::array<std::uint32_t, 3>& size,
 /// Joins the bytes of values, given as the first bytes of all values, then all second bytes, ...
 /// @param size bytes of a value @param out as long as `shuffled`
 void unshuffle(std::span<const std::byte> shuffled, std::size_t size, std::byte* out);
-/// The same for folded differences: 2 d, or -2 d - 1 where d is negative, become d.
+/// Unshuffles folded differences: 2 d, or -2 d - 1 where d is negative, become d.
 void unshuffle_folded(std::span<const std::byte> shuffled, std::size_t size, std::byte* out);
 
 /// Shifts values of `size` bytes left.

@@ -24,7 +24,7 @@ struct LayerHead {
 };
 
 struct ChunkEntry {
-    std::uint16_t bytes = 0; ///< of its record
+    std::uint16_t bytes = 0; ///< size of its record
     /// Lowest and highest rank of its bricks; 255 and 0 if the chunk has no brick, 0 and 255 if the
     /// index has none.
     std::uint8_t low = 255, high = 0;

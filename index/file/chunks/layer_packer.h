@@ -69,8 +69,8 @@ class LayerPacker {
     /// What a thread packs with.
     struct Packer {
         ChunkPacker chunks;
-        std::vector<std::byte> values;                   ///< of some chunks, one after the other
-        std::vector<std::size_t> begins;                 ///< of each in `values`, and the end
+        std::vector<std::byte> values;   ///< values of some chunks, one after the other
+        std::vector<std::size_t> begins; ///< where each begins in `values`, and the end
         std::vector<std::array<std::uint32_t, 3>> order; ///< y, x and place of each, ascending
 
         std::span<const std::byte> value_of(std::size_t chunk) const {
@@ -94,14 +94,14 @@ class LayerPacker {
     std::uint32_t together_;                     ///< chunks that a thread takes out of a layer
     std::vector<Packer> packers_;                ///< by thread
     std::vector<std::vector<std::byte>> pieces_; ///< the records of a layer
-    std::vector<ChunkEntry> entries_;            ///< of a layer
-    std::vector<std::byte> tables_;              ///< of the layers so far
+    std::vector<ChunkEntry> entries_;            ///< entries of a layer
+    std::vector<std::byte> tables_;              ///< tables of the layers so far
     ChunkHistory history_;
     bool with_since_ = true, first_ = true; ///< the second: no step before is known
     std::uint32_t step_ = 0;
     std::uint64_t stayed_ = 0;
     std::uint32_t packed_ = 0; ///< layers so far
-    std::uint64_t end_ = 0;    ///< of their records
+    std::uint64_t end_ = 0;    ///< where their records end
 };
 
 } // namespace isochron::index

@@ -26,7 +26,7 @@ void pack_rows(std::span<const std::byte> numbers, std::vector<std::byte>& out);
 /// @return false if the bytes are not the packed form of that many numbers
 bool unpack_rows(std::span<const std::byte> packed, std::span<std::byte> out);
 
-/// The same for unsigned numbers of `word` bytes, at most 8.
+/// Packs unsigned numbers of `word` bytes, at most 8.
 /// @param numbers the lowest bytes of all, then all second bytes, and so on
 void pack_word_rows(std::span<const std::byte> numbers, std::size_t word,
                     std::vector<std::byte>& out);

@@ -1,5 +1,5 @@
-// What blends of the steps of a store share: memory of blended chunks that are done with, for those
-// of the next moment, and tables of ranks.
+// Memory that the blends of a store's steps share: of chunks that an earlier moment no longer
+// needs, to be used again, and of tables of ranks.
 #pragma once
 
 #include "index/file/chunks/byte_cache.h"
@@ -12,7 +12,8 @@
 
 namespace isochron::index {
 
-/// New memory is cleared by the system, which takes longer than the blend of two chunks. Thread-safe.
+/// Keeps memory for the next use: the system clears new memory, which takes longer than the blend
+/// of two chunks. Thread-safe.
 class SpareMemory {
   public:
     using Doubles = std::unique_ptr<double[]>;
@@ -45,14 +46,14 @@ class SpareMemory {
     std::vector<Doubles> free_;
 };
 
-/// Views of a moment come and go: a search has several, and each look at a place has one. Making
-/// ranks takes longer than such a look. Thread-safe.
+/// What all views of one moment share, as views come and go: a search has several, and each look at
+/// a place has one, which takes less time than making ranks. Thread-safe.
 struct BlendMemory {
     /// @param chunk doubles of a blended chunk @param limit bytes of them that are kept
     BlendMemory(std::size_t chunk, std::size_t limit)
         : spare(std::make_shared<SpareMemory>(chunk, limit)), ranks(kRankBytes) {}
 
-    static constexpr std::uint64_t kRankBytes = 2 << 20; ///< of ranks: about 15 moments
+    static constexpr std::uint64_t kRankBytes = 2 << 20; ///< bytes of ranks: about 15 moments
     std::shared_ptr<SpareMemory> spare;                  ///< blended chunks may outlive the store
     ByteCache ranks;                                     ///< by the number of the moment
 };

@@ -8,9 +8,10 @@
 
 namespace isochron::index {
 
-/// How far off the blend of two steps is, over that of steps twice as far apart: the error of a blend
-/// of what moves on is about A (1 - q) with q = exp(-c distance^2). It grows with the square of the
-/// distance and ends at A; twice as far apart it is A (1 - q^4), half as far A (1 - q^(1/4)).
+/// The error of a blend of neighboring steps, as a share of the error with every second step left
+/// out, told by how the error grows with the distance. The error of a blend of steps d apart is
+/// taken as A (1 - exp(-c d^2)): it grows with the square of d, up to A. With q = exp(-4 c), the
+/// errors at d = 1, 2 and 4 are A (1 - q^(1/4)), A (1 - q) and A (1 - q^4).
 /// @param grown error of steps four times as far apart over that of steps twice as far apart
 /// @return 0.25 (smooth motion) to 1 (what is new in every step)
 inline double share_of_nearer(double grown) {
@@ -33,7 +34,7 @@ struct BlendQuality {
     double every_second = 0; ///< the step between two others
     /// The middle one of three between two others; none in a series of fewer than five steps.
     std::optional<double> every_fourth;
-    std::uint64_t cells = 0;       ///< that were compared
+    std::uint64_t cells = 0;       ///< cells that were compared
     std::uint64_t lone_second = 0; ///< lone parts where every second step is left out
     /// Lone parts that are expected between two steps of the series itself.
     std::uint64_t lone = 0;

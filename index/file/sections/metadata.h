@@ -52,7 +52,7 @@ struct Metadata {
 /// Sets the counts of a series' values, and range and histogram, which follow from them.
 void set_counts(Metadata& metadata, ValueCounts counts);
 
-/// The same metadata give the same text: keys are sorted, numbers round-trip.
+/// Equal metadata give equal text: keys are sorted, numbers round-trip.
 std::string to_json(const Metadata& metadata);
 
 /// @throws Error when it is not JSON, nests too deeply, lacks a key or holds an impossible value

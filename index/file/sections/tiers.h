@@ -51,7 +51,7 @@ struct TierPlan {
     TierSet tiers;
     std::vector<std::string> reasons; ///< a sentence for each possible tier, for `info`
     bool asked = false;               ///< chosen by the user, not by the planner
-    std::uint32_t steps = 0;          ///< of the series when the tiers were chosen
+    std::uint32_t steps = 0;          ///< steps of the series when the tiers were chosen
 };
 
 } // namespace isochron::index

@@ -29,7 +29,7 @@ StoredExtremes extremes_of(const T* values, std::size_t count) {
     std::size_t i = 0;
     if (count >= hn::Lanes(d)) {
         auto lowest = hn::LoadU(d, values), highest = lowest;
-        auto sum = hn::Zero(d); // of 0 for each finite value, and of NaN for each other
+        auto sum = hn::Zero(d); // sum of 0 for each finite value, and of NaN for each other
         for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
             const auto value = hn::LoadU(d, values + i);
             lowest = hn::Min(lowest, value);

@@ -14,7 +14,7 @@ struct StoredExtremes {
     double low = 0, high = 0;
     bool all_finite = true; ///< no value is infinite or NaN; else the extremes have no meaning
 };
-/// Of values of i16, u16, i32 and f32.
+/// Extremes of values of i16, u16, i32 and f32.
 StoredExtremes stored_extremes(ValueType type, std::span<const std::byte> stored);
 
 /// Adds 1 to the bin of each value: bin floor(value * per_width) - first, which must be one of `bins`.

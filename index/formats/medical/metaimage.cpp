@@ -216,7 +216,7 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     std::vector<std::string> unread = header.others(kRead);
     if (header.find({"ElementSpacing"}) && header.find({"ElementSize"}))
         unread.emplace_back("ElementSize (ElementSpacing counts)");
-    // Of a matrix that turns space, the center only says about which point: Offset has it in already.
+    // Where a matrix turns space, the center only says about which point: Offset has it in already.
     std::erase_if(unread, [](const std::string& field) {
         return field == "CenterOfRotation 0 0 0" || field.starts_with("AnatomicalOrientation ???");
     });

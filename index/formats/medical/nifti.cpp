@@ -36,7 +36,7 @@ struct NiftiHeader {
     double vox_offset, scl_slope, scl_inter, toffset;
     double quatern[3], qoffset[3];
     double srow[3][4];
-    std::size_t bytes; ///< of the header itself
+    std::size_t bytes; ///< size of the header itself
     std::vector<std::string> unread;
     bool big_endian, pair;
 };
@@ -251,7 +251,7 @@ void orient(const NiftiHeader& h, const std::string& name, SeriesInfo& info) {
 
 /// Whether the qform places the volume elsewhere than the sform.
 bool differ(const NiftiHeader& h) {
-    constexpr double kSlack = 1e-3; // of a vertex
+    constexpr double kSlack = 1e-3; // share of the distance between vertices
     const glm::dmat3 axes = quaternion_axes(h);
     for (int row = 0; row < 3; ++row) {
         const double size = std::abs(h.pixdim[row + 1]);

@@ -11,7 +11,7 @@ namespace isochron::index {
 /// @throws Error naming the file: a type that no volume can have, and what it is
 StoredType nifti_type(std::int32_t datatype, const std::string& file);
 
-/// Of `xyzt_units`; empty where it says nothing.
+/// The unit that `xyzt_units` names; empty where it names none.
 std::string nifti_length_unit(std::int32_t units);
 std::string nifti_time_unit(std::int32_t units);
 

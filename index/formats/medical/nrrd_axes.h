@@ -21,7 +21,7 @@ struct NrrdAxes {
     std::vector<std::optional<glm::dvec3>> directions; ///< none: not an axis of space
     /// Where space has time as its fourth dimension: the time between steps.
     std::optional<double> time_step;
-    std::vector<std::string> units; ///< of each axis; may be empty
+    std::vector<std::string> units; ///< unit of each axis; may be empty
     std::array<std::size_t, 3> space{};
     /// The fastest or the slowest axis, if any.
     std::optional<std::size_t> components, time;

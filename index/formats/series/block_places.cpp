@@ -35,7 +35,7 @@ Begin way_to(const Grid& block, const std::string& name, const Grid& first,
         throw Error(fmt::format("{}: another spacing or direction than {}", name, first_name));
     const glm::dvec3 way =
         glm::transpose(first.direction) * (block.origin - first.origin) / first.spacing;
-    constexpr double kOff = 1e-3, kMostAway = 1e6; // of a cell
+    constexpr double kOff = 1e-3, kMostAway = 1e6; // shares of a cell
     Begin begin{};
     for (int axis = 0; axis < 3; ++axis) {
         const double at = std::round(way[axis]);

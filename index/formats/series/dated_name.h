@@ -11,7 +11,7 @@ namespace isochron::index {
 
 /// Dates that names have, as times.
 struct NameDates {
-    std::vector<double> times; ///< of the names, in the order given
+    std::vector<double> times; ///< times of the names, in the order given
     std::string unit; ///< `days since 1970-01-01`, or seconds where a name has a time of day
 };
 

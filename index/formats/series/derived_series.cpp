@@ -209,11 +209,11 @@ class DerivedSeries final : public VolumeSeries {
     }
 
     std::vector<std::unique_ptr<VolumeSeries>> inputs_;
-    std::string name_; ///< of what it is computed from
+    std::string name_; ///< name of what it is computed from
     Derived derived_;
     SeriesInfo info_;
-    std::array<std::vector<Weights>, 3> weights_; ///< of every vertex along each axis
-    glm::dmat3 to_physical_{1.0};                 ///< of derivatives along the index axes
+    std::array<std::vector<Weights>, 3> weights_; ///< weights of every vertex along each axis
+    glm::dmat3 to_physical_{1.0}; ///< turns derivatives along the index axes to physical space
 };
 
 } // namespace

@@ -14,7 +14,7 @@ namespace isochron::index {
 enum class Derived : std::uint8_t {
     gradient,    ///< the length of a scalar's gradient
     vorticity,   ///< the length of the curl of a vector
-    q_criterion, ///< of the gradient of a vector, half of (|rotation|^2 - |strain|^2)
+    q_criterion, ///< half of (|rotation|^2 - |strain|^2) of a vector's gradient
     magnitude    ///< the length of a vector whose components are arrays
 };
 

@@ -6,7 +6,7 @@
 #include "index/formats/series/missing_numbers.h"
 #include "index/formats/series/same_volume.h"
 #include "index/formats/series/step_order.h"
-#include "index/formats/series/telling_head.h"
+#include "index/formats/series/vti_header_hash.h"
 #include "index/formats/stored_file.h"
 #include "index/system/input_file.h"
 #include "index/utf8.h"
@@ -149,8 +149,9 @@ class FileSeries final : public VolumeSeries {
 
     void add(std::size_t index) {
         Found found{.paths = {files_[index].path}, .states = {state_of(files_[index].path)}};
-        const auto head = files_.size() > 1 ? head_of_file(files_[index].path, found.states[0].size)
-                                            : std::nullopt;
+        const auto head = files_.size() > 1
+                              ? header_hash_of_file(files_[index].path, found.states[0].size)
+                              : std::nullopt;
         const bool told = index > 0 && head && head == head_;
         if (index == 0)
             head_ = head;
@@ -369,9 +370,9 @@ class FileSeries final : public VolumeSeries {
     SeriesInfo info_;
     SeriesInfo first_; ///< from the first file, before overrides
     bool timed_ = false;
-    std::vector<StepPlace> places_;     ///< of every step
-    std::vector<Found> found_;          ///< of every file
-    std::optional<std::uint64_t> head_; ///< of the first file, see `telling_head`
+    std::vector<StepPlace> places_;     ///< place of every step
+    std::vector<Found> found_;          ///< what was found in every file
+    std::optional<std::uint64_t> head_; ///< head of the first file, see `vti_header_hash`
     std::unique_ptr<VolumeFile> open_;
     std::size_t open_index_ = 0;
 };

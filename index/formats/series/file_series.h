@@ -22,8 +22,9 @@ struct SeriesFile {
 /// The number by which an index knows the files of a step: it changes when one is written to.
 std::uint64_t number_of(std::span<const FileState> states);
 
-/// Opens every file once, unless its head says what the head of the first one says, and checks that all agree with the first in vertices, spacing, origin,
-/// direction, array, type and scaling. Times come from `files`, or else from the files' contents,
+/// Opens every file once, and checks that all agree with the first in vertices, spacing, origin,
+/// direction, array, type and scaling. Files whose header is equal to that of the first
+/// (vti_header_hash.h) are not opened. Times come from `files`, or else from the files' contents,
 /// in the unit of the first, or else are step numbers; `options` override them.
 /// @param notes on how the files were found
 /// @param progress of many files

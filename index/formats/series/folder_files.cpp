@@ -149,7 +149,7 @@ struct Lists {
     std::vector<KnownFile> usable;  ///< all that they name is there
     std::vector<std::string> stale; ///< why others are not
     std::vector<KnownFile> unnamed; ///< files that no usable one names
-    std::set<std::string> patterns; ///< of the files that they name
+    std::set<std::string> patterns; ///< patterns of the files that usable files name
 };
 
 Lists lists_among(const std::vector<KnownFile>& files, const fs::path& folder) {
@@ -260,7 +260,7 @@ FoundFiles series_in(const fs::path& folder, const ReadOptions& options) {
                 : std::optional(fmt::format("left out of {}: {}", folder.string(), some_of(left)))};
 }
 
-/// Of files that are given one by one, too, those count that name the others.
+/// Drops each of the given files that another one names, as a list or a header does.
 void drop_what_others_name(std::vector<KnownFile>& files, const ReadOptions& options) {
     if (files.size() < 2 || options.dims)
         return;

@@ -12,7 +12,7 @@ namespace isochron::index {
 
 struct FoundFiles {
     std::vector<KnownFile> files;
-    std::optional<std::string> note; ///< which files of values were left out
+    std::optional<std::string> note; ///< says which files of values were left out
 };
 
 /// Replaces each folder, unless it is one volume, by the files in it: by all DICOM files, or else

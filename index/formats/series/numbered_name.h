@@ -55,7 +55,7 @@ bool natural_less(const NumberedName& a, const NumberedName& b);
 /// Names read together.
 struct ReadNames {
     std::vector<NumberedName> names; ///< in the order given
-    std::vector<std::size_t> order;  ///< of the names, by their numbers
+    std::vector<std::size_t> order;  ///< order of the names by their numbers
     /// One sentence for the user, where the other reading would give another order.
     std::optional<std::string> note;
 };
@@ -69,8 +69,9 @@ std::vector<std::size_t> varying_numbers(std::span<const NumberedName> names);
 /// Where the number at the end of a text begins; none: it does not end in one.
 std::optional<std::size_t> number_at_end(std::string_view text);
 
-/// The numbers of files that are times: those that differ, the last where several do; else the last of
-/// the name of each. Empty for a file without any.
+/// The numbers in the names of files that count as times: the number that differs among the names,
+/// the last where several do; if none differs, the last number of each name. Empty for a file whose
+/// name has no number.
 std::vector<std::optional<double>> times_in_names(std::span<const std::filesystem::path> files);
 
 } // namespace isochron::index

@@ -6,7 +6,7 @@
 
 namespace isochron::index {
 
-/// As `open_series`.
+/// `open_series` with progress.
 /// @param progress of `opening files`, where there are many; may be empty
 std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
                                           const ReadOptions& options, const Progress& progress);

@@ -18,7 +18,7 @@ namespace {
 /// Where a vertex lies between two others.
 struct Between {
     std::uint32_t lower = 0;
-    double share = 0; ///< of the upper one
+    double share = 0; ///< share of the upper one
 };
 
 /// A value whose share is 0 may be missing: it is not looked at.
@@ -162,13 +162,13 @@ class ResampledSeries final : public VolumeSeries {
         series_->stream(step, [&](std::span<const std::byte> piece) { layers.add(piece); });
     }
 
-    /// Of the first step: the new grid, interpolated back to the old vertices.
+    /// How far the new grid, interpolated back to the old vertices, is off in the first step.
     Misfit misfit() {
         const Grid& from = series_->info().grid;
         std::array<std::vector<Between>, 3> back;
         for (int axis = 0; axis < 3; ++axis)
             back[static_cast<std::size_t>(axis)] = between(from, info_.grid, axis);
-        // Of what would not fit into memory, every so manieth row.
+        // Only every so manieth row is compared of what would not fit into memory.
         constexpr std::uint64_t kMostValues = 1 << 26;
         const std::uint64_t all =
             std::uint64_t{from.vertices[0]} * from.vertices[1] * info_.grid.vertices[2];
@@ -200,7 +200,8 @@ class ResampledSeries final : public VolumeSeries {
 
     std::unique_ptr<VolumeSeries> series_;
     SeriesInfo info_;
-    std::array<std::vector<Between>, 3> places_; ///< of the new vertices between the old ones
+    /// Places of the new vertices between the old ones.
+    std::array<std::vector<Between>, 3> places_;
 };
 
 /// Vertices along each axis: so many that they are as close as the closest two of the old grid.

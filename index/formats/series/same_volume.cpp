@@ -18,9 +18,10 @@ bool close(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& tolerance
     return true;
 }
 
-/// Of grids with as many vertices; one may be even but for rounding, and the other not.
+/// Compares positions of grids with as many vertices: one grid may be even but for rounding, and
+/// the other not.
 bool same_positions(const Grid& a, const Grid& b, std::size_t axis) {
-    constexpr double kSlack = 1e-4; // of the spacing
+    constexpr double kSlack = 1e-4; // share of the spacing
     if (a.positions[axis] == b.positions[axis])
         return true;
     const int i = static_cast<int>(axis);

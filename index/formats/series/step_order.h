@@ -16,8 +16,9 @@ struct StepPlace {
     double time = 0;
 };
 
-/// The steps by their times. Of several with the same time the one of the file that begins last counts,
-/// and within a file the last: programs that were restarted write some steps again.
+/// The steps in the order of their times. Among steps of equal time, the step of the file that
+/// begins last counts, and within a file the last: programs that were restarted write some steps
+/// again.
 struct OrderedSteps {
     std::vector<StepPlace> steps;
     std::vector<std::size_t> files; ///< by the first time of each; in the order given where equal

@@ -29,7 +29,7 @@ class TiffHead {
         return !describes_more(description(1 << 16));
     }
 
-    /// Of the first page.
+    /// Description of the first page.
     std::string description(std::uint64_t most) {
         if (!find_first_page())
             return {};
@@ -87,7 +87,8 @@ class TiffHead {
     std::uint64_t size_;
     std::ifstream file_;
     bool big_ = false, wide_ = false;
-    std::uint64_t first_ = 0, entries_ = 0; ///< of the first page's directory
+    /// Offset and number of entries of the first page's directory.
+    std::uint64_t first_ = 0, entries_ = 0;
 };
 
 /// The values of an attribute, wherever it stands in the text.

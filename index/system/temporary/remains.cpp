@@ -152,7 +152,7 @@ void sweep(const fs::path& folder) {
         else
             others.emplace_back(status.st_mtime, entry->d_name);
     }
-    // Those in folders that nobody names again would become more and more.
+    // Remains in folders that nobody names again would become more and more.
     constexpr std::size_t kMost = 1000;
     if (others.size() <= kMost)
         return;
@@ -171,7 +171,7 @@ std::uint32_t random_number() {
 } // namespace
 
 fs::path temporary_name_of(const fs::path& file) {
-    constexpr std::size_t kLongest = 200; // of 255 bytes that a name may have
+    constexpr std::size_t kLongest = 200; // a name may have 255 bytes
     return file.parent_path() / fmt::format(".{}{}{:08x}{}",
                                             file.filename().string().substr(0, kLongest), kMark,
                                             random_number(), kTemporary);

@@ -1,6 +1,6 @@
 // The order in which cells are drawn; needs frame.glsl.
 
-layout(binding = 1) uniform usamplerBuffer order; // of the first eye
+layout(binding = 1) uniform usamplerBuffer order; // order for the first eye
 layout(binding = 2) uniform usamplerBuffer order_of_other_eye;
 
 // @return of the n-th drawn cell: its slot, and a square around what is seen of it: its lower left

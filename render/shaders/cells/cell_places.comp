@@ -1,5 +1,5 @@
 #version 450 core
-// Writes the cells of a message (render/cells/slot_plan.h) into their slots.
+// Writes the cells of a message (render/cells/slot_assignment.h) into their slots.
 #include "work.glsl"
 #include "slots.glsl"
 

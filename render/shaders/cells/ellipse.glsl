@@ -74,7 +74,7 @@ mat2 half_axes(float xx, float xy, float yy) {
     vec2 u = h >= 0.0 ? vec2(h + t, xy) : vec2(xy, t - h);
     u = t > 1e-6 * mean ? normalize(u) : vec2(1, 0);
     vec2 lengths = sqrt(vec2(major, minor));
-    // Of the four ways to choose the same axes, take the one nearest to the screen's axes.
+    // Four choices of axes are the same ellipse: take the one nearest to the screen's axes.
     if (abs(u.y) > abs(u.x)) {
         u = vec2(u.y, -u.x);
         lengths = lengths.yx;

@@ -1,6 +1,7 @@
 // The place of a fragment in its cell's footprint.
 //
-// Of an ellipse it is a place on the unit disc: any ellipse is an affine image of the unit disc, and
+// In an ellipse it is a place on the unit disc: any ellipse is an affine image of the unit disc,
+// and
 // the rectangle around it an image of the square around the disc. With CUT it is a place in the cell,
 // in halves of the enlarged cell's sides.
 //

@@ -9,10 +9,12 @@
 #include "lighting.glsl"
 #endif
 
-layout(location = 1) uniform int first_vertices[MOST_SURFACES]; // of each surface, ascending
+// First vertex of each surface, ascending.
+layout(location = 1) uniform int first_vertices[MOST_SURFACES];
 layout(location = 0) in uvec4 vertex; // the lower end's x and y; z and axis; share; normal
 #ifdef COLORS
-layout(location = 1) in uint coordinate; // of its color, in steps of 1 / 65534; 65535: no value
+// Place in the color map, in steps of 1 / 65534; 65535: no value.
+layout(location = 1) in uint coordinate;
 out vec2 colored_by; // the coordinate times the share of what has a value; that share
 flat out uint of_surface;
 #endif

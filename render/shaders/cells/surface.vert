@@ -40,7 +40,7 @@ vec3 unpack_gradient(uvec2 words) {
 }
 
 void set_gradient(int corners) {
-    vec3 sum[4], difference[4]; // of the two corners along x
+    vec3 sum[4], difference[4]; // sum and difference of the two corners along x
     for (int i = 0; i < 4; ++i) {
         uvec4 words = texelFetch(corner_gradients, 4 * corners + i);
         vec3 first = unpack_gradient(words.xy), second = unpack_gradient(words.zw);
@@ -71,8 +71,8 @@ vec2 extent(vec4 from, vec4 to) {
 
 // A bound of the surface: the part of a box that lies between two parallel planes.
 struct Slab {
-    vec3 middle, half_size; // of the box
-    float value;            // of a linear function, at the box's middle
+    vec3 middle, half_size; // middle and half the size of the box
+    float value;            // value of a linear function, at the box's middle
     vec3 slope;             // its change from there to the box's faces
     float tolerance;        // the planes are where this function is +tolerance and -tolerance
 };

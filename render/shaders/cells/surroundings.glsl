@@ -5,7 +5,8 @@
 // nothing is behind it there, in a groove most of it. It depends on the volume and the side alone,
 // so that both eyes see the same.
 
-layout(binding = 9) uniform sampler3D surroundings_field; // of each surface, one upon the other
+// Fields of the surfaces, one upon the other.
+layout(binding = 9) uniform sampler3D surroundings_field;
 
 const float kBefore = 2.5;      // places of the field
 const float kPlane = 0.125;     // what is found so far before a plane,

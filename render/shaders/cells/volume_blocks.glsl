@@ -12,13 +12,13 @@ layout(std140, binding = 0) uniform Volume {
     float factor;         // block units per held value
     ivec3 tiles;          // blocks along each axis
     float gradient_scale; // factor of stored gradients, per block unit
-    vec4 levels[2];       // of the surfaces, in block units
+    vec4 levels[2];       // levels of the surfaces, in block units
 };
 
 // The four planes of vertices around a cell along one axis: its two vertices and their outer
 // neighbors, clamped at the border. They lie in one or two blocks.
 struct Planes {
-    ivec4 offset; // of each plane in its block
+    ivec4 offset; // offset of each plane in its block
     bvec4 second; // whether it lies in the second block
     ivec2 block;  // the two blocks along this axis
 };

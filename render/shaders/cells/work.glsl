@@ -8,7 +8,7 @@ layout(std140, binding = 1) uniform Work {
     bool whole;   // cell_places.comp: message is ids by slot; else slot and id of each change
                   // cell_corners.comp: items are slots; else they are numbers in the list
     bool colored; // cell_styles.comp: the set has colors
-    uvec2 cells;  // of the grid, along x and y
+    uvec2 cells;  // cells of the grid, along x and y
     uvec4 surface_ends[MOST_SURFACES / 4]; // cell_places.comp, if whole: end slot of each surface
 };
 

@@ -2,8 +2,10 @@
 // What is behind the data: a color that changes with the height at which one looks, in the room.
 
 layout(location = 0) uniform vec4 viewport; // corner and size in the target, pixels
-layout(location = 1) uniform vec3 heights;  // of the view's ray: per pixel to the right and up, and ahead
-layout(location = 2) uniform vec3 right;    // likewise all of the ray: its length is asked for
+// Height of the view's ray: per pixel to the right and up, and ahead.
+layout(location = 1) uniform vec3 heights;
+// The view's ray, per pixel to the right: its length is asked for.
+layout(location = 2) uniform vec3 right;
 layout(location = 3) uniform vec3 up;
 layout(location = 4) uniform vec3 ahead;
 layout(location = 5) uniform vec3 low;      // linear light

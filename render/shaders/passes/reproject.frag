@@ -7,7 +7,7 @@
 
 layout(binding = 0) uniform sampler2D colors;
 layout(binding = 1) uniform sampler2D depths;         // 1: nothing was drawn
-layout(location = 0) uniform mat4 now_from_then;      // of pixel and depth, homogeneous
+layout(location = 0) uniform mat4 now_from_then; // pixel and depth now from those then, homogeneous
 layout(location = 4) uniform vec4 pixels;             // least and largest pixel of the old picture
 layout(location = 5) uniform vec2 range;              // depths of the nearest and farthest cell
 out vec4 color;
@@ -22,7 +22,7 @@ vec3 seen_now(vec2 at, float depth) {
 
 struct Found {
     vec2 at;
-    float depth; // of the old picture
+    float depth; // depth in the old picture
     float seen;  // depth now
     bool is;
 };

@@ -2,7 +2,8 @@
 // Darkens a picture: all of it, or only away from its middle.
 
 layout(location = 0) uniform vec4 viewport; // corner and size in the target, pixels
-layout(location = 1) uniform vec2 strength; // of the whole and of the rim, 0 to 1
+// Strength of the veil over the whole and at the rim, 0 to 1.
+layout(location = 1) uniform vec2 strength;
 out vec4 color;
 
 void main() {

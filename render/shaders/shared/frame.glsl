@@ -15,7 +15,7 @@ struct Eye {
     vec4 viewport;          // corner and size in the target, pixels
     vec4 depth_cue;         // distance [m] where it starts, 1 / its range, strength
     vec4 key_light;         // direction towards it, eye space
-    vec4 up;                // of the room, eye space
+    vec4 up;                // up in the room, eye space
     vec4 between_eyes;      // middle between the viewer's eyes, eye space: both see the same fading
     vec4 cut;               // plane in eye space above which everything is cut away
 };
@@ -30,20 +30,20 @@ layout(std140, binding = 0) uniform Frame {
     vec2 color_range;   // place in the map = x * coordinate + y
     bool colored;       // by a value, not by surface
     bool linear_light;  // written colors are linear light; else display values
-    float radius;       // of the footprint, in voxels
+    float radius;       // radius of the footprint, in voxels
     int order_begin;    // the n-th cell drawn is in slot order[order_begin + n * order_step],
     int order_step;     // or in slot order_begin + n where the step is 0
     bool blended;
     int drawn_surfaces; // a bit for each
     bool soft_near_eye; // fade what comes so near that it would veil the whole view
-    float color_ratio;  // of the values at the map's ends where it goes by logarithms, else 0
+    float color_ratio;  // ratio of the values at the map's ends where it goes by logarithms, else 0
     bool mixed_levels;  // cells are of several levels of detail: see cell_box.glsl
     bool color_bands;   // the map has bands, whose colors do not flow into each other
     bool corners_by_slot; // surface.vert: corners are there for all slots, else for the cells drawn
     vec4 index_from_normal[3]; // rows: planes' normals from physical to index space
     vec4 surroundings;      // places of the field of surroundings per voxel; w: how much they darken
     vec4 surroundings_size; // its places along x, y and z of a surface
-    vec4 volume_extent;           // of the volume in index space, xyz
+    vec4 volume_extent;           // extent of the volume in index space, xyz
 };
 
 // A normal in even coordinates, of any length.

@@ -325,7 +325,7 @@ TEST_F(CommandLine, ColorCarriesASecondArrayThatInfoShowsAndVerifyChecks) {
         EXPECT_EQ(isochron({"verify", "c.isochron"}).status, 0);
         EXPECT_THAT(isochron({"info", "c.isochron"}).out, HasSubstr("heat, f32, -24 to 0 K"));
     }
-    // Of an index that refers to its files, verify reads the colors there.
+    // Where an index refers to its files, verify reads the colors there.
     std::string changed = folder.read("s1.vtk");
     changed.replace(changed.rfind("-3"), 2, "-4");
     folder.write("s1.vtk", changed);

@@ -66,7 +66,7 @@ class ExploreTest : public testing::Test {
         more.insert(more.begin(), {"--size", "640", "480"});
         return explore_sized(std::move(more));
     }
-    /// The same with the size that is among `more`, or else the one that the window had last.
+    /// Explores with the size that is among `more`, or else the one that the window had last.
     std::unique_ptr<Program> explore_sized(std::vector<std::string> more) {
         std::vector<std::string> arguments{"explore", file("sphere.isochron")};
         arguments.insert(arguments.end(), more.begin(), more.end());

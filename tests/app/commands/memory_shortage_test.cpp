@@ -17,7 +17,7 @@ class MemoryShortage : public CommandLine {
 
 TEST_F(MemoryShortage, IsOneLineThoughADriverOfOpenGLCrashes) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
-    int failed = 0, named = 0; // of these, that name the limit
+    int failed = 0, named = 0; // runs that failed, and those that named the limit
     // The driver takes some hundred MiB of addresses, in many pieces.
     for (unsigned kibibytes = 200'000; kibibytes <= 1'000'000; kibibytes += 50'000) {
         const ChildResult result =

@@ -229,7 +229,7 @@ TEST_F(Outputs, AreAllTriedByTheseTests) {
     std::set<std::string> tried;
     for (const Way& way : ways())
         tried.insert(way.page + " " + way.option);
-    // The same by another name; what only gets names that are not there yet; how many pictures.
+    // An option by another name; what only gets names that are not there yet; how many pictures.
     for (const char* also : {"generate-vorticity --out", "generate-fourier --out",
                              "explore --screenshots", "replay --every"})
         tried.insert(also);

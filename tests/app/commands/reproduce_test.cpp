@@ -196,7 +196,7 @@ TEST_F(ReproduceTest, TheSamePixelsInOtherBytesAreTheSamePicture) {
         EXPECT_THAT(result.out,
                     HasSubstr("made again: the same pixels, which the file stores in other bytes"));
     }
-    // Of a JPEG, too, other pixels are told.
+    // Other pixels of a JPEG are told, too.
     const std::string picture = pictures({"--format", "jpg"}).back();
     render::Image image = stereo::read_image(folder_.path() / picture);
     for (std::size_t i = 0; i < 4 * 96; ++i)

@@ -7,7 +7,7 @@
 
 namespace isochron::app {
 
-/// Of a file `lab.toml` with this text.
+/// The error of a file `lab.toml` with this text.
 inline std::string error_of(const std::string& text) {
     try {
         parse_config(text, "lab.toml");

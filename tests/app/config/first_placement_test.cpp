@@ -96,7 +96,8 @@ TEST(Placement, FillsThePictureSeenFromAboveAndFromACorner) {
                 EXPECT_NEAR(std::max(high.x - low.x, high.y - low.y) / 2, 0.85, 0.01);
                 EXPECT_NEAR(glm::length(low + high), 0, 0.01) << "in the middle";
                 const glm::dvec3 up =
-                    placement.rotation * glm::dvec3(0, 0, 1); // of all, seen from a corner
+                    // Up in all placements, seen from a corner.
+                    placement.rotation * glm::dvec3(0, 0, 1);
                 EXPECT_GT(up.y, 0.7);
                 EXPECT_GT(up.z, 0.4);
             }

@@ -23,7 +23,7 @@ inline std::string small_cave(const std::string& more = "") {
     return replaced(cave_of("64, 40"), "fullscreen = true\n", "") + more;
 }
 
-/// The same where no window has buffers for two eyes.
+/// The CAVE where no window has buffers for two eyes.
 inline std::string mono_cave(const std::string& more = "") {
     return replaced(small_cave(more), "\"quadbuffer\"", "\"mono\"");
 }

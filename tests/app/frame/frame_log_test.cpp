@@ -2,7 +2,7 @@
 #include "app/frame/frame_log.h"
 #include "app/frame/late_frame.h"
 #include "app/output/known_files.h"
-#include "app/panel/parts/notes.h"
+#include "app/panel/parts/messages.h"
 #include "index/error.h"
 #include "tests/support/test_folder.h"
 

@@ -20,7 +20,7 @@ using interaction::QualityMode;
 using render::Footprint;
 
 inline constexpr double kBudget = 10; // ms
-using Costs = std::array<double, 3>;  ///< of quads, splats and surfaces
+using Costs = std::array<double, 3>;  ///< costs of quads, splats and surfaces
 
 inline std::size_t rung(Footprint footprint) {
     return std::min<std::size_t>(static_cast<std::size_t>(footprint), 2);

@@ -84,7 +84,8 @@ TEST(FourierModes, HaveTheEnstrophyOfTheirAmplitudes) {
     // Parseval: what modes of one wave vector add up to, and its opposite, is one wave.
     const FourierModes flow(3, 40);
     constexpr double kTime = 12;
-    std::map<std::array<double, 3>, std::array<Vector, 2>> waves; // of sines and of cosines
+    // Amplitudes of sines and of cosines.
+    std::map<std::array<double, 3>, std::array<Vector, 2>> waves;
     for (const FourierModes::Mode& mode : flow.modes()) {
         const bool turned = mode.k < Vector{};
         Vector k = mode.k;

@@ -140,7 +140,8 @@ TEST_P(Seeded, ProductsAliasIntoNothing) {
     const Fourier fine(32);
 
     VectorField same_on_fine;
-    std::vector<std::array<std::size_t, 2>> places; // of the coarse grid's kept modes in both
+    // Places of the coarse grid's kept modes in both.
+    std::vector<std::array<std::size_t, 2>> places;
     for_each_wave_vector(16, [&](std::size_t place, const std::array<double, 3>& k, double) {
         const auto index = [](double wave_number) {
             return static_cast<std::size_t>(wave_number < 0.0 ? wave_number + 32.0 : wave_number);

@@ -118,7 +118,7 @@ class LargeKeptIndex : public KeptIndex {
         }
         return steps;
     }
-    fs::path path_; ///< of the complete one
+    fs::path path_; ///< path of the complete index
 };
 
 TEST_F(LargeKeptIndex, HasItsFirstStepSoonAndGoesOnWhereItEnded) {

@@ -272,7 +272,7 @@ TEST_P(CaveTest, FramesOfWallsAreSeenAllAlongThem) {
                      camera.position);
                 const float pixels = 0.5f * kRoom.y / std::tan(kRoomView / 2) / -at.z;
                 const glm::ivec2 pixel(glm::vec2(kRoom) / 2.0f + glm::vec2(at.x, -at.y) * pixels);
-                int brightest = 0; // of the neighborhood: the line may run between pixels
+                int brightest = 0; // brightest of the neighborhood: the line may run between pixels
                 for (int y = pixel.y - 1; y <= pixel.y + 1; ++y)
                     for (int x = pixel.x - 1; x <= pixel.x + 1; ++x)
                         if (x >= 0 && y >= 0 && x < room.width && y < room.height)

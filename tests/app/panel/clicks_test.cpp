@@ -64,7 +64,7 @@ TEST_F(Clicks, TwoLeadToAClipPlaneAcrossX) {
     }));
     asked_.tools.mouse = interaction::ToolKind::clip;
     frame();
-    const glm::vec2 corner = layer_.places().picture.low;
+    const glm::vec2 corner = layer_.layout().picture.low;
     EXPECT_TRUE(one_click(corner + glm::vec2(60, 24), corner + glm::vec2(400, 24), clips_along_x));
 }
 
@@ -84,8 +84,8 @@ TEST_F(Clicks, ALineOfTheHistogramIsTakenWhereTheHandIsAndPicksItsSurface) {
 
 TEST_F(Clicks, TheEndsOfTheRangeAreDraggedAboveTheTrack) {
     frame();
-    const PanelPlaces places = layer_.places();
-    const float lane = places.time.low.y + 8;
+    const PanelLayout layout = layer_.layout();
+    const float lane = layout.time.low.y + 8;
     point({1266, lane});
     frame({MouseButtonEvent{MouseButton::left, true}});
     point({1000, lane});
@@ -191,7 +191,7 @@ TEST_F(Clicks, TheCubeTurnsTheDataToTheFaceThatIsClicked) {
     asked_.room_from_physical.translation = {0, 0, -3};
     info_.grid.vertices = {2, 2, 2};
     frame();
-    const PanelBox picture = layer_.places().picture;
+    const PanelBox picture = layer_.layout().picture;
     const Commands commands = click({picture.high.x - 54, picture.low.y + 52});
     ASSERT_TRUE(commands.room_from_physical);
     const glm::dvec3 up = commands.room_from_physical->rotation * glm::dvec3(0, 0, 1);

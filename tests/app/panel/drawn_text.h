@@ -19,7 +19,7 @@ struct TextFault {
 inline constexpr const char* kHidden = "is partly hidden"; ///< the fault of text that lies below
 
 struct ReadText {
-    std::size_t runs = 0; ///< of characters
+    std::size_t runs = 0; ///< runs of characters
     std::vector<TextFault> faults;
 };
 

@@ -109,16 +109,16 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
     /// The sections, one after the other where they are folded.
     void expect_legible_sections(const std::string& what) {
         expect_legible(what);
-        const PanelPlaces places = layer_.places();
+        const PanelLayout layout = layer_.layout();
         if (GetParam().place == PanelPlace::in_room)
             for (int page = 0; page < 4; ++page) {
-                click({50.0f + 100.0f * static_cast<float>(page), places.column.low.y + 20});
+                click({50.0f + 100.0f * static_cast<float>(page), layout.column.low.y + 20});
                 expect_legible(fmt::format("{}, page {}", what, page));
             }
-        if (!places.folded)
+        if (!layout.folded)
             return;
         for (int icon = 0; icon < 4; ++icon) {
-            const glm::vec2 at(20, places.column.low.y + 20 + 33 * static_cast<float>(icon));
+            const glm::vec2 at(20, layout.column.low.y + 20 + 33 * static_cast<float>(icon));
             click(at);
             expect_legible(fmt::format("{}, section {}", what, icon));
             click(at);
@@ -199,7 +199,7 @@ TEST_P(LegiblePanelOverAPicture, WithStatistics) {
     report_.final = false;
     report_.candidates = 123456;
     frame();
-    click(layer_.places().picture.low + glm::vec2(30, 22));
+    click(layer_.layout().picture.low + glm::vec2(30, 22));
     expect_legible("with statistics");
 }
 
@@ -236,10 +236,10 @@ TEST_P(LegiblePanel, WithTheMenusOfItsBars) {
     asked_.pictures.height = 1080;
     asked_.play_range = {3, 50};
     frame();
-    const PanelPlaces places = layer_.places();
+    const PanelLayout layout = layer_.layout();
     int menus = 0;
     const auto press_along = [&](float y) {
-        for (float x = 20; x < places.time.high.x - 10; x += 14) {
+        for (float x = 20; x < layout.time.high.x - 10; x += 14) {
             click({x, y});
             if (ImGui::GetCurrentContext()->OpenPopupStack.Size > 0) {
                 ++menus;
@@ -251,9 +251,9 @@ TEST_P(LegiblePanel, WithTheMenusOfItsBars) {
             frame();
         }
     };
-    press_along((places.top.low.y + places.top.high.y) / 2);
-    press_along(places.two_rows ? places.time.low.y + 17
-                                : (places.time.low.y + places.time.high.y) / 2);
+    press_along((layout.top.low.y + layout.top.high.y) / 2);
+    press_along(layout.two_rows ? layout.time.low.y + 17
+                                : (layout.time.low.y + layout.time.high.y) / 2);
     EXPECT_GE(menus, 3);
 }
 

@@ -103,7 +103,7 @@ TEST_F(RoomKeysTest, ARayDragsTimeBetweenTheSteps) {
 
 TEST_F(RoomKeysTest, SurfacesAreExportedByARayAlone) {
     ray(std::nullopt, false);
-    const float line = (layer_.places().top.low.y + layer_.places().top.high.y) / 2;
+    const float line = (layer_.layout().top.low.y + layer_.layout().top.high.y) / 2;
     const auto is_shown = [](const char* word) {
         return place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), word)
             .has_value();
@@ -123,7 +123,7 @@ TEST_F(RoomKeysTest, SurfacesAreExportedByARayAlone) {
 
 TEST_F(RoomKeysTest, ACommandIsFoundAndRunByARayAlone) {
     ray(std::nullopt, false);
-    const PanelBox top = layer_.places().top;
+    const PanelBox top = layer_.layout().top;
     press_at({top.high.x - 24, (top.low.y + top.high.y) / 2});
     press_word("what do you want to do?");
     for (const char* const key : {"p", "a", "r", "a", "l", "l", "e", "l"})
@@ -138,7 +138,7 @@ TEST_F(RoomKeysTest, ACommandIsFoundAndRunByARayAlone) {
 
 TEST_F(RoomKeysTest, ASettingIsFoundByARayAlone) {
     ray(std::nullopt, false);
-    const PanelBox top = layer_.places().top;
+    const PanelBox top = layer_.layout().top;
     press_at({top.high.x - 24, (top.low.y + top.high.y) / 2});
     press_word("what do you want to do?");
     for (const char* const key : {"g", "l", "o", "s", "s"})
@@ -158,7 +158,7 @@ TEST_F(RoomKeysTest, AnArrayIsChosenOfAllByARayAlone) {
     EXPECT_EQ(press_word("0 to 5").array, "speed");
     EXPECT_FALSE(layer_.pages().any());
     ray(std::nullopt, false);
-    const PanelBox top = layer_.places().top;
+    const PanelBox top = layer_.layout().top;
     press_at({top.high.x - 24, (top.low.y + top.high.y) / 2});
     press_word("arrays: choose by name, values, unit and grid");
     EXPECT_TRUE(layer_.pages().any()) << "the search leads there, too";

@@ -270,7 +270,7 @@ TEST(RoomPanelLetters, AreLargeEnoughAtArmsLength) {
     const render::GlyphAtlas font = room_font(150.0f);
     const render::Glyph* x = font.find(U'x');
     ASSERT_TRUE(x);
-    constexpr float kMargins = 2 * 1.5f / 150.0f; // of the glyph's rectangle
+    constexpr float kMargins = 2 * 1.5f / 150.0f; // margins of the glyph's rectangle
     const float x_height = (x->high.y - x->low.y - kMargins) * PanelLayer::kFontPixels;
     const double meters = x_height * defaults.width / PanelInRoom::kPixels.x;
     const double degrees = std::atan(meters / defaults.distance) * 57.29578;
@@ -299,7 +299,7 @@ class PickTest : public RoomPanelTest {
         state.devices.push_back(wand);
         return state;
     }
-    /// Those of the mark's color, which nothing else has.
+    /// The pixels of the mark's color, which nothing else has.
     /// @param only_at this pixel, instead of all
     static std::vector<glm::ivec2> pink_pixels(const Image& image,
                                                const std::optional<glm::ivec2>& only_at = {}) {
@@ -313,7 +313,7 @@ class PickTest : public RoomPanelTest {
             }
         return found;
     }
-    const glm::dvec3 center_{12.0, 15.5, 15.5}; ///< of the sphere at step 0, voxels of 1 mm
+    const glm::dvec3 center_{12.0, 15.5, 15.5}; ///< center of the sphere at step 0, voxels of 1 mm
     std::optional<Session> session_;
 };
 

@@ -28,7 +28,7 @@ class TimeTrack : public LayerTest {
     std::vector<ImRect> rectangles() {
         frame();
         frame();
-        const PanelBox& bar = layer_.places().time;
+        const PanelBox& bar = layer_.layout().time;
         std::vector<ImRect> found;
         const ImDrawData& data = *ImGui::GetDrawData();
         for (int n = 0; n < data.CmdListsCount; ++n) {
@@ -48,7 +48,7 @@ class TimeTrack : public LayerTest {
         std::ranges::sort(found, {}, [](const ImRect& one) { return one.Min.x; });
         return found;
     }
-    /// Of one pixel's width. @param least height
+    /// Ticks of one pixel's width. @param least height
     std::vector<float> ticks(float least = 1) {
         std::vector<float> places;
         for (const ImRect& one : rectangles())

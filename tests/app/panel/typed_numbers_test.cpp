@@ -44,11 +44,11 @@ TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessThey
         if (commands.instant == index::Instant(41) && !step)
             step = at;
     };
-    const PanelPlaces places = layer_.places();
+    const PanelLayout layout = layer_.layout();
     for (float y = 350; y < 400; y += 9) // below the histogram
         look({130, y});
     for (float x = 200; x < 500; x += 20)
-        look({x, (places.time.low.y + places.time.high.y) / 2});
+        look({x, (layout.time.low.y + layout.time.high.y) / 2});
     ASSERT_TRUE(isovalue && step);
     EXPECT_EQ(typed_at(*isovalue, "1,5").isovalue, 1.5);
     EXPECT_EQ(typed_at(*isovalue, "1.5").isovalue, 1.5);

@@ -22,7 +22,7 @@ TEST_F(QualityControllerTest, SettledEndsAtTheBestThatFitsAndSaysSo) {
         const QualityChoice choice = display.run(60).choice;
         const Footprint best = best_that_fits(costs);
         SCOPED_TRACE(testing::Message() << costs[0] << " " << costs[1] << " " << costs[2]);
-        // Those that do not fit are tried again now and then.
+        // Footprints that do not fit are tried again now and then.
         if (best == Footprint::surface) {
             EXPECT_EQ(choice.footprint, best);
             EXPECT_TRUE(choice.final);

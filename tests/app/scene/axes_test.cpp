@@ -108,7 +108,7 @@ TEST(Axes, AreLabeledWhereOneFaceIsSeenAndTheNextIsNot) {
         const glm::vec3 eye(glm::inverse(placement.room_from_index) * glm::vec4(position, 1));
         for (int axis = 0; axis < 3; ++axis) {
             const auto sides = labeled_edge(axis, placement, head);
-            int seen_sides = 0; // of the two pairs of faces along the axis, those with one in view
+            int seen_sides = 0; // pairs of faces along the axis with one face in view
             for (int k = 1; k <= 2; ++k)
                 seen_sides += eye[(axis + k) % 3] < 0 ||
                               eye[(axis + k) % 3] > placement.extent[(axis + k) % 3];

@@ -167,7 +167,8 @@ TEST(Callouts, CanBeReadOnEveryBackgroundWhateverColorTheirSurfaceHas) {
             info.times = {0};
             for (const Callout& callout : callouts_of(picture, interaction::Pointed{}, info)) {
                 const CalloutPaper paper{{0, 0}, {9, 4}};
-                const auto quads = callout_quads(callout, paper, text, kSize, ink_on(background));
+                const auto quads =
+                    callout_quads(callout, paper, text, kSize, overlay_colors_on(background));
                 const auto sheet = std::ranges::find_if(quads, [](const auto& quad) {
                     return quad.high.x - quad.low.x > 200; // nine heights of the text
                 });

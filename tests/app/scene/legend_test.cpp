@@ -55,13 +55,13 @@ TEST_P(LegendTest, ShowsTheMapFromLowToHigh) {
 
 TEST_P(LegendTest, HasNoBoxOnALightOrAGrayBackground) {
     Legend legend = of_temperature();
-    legend.ink = ink_on(interaction::Background::light);
+    legend.overlay = overlay_colors_on(interaction::Background::light);
     const auto quads = legend_quads(legend, text_, {1000, 1000});
     ASSERT_FALSE(quads.empty());
     EXPECT_EQ(glm::vec3(quads.front().color), kPaperWhite) << "as the background";
     EXPECT_TRUE(std::ranges::any_of(
-        quads, [](const ScreenQuad& quad) { return glm::vec3(quad.color) == kDarkInk; }));
-    legend.ink = ink_on(interaction::Background::gray);
+        quads, [](const ScreenQuad& quad) { return glm::vec3(quad.color) == kDarkText; }));
+    legend.overlay = overlay_colors_on(interaction::Background::gray);
     EXPECT_EQ(glm::vec3(legend_quads(legend, text_, {1000, 1000}).front().color), kLifted);
 }
 

@@ -65,7 +65,7 @@ Shown shown_to(Eye place, const Image& window, StereoMode mode) {
 /// @param low, high of the part, in heights of the letter from the letter's lower left
 double ink(const Shown& picture, Eye letter, glm::vec2 low, glm::vec2 high) {
     constexpr float kHeight = 0.26f;
-    constexpr double kAspect = 1.5; // of the wall
+    constexpr double kAspect = 1.5; // aspect of the wall
     int bright = 0, seen = 0;
     const glm::vec2 middle = letter_place(letter);
     for (int y = 0; y < picture.size.y; ++y)

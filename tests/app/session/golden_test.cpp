@@ -33,7 +33,7 @@ TEST_P(GoldenPictures, EveryFootprintToEveryEye) {
         const auto context = stereo::make_context(GetParam(), {.size = kPicture});
         // No meshes are made where a GPU draws, and the exact surface stands for them.
         if (one.footprint == Footprint::mesh &&
-            !render::takes_processor_ways(render::Gl(context->loader())))
+            !render::is_drawn_for_processor(render::Gl(context->loader())))
             continue;
         Session session(config, file_, *context);
         Commands commands = showing(kPlacement);
@@ -77,7 +77,8 @@ TEST_P(GoldenPictures, ThePapersModeEndsAtSplats) {
                                    "gaussian_" + std::string(name_of(eye)), tolerance_));
 }
 
-/// Of the inner one of two surfaces: the outer, which is warm, and the background have less blue.
+/// Whether the inner one of two surfaces is seen: the outer, which is warm, and the background have
+/// less blue.
 bool blue(const std::uint8_t* pixel) {
     return pixel[2] > 45;
 }

@@ -183,7 +183,7 @@ TEST_F(IdleLoop, AStillWindowHasGivenAllOfItsRecordingToTheSystem) {
     prepare_ = [&](LiveLoop& live) { record(live, std::make_shared<LiveRecording>()); };
     const auto lines = [&] {
         const std::string text = folder_.read("walk.jsonl.part");
-        return std::ranges::count(text, '\n') - 1; // of the header
+        return std::ranges::count(text, '\n') - 1; // without the header
     };
     const auto wait_for_all = [&](auto&, Seconds longest) {
         EXPECT_EQ(longest, FrameOutlook::kNever) << "nothing wakes it for that";
@@ -383,7 +383,7 @@ TEST_F(IdleLoop, APictureForAClientShowsWhatTheClientToldBeforeHoweverLongTheLoo
     EXPECT_EQ(next_, 4u);
 }
 
-/// Of a growing index, which keeps its values' range.
+/// The first steps of a growing index, which keeps its values' range.
 index::StepValues first_steps(const index::TestField& field, std::size_t steps) {
     index::StepValues values = field.view();
     values.steps = steps;

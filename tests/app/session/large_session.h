@@ -42,7 +42,7 @@ class SessionDetail : public SessionTest {
         ++frame_;
         return session.frame(input, commands, Waiting::never);
     }
-    /// The same, as the first frame, which asks for a surface of 181,157 cells.
+    /// Makes the first frame, which asks for a surface of 181,157 cells.
     FrameReport first_frame(Session& session, bool sways) {
         interaction::Commands first;
         first.isovalue = 0.1;

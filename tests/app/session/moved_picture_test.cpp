@@ -181,7 +181,7 @@ TEST_P(MovedPicture, IsTheExactOneInAnotherSizeWhereThePanelComesOrGoes) {
     rest_until(session, is_exact);
     // All triangles would be as good where an eye has moved, and they are there: in the ways of a
     // GPU there are none.
-    if (float x = 0; render::takes_processor_ways(session.outputs().gl()))
+    if (float x = 0; render::is_drawn_for_processor(session.outputs().gl()))
         EXPECT_TRUE(test_support::eventually([&] {
             const FrameReport report = with_head(session, {x = 0.005f - x, 0, 0});
             return report.footprint == Footprint::mesh && !report.moved;

@@ -87,7 +87,7 @@ class SteeredSession : public SessionQuality {
     std::optional<Session> session_;
     std::optional<SessionControl> control_;
     std::optional<ControlClient> client_;
-    std::vector<std::byte> pixels_; ///< of the last picture
+    std::vector<std::byte> pixels_; ///< pixels of the last picture
 };
 INSTANTIATE_TEST_SUITE_P(Ages, SteeredSession,
                          testing::Values(stereo::ContextKind::egl,

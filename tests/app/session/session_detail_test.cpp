@@ -135,7 +135,7 @@ TEST_P(SessionDetail, WhatMovesCanBeRecognizedHoweverSmallTheBudget) {
         ASSERT_TRUE(test_support::eventually([&] {
             report = frame(session, true);
             return report.coarsest > 0 &&
-                   report.cells >= all / 12; // of whole levels, so about an eighth
+                   report.cells >= all / 12; // whole levels, so about an eighth
         }));
         for (int i = 0; i < 60; ++i) {
             report = frame(session, true);

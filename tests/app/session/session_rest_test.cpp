@@ -208,7 +208,7 @@ TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInPartsThoughTheyAreExpecte
         return with_cells(real, query.detail.at_rest ? 0 : DetailChoice::kFewest, query, stop);
     };
     Session session(config_with(20), large_, *context_, controlled);
-    session.share_frames(std::make_unique<KnownTimes>()); // of 14 ms for all
+    session.share_frames(std::make_unique<KnownTimes>()); // all know 14 ms
     FrameReport report = first_frame(session, false);
     std::uint64_t last = 0, far = 0; // cells that were drawn
     ASSERT_TRUE(test_support::eventually([&] {

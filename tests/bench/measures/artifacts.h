@@ -32,7 +32,7 @@ struct ArtifactRow {
     double cells = 0;
     double angle_mean = 0, angle_p99 = 0; ///< degrees, between kept and exact normals
     double normals_mean = 0, normals_p99 = 0, normals_changed_percent = 0;
-    double false_positive_percent = 0; ///< of the active cells
+    double false_positive_percent = 0; ///< share of the active cells
     double false_mean = 0, false_p99 = 0, false_changed_percent = 0;
 };
 
@@ -45,7 +45,7 @@ std::string to_json_text(const ArtifactResults& results);
 /// The sets of cells that are drawn for one step.
 struct ArtifactSets {
     index::CellSetPtr exact;           ///< the active cells with normals of this step
-    index::CellSetPtr kept_normals;    ///< the same with the normals that the tree stores
+    index::CellSetPtr kept_normals;    ///< the active cells with the normals that the tree stores
     index::CellSetPtr false_positives; ///< all cells that the tree finds, with normals of this step
 };
 ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree& tree,

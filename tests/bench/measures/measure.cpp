@@ -30,7 +30,7 @@ constexpr double kMostThiCellSteps = 150e6;
 
 /// The correct result at the isovalue of the times.
 struct Surface {
-    std::vector<Ids> active; ///< of each step, ascending
+    std::vector<Ids> active; ///< active cells of each step, ascending
     double mean_active = 0;
     std::optional<double> mean_change; ///< mean number of added and removed cells per step
 

@@ -51,7 +51,7 @@ BenchCamera bench_camera(const index::SeriesInfo& info, int size, int eyes) {
 }
 
 const std::vector<render::View>& SwayingViews::next() {
-    constexpr float kShift = 1e-7f; // of half a picture
+    constexpr float kShift = 1e-7f; // share of half a picture
     to_the_right_ = !to_the_right_;
     for (render::View& view : views_)
         view.clip_from_eye[2][0] += to_the_right_ ? kShift : -kShift;

@@ -20,7 +20,7 @@ using Ids = std::vector<index::CellId>;
 /// thread. The functions keep the data that they search alive.
 struct Structure {
     std::string name;                     ///< as in the rows: `thi`, `bricks`, ...
-    std::optional<index::ThiOptions> thi; ///< of the paper's structure and its variants
+    std::optional<index::ThiOptions> thi; ///< options of the paper's structure and its variants
     std::uint64_t bytes = 0;              ///< without the volume
     std::uint64_t entries = 0;            ///< stored (cell, interval, time node), if it has these
     bool candidates = false;              ///< its results still need the exact test

@@ -13,9 +13,9 @@ namespace isochron::bench {
 
 /// The blocks of one size.
 struct TouchedBlocks {
-    std::size_t blocks = 0;  ///< of the grid
+    std::size_t blocks = 0;  ///< blocks of the grid
     std::size_t held = 0;    ///< that hold an active cell; exact extremes leave no others
-    std::uint64_t bytes = 0; ///< of the cache lines with a vertex of these, borders included
+    std::uint64_t bytes = 0; ///< cache lines with a vertex of these, borders included
 };
 
 /// @param ids all active cells @param edges cells of a block along x, y, z

@@ -32,8 +32,8 @@ class AskedShown {
             break;
         }
     }
-    /// Of a motion that asks for no other cells: what the eyes see follows the input of the same
-    /// frame.
+    /// Adds a frame of a motion that asks for no other cells: what the eyes see follows the input
+    /// of the frame itself.
     void add_moved(const app::FrameReport& frame, double done) {
         if (frame.redrawn)
             milliseconds_.push_back(1e3 * (done - frame.time.count()));
@@ -50,7 +50,7 @@ class AskedShown {
     };
     std::optional<index::SurfacesQuery> last_;
     std::vector<Asked> asked_;
-    std::size_t answered_ = 0; ///< of those asked
+    std::size_t answered_ = 0; ///< number of answered queries among those asked
     std::vector<double> milliseconds_;
 };
 

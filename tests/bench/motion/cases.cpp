@@ -37,7 +37,7 @@ app::Config with_budget(app::Config config, double budget_ms) {
     return config;
 }
 
-/// Of all pictures of a motion: means, and the worst.
+/// Likeness of all pictures of a motion: means, and the worst.
 struct Likenesses {
     std::vector<Likeness> all;
 

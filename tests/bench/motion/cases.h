@@ -17,7 +17,7 @@ namespace isochron::bench {
 /// All that is played in pictures of one size on the same data.
 struct MotionCase {
     MovedData data;
-    glm::ivec2 size{1280, 720}; ///< of the window
+    glm::ivec2 size{1280, 720}; ///< size of the window
     int eyes = 1;
     std::vector<double> budgets; ///< [ms]; of a window it chooses by itself: one
     std::vector<Motion> motions;
@@ -30,7 +30,7 @@ constexpr double kBudgetOfWindow = 0;
 struct CaseOptions {
     std::vector<std::string> data = moved_names();
     std::vector<Motion> motions = {}; ///< empty: all that a case has
-    std::vector<double> budgets = {}; ///< likewise
+    std::vector<double> budgets = {}; ///< empty: all that a case has
     bool full = false;
 };
 std::vector<MotionCase> cases_of(const CaseOptions& options);

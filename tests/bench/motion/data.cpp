@@ -48,7 +48,7 @@ class MadeMoving : public index::VolumeSeries {
   private:
     index::SeriesInfo info_;
     Make make_;
-    float scale_; ///< of bytes
+    float scale_; ///< scale of bytes
 };
 
 /// The first few of a series with more steps.

@@ -15,7 +15,7 @@ namespace isochron::bench {
 
 /// The form of the values.
 enum class MovedField : std::uint8_t {
-    vorticity,  ///< of a real flow, as `isochron generate vorticity` makes it
+    vorticity,  ///< vorticity of a real flow, as `isochron generate vorticity` makes it
     turbulence, ///< |curl| of random waves (app/generate/fourier_modes.h)
     tubes,      ///< around the lines where two sums of waves are 0
     specks      ///< blobs of a voxel or two, each on its way

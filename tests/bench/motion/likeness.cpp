@@ -21,7 +21,7 @@ int most_off(const std::uint8_t* a, const std::uint8_t* b) {
     return most;
 }
 
-/// Of display values, 0 to 255.
+/// Luminance of display values, 0 to 255.
 double luminance(const std::uint8_t* color) {
     return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }

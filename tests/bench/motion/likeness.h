@@ -39,7 +39,7 @@ struct Likeness {
     /// Sums of the differences in blocks of 16 x 16 pixels, over the settled picture's sum: of lit
     /// pixels, and of the light that cells bring.
     double block_lit_off = 0, block_light_off = 0;
-    double specks = 0;     ///< of the settled picture, see `specks_in`
+    double specks = 0;     ///< specks of the settled picture, see `specks_in`
     double pixels_off = 0; ///< share of all pixels with a channel that differs by more than kLitBy
 };
 

@@ -20,7 +20,7 @@ struct ShownPicture {
     std::vector<render::Image> eyes;
     app::ExplorerState state; ///< with the step and the isovalues of the shown cells
     interaction::InputState input;
-    std::size_t number = 0; ///< of the moment in the motion
+    std::size_t number = 0; ///< number of the moment in the motion
 };
 
 /// What a motion left behind, before its pictures are compared.
@@ -31,7 +31,7 @@ struct Played {
 };
 
 struct PlayOptions {
-    double seconds = 1.7;     ///< of a motion
+    double seconds = 1.7;     ///< length of a motion
     double every = 8.0 / 30;  ///< [s] between pictures that are kept
     double longest_rest = 12; ///< [s] that the picture after it may take
 };
@@ -70,7 +70,7 @@ class Player {
     app::Session session_;
     app::Pacer pacer_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-    interaction::InputState input_; ///< of the last frame
+    interaction::InputState input_; ///< input of the last frame
     bool fresh_ = true;             ///< nothing has been played yet
 };
 

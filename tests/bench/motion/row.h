@@ -13,7 +13,7 @@ struct MotionRow {
     std::string data, motion, place; ///< place: `windowless`, `window`
     std::uint64_t cells = 0;         ///< active ones of the volume
     int width = 0, height = 0, eyes = 1;
-    double load = 0; ///< of the machine before it, mean of a minute
+    double load = 0; ///< load of the machine before it, mean of a minute
     double budget_ms = 0;
     double seconds = 0; ///< that the motion lasts
 
@@ -34,7 +34,8 @@ struct MotionRow {
     double per_second = 0;                     ///< pictures drawn anew
     double frame_ms = 0;                       ///< median, of those drawn anew
     double over_two = 0, over_three = 0;       ///< share of those over so many promised times
-    double control_two = 0, control_three = 0; ///< the same of a fixed work, see FixedWork
+    /// Share of a fixed work over so many times, see FixedWork.
+    double control_two = 0, control_three = 0;
     std::optional<double> shown_ms = {},
                           shown_late_ms = {}; ///< asked to shown: median, 95th percentile
     double busy = 0;                          ///< processors, while frames were made

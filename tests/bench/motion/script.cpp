@@ -15,7 +15,7 @@ constexpr double kEyes = 1.6;                               ///< [m] above the f
 constexpr double kAside = 0.03, kUp = 0.01, kTurned = 0.02; ///< [m], [m], [rad], of a swaying head
 constexpr double kWayIn = 2.4;                              ///< [m]
 constexpr double kSpeed = 1.0;                              ///< [rad/s], of an orbit
-constexpr double kDragged = 0.12;                           ///< of the isovalue
+constexpr double kDragged = 0.12;                           ///< change of the isovalue
 constexpr double kJumps = 4;                                ///< [1/s]
 
 double wave(double hertz, double at) {

@@ -11,7 +11,7 @@
 namespace isochron::bench {
 
 struct StepJumps {
-    double worst = 0, median = 0; ///< of the steps: change into or out of it, over a frame's median
+    double worst = 0, median = 0; ///< steps: change into or out of one, over a frame's median
     std::size_t steps = 0;        ///< that were looked at
     double frames_of_step = 0;    ///< as the series plays at a tenth of its first speed
 };

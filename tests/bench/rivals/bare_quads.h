@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/cells/placement.h"
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/view.h"
 

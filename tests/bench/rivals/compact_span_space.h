@@ -27,7 +27,7 @@ class CompactSpanSpace {
         std::uint32_t begin, count;
     };
     struct List {
-        std::uint32_t begin, end; ///< of its ids
+        std::uint32_t begin, end; ///< range of its ids
         std::uint32_t places;     ///< first byte of DR
         Keys low, high;
         std::uint32_t length() const { return end - begin; }
@@ -44,8 +44,8 @@ class CompactSpanSpace {
 
     std::span<const index::OrderKey> lines_;
     std::vector<std::uint32_t> roots_;      ///< an interval tree for each line
-    std::vector<index::IntervalNode> tree_; ///< of all of them
-    std::vector<List> lists_;               ///< those of the rows, then those of the tree's nodes
+    std::vector<index::IntervalNode> tree_; ///< nodes of all trees
+    std::vector<List> lists_;               ///< lists of the rows, then those of the tree's nodes
     std::vector<index::CellId> ids_;
     std::vector<std::uint8_t> places_;
     std::vector<std::uint32_t> keys_;

@@ -23,7 +23,7 @@ enum class ThiVariant {
 class ThiVariantTree {
   public:
     virtual ~ThiVariantTree() = default;
-    virtual std::uint64_t bytes() const = 0; ///< of all data that searches read
+    virtual std::uint64_t bytes() const = 0; ///< size of all data that searches read
     virtual std::uint64_t entries() const = 0;
     /// As ThiTree::search: appends the candidates, unordered, each once.
     virtual void search(std::uint32_t step, std::uint64_t threshold,

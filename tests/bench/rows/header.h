@@ -7,7 +7,7 @@ namespace isochron::bench {
 
 struct Header {
     std::string commit, processor, compiler, date;
-    unsigned threads = 0; ///< of the processor
+    unsigned threads = 0; ///< threads of the processor
 };
 
 } // namespace isochron::bench

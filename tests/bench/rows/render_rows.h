@@ -20,19 +20,19 @@ struct RenderRow {
     std::string context;  ///< egl, osmesa
     double cells = 0;     ///< mean over the steps
     double fps = 0;       ///< whole frames per second
-    /// The same steps, contoured by flying edges with normals and drawn by VTK's renderer.
+    /// These steps, contoured by flying edges with normals and drawn by VTK's renderer.
     std::optional<double> vtk_fps;
     /// Only drawing plain quads at the cells, with the size of the largest footprints.
     std::optional<double> bare_fps;
     /// While time plays and the isovalue is dragged, with extraction on its own thread: time of a
     /// frame divided by the median of later draws of the same cells; 99th percentile and worst.
     double p99_over_static = 0, worst_over_static = 0;
-    double static_p99_over_static = 0; ///< the same for those draws: the machine's noise
+    double static_p99_over_static = 0; ///< latter draws over their own median: the machine's noise
     double extract_ms = 0, order_ms = 0, upload_ms = 0;
     /// Ids that are sent to a GPU as differences from step to step, in percent of the sets' ids.
     std::optional<double> sent_ids_percent;
     double draw_ms = 0; ///< clearing, drawing and waiting until it is done
-    /// The same drawn as quads, if the program draws points.
+    /// Cells drawn as quads, if the program draws points.
     std::optional<double> quads_ms;
     /// Processor time of all threads, which depends less on other work on the machine.
     double frame_cpu_ms = 0, draw_cpu_ms = 0;

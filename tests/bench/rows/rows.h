@@ -18,7 +18,7 @@ struct Row {
     std::uint64_t steps = 0;
     std::optional<std::uint32_t> l, max_variation;
     unsigned threads = 1;    ///< for building
-    double isovalue = 0;     ///< of the times
+    double isovalue = 0;     ///< isovalue of the times
     double active = 0;       ///< cells at that isovalue, mean over the steps
     std::uint64_t bytes = 0; ///< without the volume
     double percent_of_raw = 0, percent_with_volume = 0;     ///< raw: steps x cells x 24 bytes
@@ -30,7 +30,7 @@ struct Row {
     double sweep_ms = 0; ///< all steps once: the mean of forwards and backwards
     // The comparisons, at the same steps and in turn with the structure's own searches:
     double scan_us = 0, tbon_us = 0, flying_edges_us = 0, flying_edges_normals_us = 0;
-    double memcpy_us = 0;                  ///< of the active ids
+    double memcpy_us = 0;                  ///< copying the active ids
     std::optional<double> build_mcs_per_s; ///< million cell-steps per second of processor time
 };
 
@@ -52,7 +52,7 @@ struct Results {
 };
 
 nlohmann::ordered_json to_json(const Results& results);
-/// The same as text, one row per line.
+/// The results as text, one row per line.
 std::string to_json_text(const Results& results);
 
 /// Columns for the terminal.

@@ -22,7 +22,7 @@ using index::ValueType;
 constexpr std::array kVariants{ThiVariant::node_lattices, ThiVariant::interval_trees,
                                ThiVariant::compact_lists};
 
-/// The same candidates as the published tree's, none twice; all active cells among them, and these
+/// Expects the published tree's candidates, none twice; all active cells among them, and these
 /// alone after the exact test.
 void expect_published_candidates(const StepValues& values, const ThiOptions& options,
                                  int isovalues) {

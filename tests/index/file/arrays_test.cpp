@@ -230,7 +230,7 @@ TEST_F(IndexArrays, ColorTheSurfacesOfOthers) {
     EXPECT_EQ(color_source_called(*file, "", 0), 1u) << "not the surfaces' own";
     EXPECT_EQ(color_source_called(*file, "", 1), 0u);
     EXPECT_EQ(color_source_called(*file, "none", 2), 0u);
-    // The same colors as those of an index that carries the array for colors only.
+    // Colors are equal to those of an index that carries the array for colors only.
     const auto newest = std::make_shared<NewestIndex>(file);
     const Extract extract = extract_from_newest(newest, Shading::none);
     for (std::uint32_t surfaces = 0; surfaces < 3; ++surfaces)

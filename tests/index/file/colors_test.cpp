@@ -97,7 +97,7 @@ TEST_F(Colors, ThatAreDamagedAreFoundByVerify) {
     ASSERT_EQ(steps.bytes, 2 * 2 * kSteps * sizeof(StepEntry)); // with a level of detail each
     StepEntry last;
     std::memcpy(&last, bytes.data() + steps.offset + (3 * kSteps - 1) * sizeof last, sizeof last);
-    bytes[last.offset + 100] ^= 1; // of a chunk
+    bytes[last.offset + 100] ^= 1; // a byte of a chunk
     const std::filesystem::path bad = folder_.path() / "bad.isochron";
     std::ofstream(bad, std::ios::binary) << bytes;
     try {

@@ -13,7 +13,8 @@ using testing::HasSubstr;
 const std::filesystem::path kFormats = std::filesystem::path(test_support::test_data()) / "formats";
 
 struct Sums {
-    std::int64_t plain = 0, weighted = 0; ///< of v, and of v (i mod 1009), which sees the order
+    /// Sums of v, and of v (i mod 1009), which sees the order.
+    std::int64_t plain = 0, weighted = 0;
     bool operator==(const Sums&) const = default;
 };
 

@@ -11,7 +11,7 @@
 namespace isochron::index {
 namespace {
 
-/// Of 3 x 3 x 3 vertices.
+/// An image of 3 x 3 x 3 vertices.
 std::string image_with(const std::string& arrays) {
     return "<VTKFile type='ImageData' version='0.1' byte_order='LittleEndian'><ImageData "
            "WholeExtent='0 2 0 2 0 2' Origin='0 0 0' Spacing='1 1 1'><Piece Extent='0 2 0 2 0 2'>"

@@ -35,7 +35,7 @@ TEST_P(Vti, HasTheSameContentInEveryEncoding) {
     EXPECT_EQ(info.grid.vertices, (std::array<std::uint32_t, 3>{5, 4, 3}));
     EXPECT_EQ(info.grid.spacing, glm::dvec3(0.5, 1, 2));
     EXPECT_EQ(info.grid.direction, glm::dmat3(0, 1, 0, -1, 0, 0, 0, 0, 1));
-    EXPECT_EQ(info.grid.origin, glm::dvec3(10 + 1, 20 + 1, 30)); // of vertex 2 -1 0
+    EXPECT_EQ(info.grid.origin, glm::dvec3(10 + 1, 20 + 1, 30)); // vertex 2 -1 0
     EXPECT_EQ(info.times, std::vector<double>{2.5});
     EXPECT_EQ(info.array, "p");
     EXPECT_EQ(values_of<std::int16_t>(*series, 0), expected_values());
@@ -261,7 +261,7 @@ TEST(Pvd, PutsItsFilesInTheOrderOfTheirTimes) {
     EXPECT_EQ(series->info().sources, (std::vector<std::string>{"c.vti", "b.vti", "a.vti"}));
 }
 
-/// Of float, with the x coordinate as values; a block from vertex `begin` of that many along x.
+/// A block of float, with the x coordinate as values, from vertex `begin` of that many along x.
 std::string block(int begin, int count, const char* origin = "0 5 -1") {
     const std::string extent =
         std::to_string(begin) + " " + std::to_string(begin + count - 1) + " 0 2 0 2";

@@ -146,7 +146,7 @@ TEST_F(IndexStatesTest, ANewestHeaderThatIsDamagedIsToldWhereWhatItNamesIsWhole)
             EXPECT_THAT(*lost_state(*left),
                         HasSubstr(fmt::format("its first {} steps are what is left", steps - 1)));
         }
-        // Of the older header, or of one whose sections are not there, there is nothing to say.
+        // There is nothing to say of the older header, or of one whose sections are not there.
         folder.write("a.isochron", whole);
         damage(other + 24 + random() % 100);
         EXPECT_EQ(IndexFile::open(path)->info().steps(), steps);

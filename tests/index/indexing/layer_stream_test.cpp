@@ -3,7 +3,7 @@
 #include "index/file/chunks/chunk_differences.h"
 #include "index/indexing/index_build.h"
 #include "index/indexing/layer_stream.h"
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 #include "tests/support/eventually.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
@@ -284,7 +284,7 @@ TEST(LayerStream, TheMemoryOfABuildDoesNotFollowTheSizeOfAStep) {
     for (const ValueType type : {ValueType::u8, ValueType::i16}) {
         const std::size_t small = most_allocated(64, type, folder.path() / "a");
         const std::size_t large = most_allocated(2048, type, folder.path() / "a");
-        const std::size_t more = (2048 - 64) * 64 * 64 * size_of(type); // of values
+        const std::size_t more = (2048 - 64) * 64 * 64 * size_of(type); // bytes of values
         EXPECT_LT(large, small + more / 16) << name_of(type) << ": " << small << " for 64 planes";
     }
 }

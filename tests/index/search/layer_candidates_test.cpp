@@ -65,7 +65,7 @@ class WatchedSource final : public ByteSource {
 
   private:
     std::string name_ = "watched.isochron", bytes_;
-    mutable std::mutex mutex_; ///< of all that is counted: other threads read ahead
+    mutable std::mutex mutex_; ///< guards all that is counted: other threads read ahead
     mutable std::vector<bool> announced_;
 };
 

@@ -8,7 +8,7 @@
 namespace isochron::index {
 namespace {
 
-constexpr CellId kCells = 100'000; ///< of each layer; more than are appended at a time
+constexpr CellId kCells = 100'000; ///< cells of each layer; more than are appended at a time
 
 /// One row of cells with ids from 0 on, in a layer whose first cell has that id.
 LayerResult layer_from(CellId first, std::uint32_t first_plane) {
@@ -25,7 +25,7 @@ LayerResult layer_from(CellId first, std::uint32_t first_plane) {
 
 TEST(LayerResults, AreJoinedInTheOrderOfLayersWhateverOrderTheyComeIn) {
     CellSet set;
-    set.ids = {7}; // of an earlier search
+    set.ids = {7}; // what an earlier search found
     LayerResults results(set, 3, {});
     for (const std::uint32_t layer : {2u, 0u, 1u})
         results.add(layer, layer_from(layer * kCells, 16 * layer));

@@ -92,7 +92,7 @@ class WholeLayersTest : public testing::Test {
     std::mt19937 random_{test_seed()};
     test_support::TestFolder folder_;
     std::filesystem::path path_ = folder_.path() / "a.isochron";
-    CountedSource* source_ = nullptr; ///< of the file
+    CountedSource* source_ = nullptr; ///< source of the file
     std::shared_ptr<const IndexFile> file_;
 };
 

@@ -93,7 +93,7 @@ TEST_F(MeshClusters, OfAClosedSurfaceAreClosed) {
     const CellMesh closed = ball_mesh(ball);
     for (const std::uint32_t edge : {2, 4, 8}) {
         const CellMesh fewer = clustered(closed, edge);
-        std::map<std::array<std::uint32_t, 2>, int> uses; // of each side of a triangle
+        std::map<std::array<std::uint32_t, 2>, int> uses; // uses of each side of a triangle
         for (std::size_t i = 0; i < fewer.triangles.size(); ++i) {
             const std::uint32_t a = fewer.triangles[i],
                                 b = fewer.triangles[i % 3 == 2 ? i - 2 : i + 1];

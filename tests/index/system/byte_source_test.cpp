@@ -64,7 +64,7 @@ class ByteSourceTest : public testing::Test {
     test_support::TestFolder folder_;
     std::filesystem::path path_ = folder_.path() / "a.isochron";
     TestField field_{{40, 35, 37}, 3, ValueType::u8, moving_sphere};
-    PoorSource* source_ = nullptr; ///< of the file
+    PoorSource* source_ = nullptr; ///< source of the file
     std::shared_ptr<const IndexFile> file_;
 };
 
@@ -135,8 +135,9 @@ TEST_F(ByteSourceTest, AnAbandonedSearchEndsWithTheReadsThatAreUnderWay) {
     const TestField field({36, 34, 800}, 1, ValueType::u8, moving_sphere);
     MemorySeries series(field.view());
     build_index(series, path_, {.tiers = TierSet().with(Tier::bricks)});
-    // Of each thread, and of the one that asks ahead, before the next look at the token: the tables
-    // of a layer and of its neighbors, which nothing keeps here, the one of its chunks, and these.
+    // Each thread, and the one that asks ahead, may be under way, before the next look at the
+    // token, with the tables of a layer and of its neighbors, which nothing keeps here, the one of
+    // its chunks, and these.
     const unsigned under_way = 6 * (thread_count(0) + 1);
     for (const SearchMethod method : {SearchMethod::bricks, SearchMethod::scan})
         for (const unsigned abandoned_at : {1u, 4u, 20u}) {

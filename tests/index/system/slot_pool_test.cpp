@@ -64,17 +64,17 @@ TEST(SlotPool, UsesMemoryAgainAndKeepsNoMoreThanABlockOfWhatIsFree) {
 }
 
 TEST(SlotPool, MeasuresBlocksOnlyWhereThereAreMany) {
-    PageChoice choice;
-    SlotPool pool(4096, choice);
+    PageSizeTrials trials;
+    SlotPool pool(4096, trials);
     std::vector<std::byte*> slots;
     const auto grow_to = [&](std::size_t mib) {
         while (pool.bytes() < mib << 20)
             slots.push_back(pool.take());
     };
     grow_to(4);
-    EXPECT_EQ(choice.next(), Pages::small); // none has been measured
+    EXPECT_EQ(trials.next(), Pages::small); // none has been measured
     grow_to(6);
-    EXPECT_EQ(choice.next(), Pages::huge); // which is to be tried next
+    EXPECT_EQ(trials.next(), Pages::huge); // which is to be tried next
     for (std::byte* slot : slots)
         pool.give_back(slot);
 }
@@ -85,7 +85,7 @@ TEST(SlotPool, ServesManyThreads) {
     for (int t = 0; t < 4; ++t)
         threads.emplace_back([&pool, t] {
             for (int round = 0; round < 50; ++round) {
-                std::vector<std::byte*> slots(200); // of all threads: some blocks
+                std::vector<std::byte*> slots(200); // all threads together: some blocks
                 for (std::byte*& slot : slots) {
                     slot = pool.take();
                     std::memset(slot, t, 10'000);

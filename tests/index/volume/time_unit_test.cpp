@@ -8,7 +8,7 @@
 namespace isochron::index {
 namespace {
 
-/// Of time 0 of one unit, the time in another.
+/// Time 0 of one unit as the time in another.
 std::optional<double> zero_in(const std::string& wanted, const std::string& given) {
     const auto times = times_in(wanted, given, {0});
     return times ? std::optional(times->front()) : std::nullopt;

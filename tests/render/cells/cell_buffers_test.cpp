@@ -348,7 +348,7 @@ TEST_P(CellUpload, ASetThatTheDriverCannotHoldIsRefusedWithALineAndTheLastOneKep
         EXPECT_EQ(buffers.refusal(), "119301 cells at step 0: this GL can draw at most 100000, so "
                                      "the last ones stay");
     }
-    // Of these there is room for the cells, and not for the volume around them.
+    // There is room for these cells, and not for the volume around them.
     const std::size_t blocks = too_much->blocks.ids.size();
     ASSERT_GT(blocks, 100'000u / 512);
     EXPECT_FALSE(buffers.upload(too_much, kEnough));

@@ -203,7 +203,8 @@ TEST_P(CellComputing, CornersHaveTheValuesAndGradientsOfTheStepForEveryTypeAndSu
         const auto corners = read<float>(cells.corner_values_texture(), 8 * cells.size());
         const auto gradients =
             read<std::uint32_t>(cells.corner_gradients_texture(), 16 * cells.size());
-        double value_scale = 0, gradient_scale = 0; // of the first: one for the whole data set
+        // Scales of the first: one for the whole data set.
+        double value_scale = 0, gradient_scale = 0;
         for (std::size_t slot = 0; slot < points.size(); ++slot) {
             const CellId id = id_of(values.grid, points[slot]);
             const auto at = values.grid.cell_of(id);

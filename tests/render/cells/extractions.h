@@ -17,7 +17,7 @@ class Extractions {
     explicit Extractions(const index::StepValues& values)
         : values_(values), blocks_(block_values(values)), gatherer_(values.grid, blocks_) {}
 
-    /// Of the active cells.
+    /// An extraction of the active cells.
     index::ExtractionPtr active(std::uint32_t step, std::vector<double> isovalues) {
         auto made = std::make_shared<index::Extraction>();
         for (const double isovalue : isovalues)
@@ -26,7 +26,7 @@ class Extractions {
         made->query = {step, std::move(isovalues)};
         return complete(std::move(made));
     }
-    /// Of any cells, one ascending list for each surface.
+    /// An extraction of any cells, one ascending list for each surface.
     index::ExtractionPtr of_cells(std::uint32_t step,
                                   std::vector<std::vector<index::CellId>> surfaces,
                                   double isovalue = 0.0) {
@@ -37,7 +37,7 @@ class Extractions {
         return complete(std::move(made));
     }
 
-    /// The same with the points that the worker makes where they are asked for.
+    /// The extraction with the points that the worker makes where they are asked for.
     index::ExtractionPtr shaded(const index::ExtractionPtr& set) {
         auto with_points = std::make_shared<index::Extraction>(*set);
         for (std::size_t i = 0; i < with_points->surfaces.size(); ++i) {

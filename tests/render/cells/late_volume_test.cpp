@@ -53,7 +53,7 @@ TEST_P(LateVolume, WithoutTheVolumeItFollowsWhenItIsAskedFor) {
     while (!buffers.has_volume()) {
         ASSERT_LT(++frames, 1000);
         const std::uint64_t before = buffers.count().block_bytes;
-        EXPECT_FALSE(buffers.upload(second, 4000)); // the same cells
+        EXPECT_FALSE(buffers.upload(second, 4000)); // only its cells
         EXPECT_LE(buffers.count().block_bytes - before, 4000u);
     }
     EXPECT_GT(frames, 2);

@@ -118,8 +118,8 @@ TEST_P(Lights, OfAQuadAreItsSurfacesColorWhetherConvertedByShaderOrTarget) {
 }
 
 TEST_P(Lights, ThroughATransparentSurfaceAreTheShareThatWasAskedFor) {
-    // Of a surface that slants any way: this wall has one cell for each unit of its area instead of
-    // one and a half, so that it lets more through, by just that power.
+    // The share holds for a surface that slants any way: this wall has one cell for each unit of
+    // its area instead of one and a half, so that it lets more through, by just that power.
     for (const float opacity : {0.0f, 0.25f, 0.5f, 0.75f, 0.95f}) {
         look_.surfaces[2].opacity = opacity;
         const Image image = wall(Footprint::gaussian, 2);

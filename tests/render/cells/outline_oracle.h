@@ -48,7 +48,7 @@ inline Ellipse paper_ellipse(const glm::dmat4& pixel_from_index, const glm::dvec
     const double mean = 0.5 * (a[0][0] + a[1][1]);
     const double t = std::hypot(0.5 * (a[0][0] - a[1][1]), a[0][1]);
     const double angle = 0.5 * std::atan2(2.0 * a[0][1], a[0][0] - a[1][1]);
-    const glm::dvec2 u(std::cos(angle), std::sin(angle)); // of eigenvalue mean + t
+    const glm::dvec2 u(std::cos(angle), std::sin(angle)); // eigenvector of mean + t
     const double along = std::sqrt(level / (mean + t)), across = std::sqrt(level / (mean - t));
     Ellipse ellipse{middle, u * along, glm::dvec2(-u.y, u.x) * across};
     if (along < across)

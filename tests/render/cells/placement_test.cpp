@@ -32,7 +32,7 @@ TEST(Placement, NormalsStayAtRightAnglesWhereHeightsAreExaggerated) {
         for (const glm::vec3& v : {in_plane, steep})
             EXPECT_NEAR(glm::dot(shown, placement.room_from_physical * v), 0, 1e-6) << higher;
     }
-    // Of a similarity it is the matrix itself.
+    // For a similarity it is the matrix itself.
     const Placement placement = Placement::of(grid, turn);
     EXPECT_EQ(placement.room_from_normal(), placement.room_from_physical);
 }

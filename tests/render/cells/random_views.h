@@ -14,7 +14,7 @@ struct Scene {
     View view;
     Placement placement;
     glm::ivec3 cell{0};
-    double radius = 1.0; ///< of the footprint [voxels]
+    double radius = 1.0; ///< radius of the footprint [voxels]
 
     glm::dmat4 pixel_from_index() const {
         const glm::dmat4 pixel =

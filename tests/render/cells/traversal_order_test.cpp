@@ -190,7 +190,7 @@ TEST_F(TraversalOrder, AnEmptySetHasAnEmptyOrder) {
 TEST_F(TraversalOrder, DoesNotDependOnWhoHasWhichSlot) {
     const glm::ivec3 size(9, 9, 9);
     const Slots some = random_cells(random_, size, 300);
-    Slots others = some; // the same cells in other slots
+    Slots others = some; // equal cells in other slots
     std::shuffle(others.places.begin(), others.places.end(), random_);
     others.slot_of_rank = by_rank(others.places);
     const TraversalKey key = traversal_key({4.5f, 4.5f, 30.0f, 1.0f}, size, glm::vec3(1));

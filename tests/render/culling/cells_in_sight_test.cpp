@@ -46,7 +46,7 @@ class CellsInSightTest : public SurfaceTest {
     const TestField noise_{{56, 50, 53}, 1, ValueType::u8, index::white_noise(random_)};
     const Placement placement_ = placed_at_origin(noise_.view().grid);
     CellPass seen_{gl_}, all_{gl_};
-    int samples_ = 1; ///< of a pixel
+    int samples_ = 1; ///< samples of a pixel
     int parts_ = 0;
     static constexpr std::size_t kWhole = std::numeric_limits<std::size_t>::max();
 };
@@ -82,7 +82,7 @@ TEST_P(CellsInSightTest, TheyTakeLessWorkWhereTheProcessorDraws) {
     drawn(all_, std::span(&view, 1), placement_, cells, 5000);
     const int all = parts_;
     drawn(seen_, std::span(&view, 1), placement_, cells, 5000);
-    if (takes_processor_ways(gl_))
+    if (is_drawn_for_processor(gl_))
         EXPECT_LT(parts_, all / 2);
     else // a GPU draws them all
         EXPECT_EQ(parts_, all);

@@ -12,7 +12,7 @@
 namespace isochron::render {
 namespace {
 
-/// The same cells, whose sides along some axes are from a twelfth of the largest up.
+/// Makes the sides of the cells along some axes from a twelfth of the largest up.
 void stretch(Volume& volume, std::mt19937& random) {
     index::Grid grid;
     const auto axes = random() % 7 + 1; // at least one
@@ -90,7 +90,7 @@ class UnevenCulling : public HiddenCellsTest {
                     return;
             }
             for (const bool mixed : {false, true})
-                if (takes_processor_ways(gl_)) {
+                if (is_drawn_for_processor(gl_)) {
                     EXPECT_LT(left[mixed], whole[mixed]) << name_of(shape) << " " << mixed;
                 }
         }

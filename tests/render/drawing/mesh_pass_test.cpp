@@ -120,9 +120,9 @@ class MeshPassTest : public GlTest {
                    14 * std::sqrt((x - 15) * (x - 15) + (y - 15) * (y - 15) + (z - 15) * (z - 15));
         }};
     CellPass pass_{gl_};
-    float angle_ = 0.6f;              ///< of the picture
+    float angle_ = 0.6f;              ///< angle of the picture
     std::optional<std::size_t> part_; ///< work of each part that is drawn; empty: all at once
-    int parts_ = 0;                   ///< of the last picture
+    int parts_ = 0;                   ///< parts of the last picture
 };
 
 INSTANTIATE_TEST_SUITE_P(, MeshPassTest, both_contexts(), context_name);
@@ -244,7 +244,7 @@ TEST_P(MeshPassTest, PartsGiveThePictureOfTheWholeToTheBit) {
                 part_ = footprint == Footprint::mesh && look.mesh_level > 0 ? 250 : 700;
                 EXPECT_EQ(draw(set, footprint, look).rgba, whole.rgba);
                 // Without an order, as on a GPU, quads are drawn in one piece.
-                if (footprint != Footprint::quad || takes_processor_ways(gl_)) {
+                if (footprint != Footprint::quad || is_drawn_for_processor(gl_)) {
                     EXPECT_GT(parts_, 2);
                 }
                 part_.reset();
@@ -283,16 +283,16 @@ TEST_P(MeshPassTest, AnyOrderOfPlanesGivesTheSamePicture) {
     std::vector<CellPlace> cells;
     for (const index::CellPoint& point : set->surfaces[0].points)
         cells.push_back({point.x, point.y, point.z, 0});
-    std::vector<std::size_t> cell_of; // of each triangle
+    std::vector<std::size_t> cell_of; // cell of each triangle
     for (std::size_t i = 0; i < cells.size(); ++i)
         cell_of.insert(cell_of.end(), index::mesh_cases()[mesh.cases[i]].triangles, i);
-    std::map<std::array<std::uint32_t, 3>, std::uint32_t> number_of; // of a triangle
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> number_of; // number of a triangle
     for (std::uint32_t i = 0; i < mesh.triangles.size(); i += 3)
         number_of[{mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]}] = i / 3;
     ASSERT_EQ(number_of.size(), mesh.triangles.size() / 3);
     for (int axis = 0; axis < 3; ++axis)
         for (const bool descending : {false, true}) {
-            std::vector<std::uint32_t> corners{1, 2, 3}; // of a surface before
+            std::vector<std::uint32_t> corners{1, 2, 3}; // corners of a surface before
             append_in_order(cells, mesh, {axis, descending}, corners);
             ASSERT_EQ(corners.size(), 3 + mesh.triangles.size());
             std::vector<std::uint32_t> order; // triangles differ in their vertices

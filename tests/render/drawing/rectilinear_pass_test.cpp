@@ -93,7 +93,7 @@ TEST_P(RectilinearPass, EveryFootprintIsAsOnARegularGridOfTheSameCells) {
                                                std::abs(p[2] - q[2])}) > 4;
                     }
                 EXPECT_GT(covered, 700);
-                // Of quads that are as far away, another one may be in front.
+                // Among quads that are as far away, another one may be in front.
                 EXPECT_LE(different, covered / 20)
                     << name_of(footprint) << " " << name_of(shape) << " opacity " << opacity
                     << " from " << eye.x << " " << eye.y << " " << eye.z;

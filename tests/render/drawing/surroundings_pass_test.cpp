@@ -21,7 +21,7 @@ namespace {
 class SurroundedTest : public GlTest {
   protected:
     static constexpr glm::ivec2 kSize{200, 200};
-    static constexpr float kMiddle = 20.0f; ///< of the field, voxels
+    static constexpr float kMiddle = 20.0f; ///< middle of the field, voxels
 
     static index::ExtractionPtr extracted(const index::TestField& field,
                                           const std::vector<double>& isovalues) {

@@ -56,10 +56,10 @@ TEST_P(DriverTrials, WithoutFencesBytesArriveWhateverTheirPortions) {
 
 TEST_P(DriverTrials, TheWaysToDrawAreThoseThatAreAskedFor) {
     gl_.drawn_by = DrawnBy::gpu;
-    EXPECT_FALSE(takes_processor_ways(gl_));
+    EXPECT_FALSE(is_drawn_for_processor(gl_));
     EXPECT_EQ(CellBuffers::wanted_shading(gl_), index::Shading::none);
     gl_.drawn_by = DrawnBy::processor;
-    EXPECT_TRUE(takes_processor_ways(gl_));
+    EXPECT_TRUE(is_drawn_for_processor(gl_));
     EXPECT_EQ(CellBuffers::wanted_shading(gl_), index::Shading::cells);
 }
 

@@ -39,7 +39,7 @@ TEST(ColorMaps, GrowLighterAllTheWayOrUpToOnePlace) {
                 << name_of(map);
         else
             EXPECT_EQ(lightest, std::ptrdiff_t(lab.size()) - 1) << name_of(map);
-        constexpr float kRounding = 0.02f; // of published eight-bit colors
+        constexpr float kRounding = 0.02f; // rounding of published eight-bit colors
         for (std::ptrdiff_t i = 1; i < std::ptrdiff_t(lab.size()); ++i)
             EXPECT_GT((lab[i].x - lab[i - 1].x) * (i <= lightest ? 1.0f : -1.0f), -kRounding)
                 << name_of(map) << ' ' << i;
@@ -72,7 +72,7 @@ TEST(ColorMaps, HaveThePublishedColors) {
         double share;
         std::array<int, 3> rgb;
     };
-    // Of the tables of Matplotlib's _cm_listed.py, and of coolwarm in its _cm.py.
+    // Entries of the tables of Matplotlib's _cm_listed.py, and of coolwarm in its _cm.py.
     for (const Known& known : {Known{ColorMap::viridis, 0 / 255.0, {68, 1, 84}},
                                {ColorMap::viridis, 40 / 255.0, {69, 55, 129}},
                                {ColorMap::viridis, 85 / 255.0, {49, 104, 142}},

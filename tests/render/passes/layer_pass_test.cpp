@@ -21,7 +21,7 @@ constexpr int kColumns = 16, kWide = 6, kHigh = 10;
 /// What lies in a column of the picture.
 struct Column {
     float opaque = 2;          ///< depth of an opaque surface, above 1: there is none
-    std::vector<float> layers; ///< likewise, of each layer
+    std::vector<float> layers; ///< depth of each layer
 };
 
 class Layers : public GlTest {

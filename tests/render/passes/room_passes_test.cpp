@@ -11,7 +11,7 @@
 namespace isochron::render {
 namespace {
 
-/// Of a closed surface whose triangles are counter-clockwise from outside: six times its volume is
+/// Volume of a closed surface whose triangles are counter-clockwise from outside: six times it is
 /// the sum of the triple products.
 float volume(const std::vector<Triangle>& surface) {
     float sum = 0;

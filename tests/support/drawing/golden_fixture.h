@@ -24,8 +24,9 @@ constexpr std::uint32_t kStep = 3;
 constexpr double kOuterRadius = 11.0, kInnerRadius = 6.5; ///< voxels
 constexpr double kFromRadius = 16.0; ///< isovalue plus radius of the data's spheres
 constexpr int kPerEdge = 24;         ///< checked points per edge of the box
-inline const glm::dvec3 kSphereCenter(12.0 + kStep, 15.5, 15.5); ///< of the data, at that step
-constexpr double kBox = 31.0;                                    ///< side of the volume, voxels
+/// Center of the data's sphere, at that step.
+inline const glm::dvec3 kSphereCenter(12.0 + kStep, 15.5, 15.5);
+constexpr double kBox = 31.0; ///< side of the volume, voxels
 
 /// How far a driver's pictures may be from the golden ones.
 /// llvmpipe's: both contexts must give the same, as the same rasterizer draws in both, with the

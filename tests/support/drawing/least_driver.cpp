@@ -30,7 +30,7 @@ struct {
     PFNGLVIEWPORTINDEXEDFPROC viewport = nullptr;
     PFNGLDISPATCHCOMPUTEPROC dispatch = nullptr;
     PFNGLDRAWARRAYSINSTANCEDPROC draw_points = nullptr;
-    std::map<GLuint, GLint64> bytes; ///< of buffers
+    std::map<GLuint, GLint64> bytes; ///< sizes of buffers
 } driver;
 
 GLint64 most(GLenum name) {

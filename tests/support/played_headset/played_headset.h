@@ -40,7 +40,7 @@ struct Hand {
     bool present = false; ///< bound to an interaction profile
     bool tracked = true;
     interaction::Pose grip, aim;         ///< in the stage
-    interaction::Velocity velocity;      ///< of both
+    interaction::Velocity velocity;      ///< velocity of both poses
     std::map<std::string, float> inputs; ///< `squeeze/value`: 1
 };
 
@@ -102,7 +102,7 @@ class PlayedHeadset {
 
     // What the program did.
     std::vector<Violation> violations;
-    std::vector<SubmittedFrame> frames; ///< of all sessions of this process
+    std::vector<SubmittedFrame> frames; ///< frames of all sessions of this process
     std::vector<Pulse> pulses;
     std::vector<std::string> suggested; ///< `PROFILE ACTION PATH`
     unsigned instances = 0, sessions = 0, waits = 0;

@@ -50,7 +50,7 @@ struct Session {
     bool begun = false, attached = false, lost = false, exit_asked = false, stopping = false;
     bool hidden = false, covered = false;
     FrameStage frame = FrameStage::idle;
-    std::int64_t display_time = 0;                   ///< of the newest frame
+    std::int64_t display_time = 0;                   ///< display time of the newest frame
     bool views_located = false, views_valid = false; ///< for that frame
     std::array<interaction::Pose, 2> located;        ///< in the stage
     std::array<interaction::Pose, 2> filled;         ///< `located` when the images were last filled

@@ -230,7 +230,7 @@ TEST(KeptSession, EveryEarlierOneIsFoundAndTheLastComesFirst) {
         save_session(path.parent_path() / file_name, kept_of({}));
     };
     there(name + "-2.isochron-session");
-    there(name + ".isochron-session.before"); // of version 0.2
+    there(name + ".isochron-session.before"); // as version 0.2 had it
     there("sphere-0123456789abcdef.isochron-session");
     there(name + "-notes.isochron-session");
     folder.write("isochron/" + name + "-3.isochron-session", "no session");

@@ -1,5 +1,5 @@
 // Chooses the sender whose datagrams are used.
-#include "interaction/trackers/sender_choice.h"
+#include "interaction/trackers/used_sender.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ constexpr std::size_t kMostNoisy = 64; ///< senders that are remembered
 
 } // namespace
 
-bool SenderChoice::admits(const Endpoint& sender, Seconds arrival) {
+bool UsedSender::admits(const Endpoint& sender, Seconds arrival) {
     if (current_ && current_->sender == sender)
         return true;
     if (arrival - noisy_since_ > kSenderGone)
@@ -30,12 +30,12 @@ bool SenderChoice::admits(const Endpoint& sender, Seconds arrival) {
     return false;
 }
 
-void SenderChoice::heard(Seconds arrival) {
+void UsedSender::heard(Seconds arrival) {
     current_->arrival = arrival;
     current_->proven = true;
 }
 
-void SenderChoice::made_no_sense(Seconds arrival) {
+void UsedSender::made_no_sense(Seconds arrival) {
     if (current_->proven)
         return;
     if (noisy_.empty())
@@ -45,13 +45,13 @@ void SenderChoice::made_no_sense(Seconds arrival) {
     current_.reset();
 }
 
-std::optional<Endpoint> SenderChoice::proven(Seconds now) const {
+std::optional<Endpoint> UsedSender::proven(Seconds now) const {
     if (!current_ || !current_->proven || now - current_->arrival > kSenderGone)
         return std::nullopt;
     return current_->sender;
 }
 
-std::string SenderChoice::strangers(std::uint64_t more) const {
+std::string UsedSender::strangers(std::uint64_t more) const {
     if (strangers_ + more == 0)
         return {};
     return fmt::format(", {} from others ({})", strangers_ + more, to_string(last_stranger_));

@@ -1,7 +1,7 @@
 // The window of an explorer without data, on a stand-in for a desktop.
 #include "tests/support/session_fixture.h"
 
-#include "app/session/data_choice.h"
+#include "app/session/data_window.h"
 
 #include <gmock/gmock.h>
 
@@ -48,9 +48,9 @@ class PlayedWindow final : public stereo::GlContext {
     std::vector<fs::path> dropped_;
 };
 
-class DataChoiceTest : public testing::Test {
+class DataWindowTest : public testing::Test {
   protected:
-    DataChoiceTest() {
+    DataWindowTest() {
         build_sphere(folder_.path());
         fs::create_directory(folder_.path() / "deeper");
         fs::rename(folder_.path() / "sphere.isochron", folder_.path() / "deeper/sphere.isochron");
@@ -100,13 +100,13 @@ class DataChoiceTest : public testing::Test {
     std::set<std::string> asked_; ///< whether it could be opened
 };
 
-TEST_F(DataChoiceTest, TakesOfTheRecentDataWhatIsClickedTwice) {
+TEST_F(DataWindowTest, TakesOfTheRecentDataWhatIsClickedTwice) {
     good_ = folder_.path() / "lately.isochron";
     EXPECT_EQ(choose(double_clicks(), 4000, "no index"), good_);
     EXPECT_THAT(asked_, testing::ElementsAre("lately.isochron"));
 }
 
-TEST_F(DataChoiceTest, AKeyboardAloneGoesThroughTheFolders) {
+TEST_F(DataWindowTest, AKeyboardAloneGoesThroughTheFolders) {
     // The recent data are listed first: Backspace leads to their folder, a second one around it.
     std::vector<WindowEvent> typed(2, KeyEvent{Key::backspace, true});
     const auto type = [&](const std::string& words) {
@@ -121,7 +121,7 @@ TEST_F(DataChoiceTest, AKeyboardAloneGoesThroughTheFolders) {
     EXPECT_THAT(asked_, testing::ElementsAre("sphere.isochron"));
 }
 
-TEST_F(DataChoiceTest, DoubleClicksGoThroughTheFoldersAndTakeWhatCanBeOpened) {
+TEST_F(DataWindowTest, DoubleClicksGoThroughTheFoldersAndTakeWhatCanBeOpened) {
     const auto clicks = double_clicks();
     const auto back = types({KeyEvent{Key::backspace, true}}); // to the folder of the recent data
     const auto chosen = choose(
@@ -136,7 +136,7 @@ TEST_F(DataChoiceTest, DoubleClicksGoThroughTheFoldersAndTakeWhatCanBeOpened) {
     EXPECT_TRUE(asked_.contains("lately.isochron")) << "which is none, and was said to be none";
 }
 
-TEST_F(DataChoiceTest, TakesTheFileThatIsDropped) {
+TEST_F(DataWindowTest, TakesTheFileThatIsDropped) {
     const auto chosen = choose(
         [&, n = 0](auto&, auto& dropped) mutable {
             if (++n == 3)
@@ -149,7 +149,7 @@ TEST_F(DataChoiceTest, TakesTheFileThatIsDropped) {
     EXPECT_THAT(asked_, testing::ElementsAre("lately.isochron", "sphere.isochron"));
 }
 
-TEST_F(DataChoiceTest, EscapeAndTheEndOfTheProgramChooseNothing) {
+TEST_F(DataWindowTest, EscapeAndTheEndOfTheProgramChooseNothing) {
     int frames = 0;
     EXPECT_FALSE(choose(
         [&](std::vector<WindowEvent>& events, auto&) {
@@ -161,7 +161,7 @@ TEST_F(DataChoiceTest, EscapeAndTheEndOfTheProgramChooseNothing) {
     EXPECT_FALSE(choose([](auto&, auto&) {}, 3));
 }
 
-TEST_F(DataChoiceTest, FilesThatAreDroppedTogetherAreTakenAsASeries) {
+TEST_F(DataWindowTest, FilesThatAreDroppedTogetherAreTakenAsASeries) {
     fs::create_directory(folder_.path() / "runs");
     for (const char* name : {"t8.vti", "t9.vti", "t10.vti"})
         folder_.write(std::string("runs/") + name, "");
@@ -177,7 +177,7 @@ TEST_F(DataChoiceTest, FilesThatAreDroppedTogetherAreTakenAsASeries) {
     EXPECT_EQ(dropped, folder_.path() / "runs/t[0-9]*.vti") << "two of three have no one name";
 }
 
-TEST_F(DataChoiceTest, AnArrayOfSeveralShapesIsChosenByKeysAndByADoubleClick) {
+TEST_F(DataWindowTest, AnArrayOfSeveralShapesIsChosenByKeysAndByADoubleClick) {
     const std::vector<ListedArray> arrays{{"rho", "64 x 64 x 64, 3 steps", "kg", "0 to 2", ""},
                                           {"worse", "", "", "", "complex values"},
                                           {"speed", "32 x 32 x 32, 3 steps", "m/s", "", ""}};
@@ -215,7 +215,7 @@ TEST_F(DataChoiceTest, AnArrayOfSeveralShapesIsChosenByKeysAndByADoubleClick) {
         Waited::canceled);
 }
 
-TEST_F(DataChoiceTest, WaitsForDataThatAreBeingIndexedUntilTheyCanBeShown) {
+TEST_F(DataWindowTest, WaitsForDataThatAreBeingIndexedUntilTheyCanBeShown) {
     int asked = 0;
     const auto wait = [&](int ready, const PlayedWindow::Frame& frame) {
         PlayedWindow window(frame);

@@ -1,6 +1,6 @@
 // Where the panel's parts lie, and which commands its search knows.
 #include "app/panel/parts/key_search.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "interaction/controls/desktop_emulation.h"
 
 #include <gmock/gmock.h>
@@ -15,29 +15,29 @@ namespace {
 using interaction::Action;
 
 double share_of_picture(glm::vec2 size) {
-    const glm::vec2 picture = places_in(PanelPlace::over, size).picture.size();
+    const glm::vec2 picture = layout_in(PanelPlace::over, size).picture.size();
     return double(picture.x) * double(picture.y) / (double(size.x) * double(size.y));
 }
 
-TEST(PanelPlaces, LeaveMostOfTheWindowToThePicture) {
+TEST(PanelLayout, LeavesMostOfTheWindowToThePicture) {
     EXPECT_GE(share_of_picture({1280, 800}), 0.68);
     EXPECT_GE(share_of_picture({640, 480}), 0.60);
-    EXPECT_FALSE(places_in(PanelPlace::over, {1280, 800}).folded);
-    EXPECT_TRUE(places_in(PanelPlace::over, {640, 480}).folded);
+    EXPECT_FALSE(layout_in(PanelPlace::over, {1280, 800}).folded);
+    EXPECT_TRUE(layout_in(PanelPlace::over, {640, 480}).folded);
 }
 
-TEST(PanelPlaces, FillThePanelWithoutGapsOrOverlaps) {
+TEST(PanelLayout, FillsThePanelWithoutGapsOrOverlaps) {
     for (const PanelPlace place : {PanelPlace::over, PanelPlace::whole, PanelPlace::in_room})
         for (const glm::vec2 size : {glm::vec2(300, 240), glm::vec2(400, 540), glm::vec2(640, 480),
                                      glm::vec2(1280, 720), glm::vec2(1280, 800)}) {
             SCOPED_TRACE(testing::Message() << int(place) << ' ' << size.x << ' ' << size.y);
-            const PanelPlaces places = places_in(place, size);
-            EXPECT_EQ(places.top.high.y, places.column.low.y);
-            EXPECT_EQ(places.column.high.y, places.time.low.y);
-            EXPECT_EQ(places.time.high, size);
-            EXPECT_EQ(places.column.high.x, places.picture.low.x);
-            EXPECT_EQ(places.picture.high, glm::vec2(size.x, places.time.low.y));
-            EXPECT_EQ(places.picture.size().x > 0, place == PanelPlace::over);
+            const PanelLayout layout = layout_in(place, size);
+            EXPECT_EQ(layout.top.high.y, layout.column.low.y);
+            EXPECT_EQ(layout.column.high.y, layout.time.low.y);
+            EXPECT_EQ(layout.time.high, size);
+            EXPECT_EQ(layout.column.high.x, layout.picture.low.x);
+            EXPECT_EQ(layout.picture.high, glm::vec2(size.x, layout.time.low.y));
+            EXPECT_EQ(layout.picture.size().x > 0, place == PanelPlace::over);
         }
 }
 

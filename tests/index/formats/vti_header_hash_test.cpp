@@ -1,5 +1,5 @@
-// What the head of a VTK image file must say anew for its file to be opened.
-#include "index/formats/series/telling_head.h"
+// Which headers of VTK image files have the same hash, so that a file need not be opened.
+#include "index/formats/series/vti_header_hash.h"
 
 #include "index/error.h"
 #include "index/formats/series/opening.h"
@@ -29,16 +29,16 @@ struct Image {
 </DataArray></PointData></Piece></ImageData></VTKFile>)",
             compressor, spacing, more, name, type, name, range, values, norm, unit);
     }
-    std::optional<std::uint64_t> head() const { return telling_head(text(), text().size()); }
+    std::optional<std::uint64_t> head() const { return vti_header_hash(text(), text().size()); }
 };
 
-TEST(TellingHead, IsTheSameWhateverTheValuesAre) {
+TEST(VtiHeaderHash, IsTheSameWhateverTheValuesAre) {
     const auto head = Image{}.head();
     ASSERT_TRUE(head);
     EXPECT_EQ((Image{.range = "2000", .values = "9 9 9 9 9 9 9 2000", .norm = "77"}).head(), head);
 }
 
-TEST(TellingHead, DiffersWithAllThatDescribesTheFile) {
+TEST(VtiHeaderHash, DiffersWithAllThatDescribesTheFile) {
     const auto head = Image{}.head();
     for (const Image& other :
          {Image{.spacing = "1 1 2"}, Image{.name = "b"}, Image{.type = "Int8"}, Image{.unit = "m"},
@@ -46,33 +46,33 @@ TEST(TellingHead, DiffersWithAllThatDescribesTheFile) {
         EXPECT_NE(other.head(), head) << other.text();
 }
 
-TEST(TellingHead, TellsNothingWhereATimeOrAnotherGridMayStand) {
+TEST(VtiHeaderHash, TellsNothingWhereATimeOrAnotherGridMayStand) {
     EXPECT_FALSE(
         (Image{.more = R"(<FieldData><DataArray type="Float64" Name="TimeValue" format="ascii">3
 </DataArray></FieldData>)"})
             .head());
     std::string text = Image{}.text();
-    EXPECT_FALSE(telling_head(text.substr(0, text.size() - 5), text.size())) << "cut off";
-    EXPECT_FALSE(telling_head("<!-- " + text, text.size())) << "comments hide tags";
+    EXPECT_FALSE(vti_header_hash(text.substr(0, text.size() - 5), text.size())) << "cut off";
+    EXPECT_FALSE(vti_header_hash("<!-- " + text, text.size())) << "comments hide tags";
     text.replace(text.find("ImageData"), 9, "RectilinearGrid");
-    EXPECT_FALSE(telling_head(text, text.size())) << "its coordinates are values";
-    EXPECT_FALSE(telling_head("", 0));
-    EXPECT_FALSE(telling_head("NRRD0004\n", 9));
-    EXPECT_FALSE(head_of_file(std::filesystem::path("/no/such/file"), 0));
+    EXPECT_FALSE(vti_header_hash(text, text.size())) << "its coordinates are values";
+    EXPECT_FALSE(vti_header_hash("", 0));
+    EXPECT_FALSE(vti_header_hash("NRRD0004\n", 9));
+    EXPECT_FALSE(header_hash_of_file(std::filesystem::path("/no/such/file"), 0));
 }
 
-TEST(TellingHead, OfAppendedValuesTheFileIsAsLongAsTheFirst) {
+TEST(VtiHeaderHash, OfAppendedValuesTheFileIsAsLongAsTheFirst) {
     const std::string text =
         R"(<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 1 0 1"><Piece><PointData>
 <DataArray Name="a" format="appended" offset="0"/></PointData></Piece></ImageData><AppendedData encoding="raw">_)";
-    ASSERT_TRUE(telling_head(text, 1000));
-    EXPECT_NE(telling_head(text, 1000), telling_head(text, 999)) << "shorter: cut off";
+    ASSERT_TRUE(vti_header_hash(text, 1000));
+    EXPECT_NE(vti_header_hash(text, 1000), vti_header_hash(text, 999)) << "shorter: cut off";
     std::string packed = text;
     packed.insert(8, " compressor=\"vtkZLibDataCompressor\"");
-    EXPECT_EQ(telling_head(packed, 1000), telling_head(packed, 999));
+    EXPECT_EQ(vti_header_hash(packed, 1000), vti_header_hash(packed, 999));
 }
 
-TEST(TellingHead, ASeriesIsWhatItIsWhenEveryFileIsOpened) {
+TEST(VtiHeaderHash, ASeriesIsWhatItIsWhenEveryFileIsOpened) {
     test_support::TestFolder folder;
     std::vector<std::filesystem::path> files;
     for (int i = 0; i < 4; ++i) {
@@ -95,7 +95,7 @@ TEST(TellingHead, ASeriesIsWhatItIsWhenEveryFileIsOpened) {
     EXPECT_THROW(open_series(files, {}), Error);
 }
 
-TEST(TellingHead, ManyFilesSayHowFarTheirOpeningIs) {
+TEST(VtiHeaderHash, ManyFilesSayHowFarTheirOpeningIs) {
     test_support::TestFolder folder;
     std::vector<std::filesystem::path> files;
     for (int i = 0; i < 1000; ++i) {

@@ -1,4 +1,4 @@
-// Chooses the sender whose datagrams are used, on a port to which anybody can send.
+// The sender whose datagrams are used, on a port to which anybody can send.
 #pragma once
 
 #include "interaction/trackers/udp_socket.h"
@@ -14,10 +14,10 @@ namespace isochron::interaction {
 /// a second. A sender whose first datagram makes no sense is ignored for up to a second. Senders
 /// are told apart by address and port, so a second program on the tracker's machine is another
 /// sender.
-class SenderChoice {
+class UsedSender {
   public:
     /// @param from the only allowed sender, its port 0 for any port; none: anybody may send
-    explicit SenderChoice(std::optional<Endpoint> from) : from_(std::move(from)) {}
+    explicit UsedSender(std::optional<Endpoint> from) : from_(std::move(from)) {}
 
     /// @param arrival of a datagram [s of the session]
     /// @return whether to use it; if not, it is counted as a stranger's
@@ -37,7 +37,7 @@ class SenderChoice {
   private:
     struct Current {
         Endpoint sender;
-        Seconds arrival;     ///< of its last datagram that made sense, or of its first one
+        Seconds arrival;     ///< when its last datagram that made sense arrived, or its first one
         bool proven = false; ///< a datagram of it has made sense
     };
     std::optional<Endpoint> from_;

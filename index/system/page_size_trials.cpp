@@ -1,5 +1,5 @@
 // Compares the times of the two kinds of pages.
-#include "index/system/page_choice.h"
+#include "index/system/page_size_trials.h"
 
 #include <algorithm>
 
@@ -18,12 +18,12 @@ Pages other(Pages pages) {
 
 } // namespace
 
-PageChoice& PageChoice::of_process() {
-    static PageChoice choice;
-    return choice;
+PageSizeTrials& PageSizeTrials::of_process() {
+    static PageSizeTrials trials;
+    return trials;
 }
 
-Pages PageChoice::next() {
+Pages PageSizeTrials::next() {
     const std::scoped_lock lock(mutex_);
     for (const Pages pages : {Pages::small, Pages::huge})
         if (!times_[place(pages)])
@@ -35,7 +35,7 @@ Pages PageChoice::next() {
     return other(better_);
 }
 
-void PageChoice::took(Pages pages, std::chrono::nanoseconds time) {
+void PageSizeTrials::took(Pages pages, std::chrono::nanoseconds time) {
     const std::scoped_lock lock(mutex_);
     auto& known = times_[place(pages)];
     // A trial counts as it is, since the last one may be long ago.

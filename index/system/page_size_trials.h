@@ -1,4 +1,4 @@
-// Which pages new memory is to have: small ones or huge ones, whichever the system gives in less time.
+// Whether new memory is faster in small or in huge pages, found by trials.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ enum class Pages : unsigned char { small, huge };
 /// machine they may take as much as small ones, or many times as much: its host may have taken back
 /// the free ones. Only a trial tells: each kind once, then the faster kind, and the slower kind
 /// from time to time, the less often the more often it lost. Thread-safe.
-class PageChoice {
+class PageSizeTrials {
   public:
     /// Blocks between two trials of the slower kind, at first.
     static constexpr unsigned kBetweenTrials = 32;
 
-    /// The choice for all blocks of this process.
-    static PageChoice& of_process();
+    /// The trials for all blocks of this process.
+    static PageSizeTrials& of_process();
 
     /// The pages that the next block shall have.
     Pages next();
@@ -30,7 +30,8 @@ class PageChoice {
 
   private:
     std::mutex mutex_;
-    std::array<std::optional<std::chrono::nanoseconds>, 2> times_; ///< of late, by kind
+    /// How long blocks took of late, by the kind of their pages.
+    std::array<std::optional<std::chrono::nanoseconds>, 2> times_;
     Pages better_ = Pages::small;
     unsigned between_ = kBetweenTrials, until_trial_ = kBetweenTrials;
 };

@@ -1,5 +1,5 @@
 // The picture of the cells, kept apart from what is drawn over it.
-#include "app/scene/kept_cells.h"
+#include "app/scene/cells_picture.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -88,7 +88,7 @@ Picture drawn_as(Picture picture, const Picture& drawn) {
 }
 
 /// Color and depth, of all samples.
-void KeptCells::copy(GLuint from, GLuint to, std::span<const render::View> views) const {
+void CellsPicture::copy(GLuint from, GLuint to, std::span<const render::View> views) const {
     gl_.Disable(GL_SCISSOR_TEST);
     for (const render::View& view : views) {
         const glm::ivec2 low = view.corner, high = view.corner + view.size;
@@ -98,8 +98,8 @@ void KeptCells::copy(GLuint from, GLuint to, std::span<const render::View> views
     gl_.Enable(GL_SCISSOR_TEST);
 }
 
-std::deque<KeptCells::Kept>::const_iterator
-KeptCells::find(std::span<const render::View> views) const {
+std::deque<CellsPicture::Kept>::const_iterator
+CellsPicture::find(std::span<const render::View> views) const {
     const int samples = samples_of_bound(gl_);
     return std::ranges::find_if(kept_, [&](const Kept& kept) {
         return kept.newest && kept.target.samples() == samples &&
@@ -107,13 +107,13 @@ KeptCells::find(std::span<const render::View> views) const {
     });
 }
 
-bool KeptCells::hold(const Picture& picture, std::size_t viewports) const {
+bool CellsPicture::hold(const Picture& picture, std::size_t viewports) const {
     const auto kept = std::ranges::count(kept_, true, &Kept::newest);
     return picture_ && static_cast<std::size_t>(kept) >= viewports &&
            same_cells(*picture_, picture);
 }
 
-void KeptCells::keep(const Picture& picture, std::span<const render::View> views) {
+void CellsPicture::keep(const Picture& picture, std::span<const render::View> views) {
     if (!hides_by_depth(picture))
         return forget();
     if (!picture_ || !same_cells(*picture_, picture))
@@ -137,14 +137,14 @@ void KeptCells::keep(const Picture& picture, std::span<const render::View> views
     copy(bound_framebuffer(gl_), place->target.drawn_framebuffer(), views);
 }
 
-const Picture* KeptCells::movable(std::size_t viewports) const {
+const Picture* CellsPicture::movable(std::size_t viewports) const {
     const auto of_one_sample = std::ranges::count_if(
         kept_, [](const Kept& kept) { return kept.newest && kept.target.samples() == 1; });
     return picture_ && static_cast<std::size_t>(of_one_sample) >= viewports ? &*picture_ : nullptr;
 }
 
 std::vector<render::PictureWithDepth>
-KeptCells::for_screens_of(std::span<const render::View> views) const {
+CellsPicture::for_screens_of(std::span<const render::View> views) const {
     const Kept* nearest = nullptr;
     float least = std::numeric_limits<float>::max();
     for (const Kept& kept : kept_) {
@@ -165,7 +165,7 @@ KeptCells::for_screens_of(std::span<const render::View> views) const {
     return pictures;
 }
 
-bool KeptCells::draw_again(const Picture& picture, std::span<const render::View> views) const {
+bool CellsPicture::draw_again(const Picture& picture, std::span<const render::View> views) const {
     if (!picture_ || !same_cells(*picture_, picture))
         return false;
     const auto found = find(views);

@@ -1,5 +1,5 @@
-// Walks the tags of a VTK image file and leaves out what only its values change.
-#include "index/formats/series/telling_head.h"
+// Walks the tags of a VTK image file and leaves out what changes with its values.
+#include "index/formats/series/vti_header_hash.h"
 
 #include "index/formats/format.h"
 
@@ -55,7 +55,7 @@ class HeadHash {
 
 } // namespace
 
-std::optional<std::uint64_t> telling_head(std::string_view start, std::uint64_t size) {
+std::optional<std::uint64_t> vti_header_hash(std::string_view start, std::uint64_t size) {
     const std::size_t root = start.find("<VTKFile");
     if (root > 256 || start.find("<!") < start.size())
         return std::nullopt;
@@ -96,9 +96,10 @@ std::optional<std::uint64_t> telling_head(std::string_view start, std::uint64_t 
     return std::nullopt;
 }
 
-std::optional<std::uint64_t> head_of_file(const std::filesystem::path& file, std::uint64_t size) {
+std::optional<std::uint64_t> header_hash_of_file(const std::filesystem::path& file,
+                                                 std::uint64_t size) {
     FileStart start(file);
-    return telling_head(start.bytes(kMostHead), size);
+    return vti_header_hash(start.bytes(kMostHead), size);
 }
 
 } // namespace isochron::index

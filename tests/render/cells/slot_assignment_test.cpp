@@ -1,5 +1,5 @@
 // Slot plans, compared with a model: any sequence of sets, in portions of any size.
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 #include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
@@ -25,10 +25,10 @@ struct Model {
     };
     std::vector<Cell> slots;
 
-    void obey(const SlotPlan& plan, const std::vector<std::uint32_t>& words,
+    void obey(const SlotAssignment& assignment, const std::vector<std::uint32_t>& words,
               const index::Extraction& set) {
         slots.resize(set.cells());
-        if (plan.whole()) {
+        if (assignment.whole()) {
             std::size_t slot = 0;
             for (std::uint32_t s = 0; s < set.surfaces.size(); ++s)
                 for (std::size_t i = 0; i < set.surfaces[s].ids.size(); ++i, ++slot)
@@ -36,9 +36,9 @@ struct Model {
             return;
         }
         for (std::size_t i = 0; i < words.size(); i += 2) {
-            const std::uint32_t slot = words[i] % SlotPlan::kMostSlots;
+            const std::uint32_t slot = words[i] % SlotAssignment::kMostSlots;
             ASSERT_LT(slot, slots.size());
-            slots[slot] = {words[i] >> SlotPlan::kSurfaceShift, words[i + 1]};
+            slots[slot] = {words[i] >> SlotAssignment::kSurfaceShift, words[i + 1]};
         }
     }
     std::vector<Cell> sorted() const {
@@ -83,25 +83,25 @@ struct Made {
     std::vector<std::uint32_t> words;
 };
 
-/// Runs a plan in portions of at most so many cells and words.
-Made run(SlotPlan& plan, std::mt19937& random, std::size_t most) {
+/// Runs a assignment in portions of at most so many cells and words.
+Made run(SlotAssignment& assignment, std::mt19937& random, std::size_t most) {
     const auto portion = [&] { return 1 + random() % most; };
     Made made;
-    while (!plan.merge(portion())) {
+    while (!assignment.merge(portion())) {
     }
-    for (int tries = 0; !plan.done(); ++tries) {
-        EXPECT_LT(tries, 100'000) << "the plan does not get on";
+    for (int tries = 0; !assignment.done(); ++tries) {
+        EXPECT_LT(tries, 100'000) << "the assignment does not get on";
         std::vector<std::uint32_t> out(1 + portion());
         std::size_t cells = portion();
-        out.resize(plan.message(out, cells));
+        out.resize(assignment.message(out, cells));
         made.words.insert(made.words.end(), out.begin(), out.end());
     }
-    EXPECT_EQ(made.words.size(), plan.words());
-    made.slots = plan.take();
+    EXPECT_EQ(made.words.size(), assignment.words());
+    made.slots = assignment.take();
     return made;
 }
 
-TEST(SlotPlan, WhateverFollowsTheSlotsHoldTheNewSetExactlyAndItsPlaces) {
+TEST(SlotAssignment, WhateverFollowsTheSlotsHoldTheNewSetExactlyAndItsPlaces) {
     std::mt19937 random(test_seed());
     index::Extraction shown;
     Slots slots;
@@ -113,9 +113,9 @@ TEST(SlotPlan, WhateverFollowsTheSlotsHoldTheNewSetExactlyAndItsPlaces) {
             next[s] = changed(random, s < shown.surfaces.size() ? shown.surfaces[s].ids
                                                                 : std::vector<CellId>{});
         index::Extraction set = set_of(next);
-        SlotPlan plan(kGrid, round == 0 ? nullptr : &shown, slots, set);
-        Made made = run(plan, random, round % 2 ? 5 : 1000);
-        model.obey(plan, made.words, set);
+        SlotAssignment assignment(kGrid, round == 0 ? nullptr : &shown, slots, set);
+        Made made = run(assignment, random, round % 2 ? 5 : 1000);
+        model.obey(assignment, made.words, set);
         ASSERT_EQ(model.sorted(), cells_of(set)) << "round " << round;
         ASSERT_EQ(made.slots.places.size(), set.cells());
         for (std::size_t slot = 0; slot < model.slots.size(); ++slot) {
@@ -124,7 +124,7 @@ TEST(SlotPlan, WhateverFollowsTheSlotsHoldTheNewSetExactlyAndItsPlaces) {
                       (CellPlace{std::uint16_t(at[0]), std::uint16_t(at[1]), std::uint16_t(at[2]),
                                  std::uint16_t(model.slots[slot].surface)}));
         }
-        (plan.whole() ? whole : deltas) += set.cells() > 0;
+        (assignment.whole() ? whole : deltas) += set.cells() > 0;
         shown = std::move(set);
         slots = std::move(made.slots);
     }
@@ -132,23 +132,23 @@ TEST(SlotPlan, WhateverFollowsTheSlotsHoldTheNewSetExactlyAndItsPlaces) {
     EXPECT_GT(deltas, 50u);
 }
 
-TEST(SlotPlan, SendsNoMoreThanTheChangeAndNeverMoreThanTheSet) {
+TEST(SlotAssignment, SendsNoMoreThanTheChangeAndNeverMoreThanTheSet) {
     std::mt19937 random(test_seed());
     for (int round = 0; round < 200; ++round) {
         const auto before = changed(random, {}), after = changed(random, before);
         const index::Extraction from = set_of({before}), to = set_of({after});
         const Slots none;
-        SlotPlan first(kGrid, nullptr, none, from);
+        SlotAssignment first(kGrid, nullptr, none, from);
         const Slots slots = run(first, random, 1000).slots;
-        SlotPlan plan(kGrid, &from, slots, to);
-        run(plan, random, 1000);
+        SlotAssignment assignment(kGrid, &from, slots, to);
+        run(assignment, random, 1000);
         std::vector<CellId> come, go;
         std::ranges::set_difference(after, before, std::back_inserter(come));
         std::ranges::set_difference(before, after, std::back_inserter(go));
         // Each new cell once; where more go than come, each moved cell at most fills their holes.
-        EXPECT_LE(plan.words(), after.size());
-        EXPECT_LE(plan.words(), 2 * std::max(come.size(), go.size()));
-        EXPECT_GE(plan.ids(), come.size());
+        EXPECT_LE(assignment.words(), after.size());
+        EXPECT_LE(assignment.words(), 2 * std::max(come.size(), go.size()));
+        EXPECT_GE(assignment.ids(), come.size());
     }
 }
 
@@ -162,7 +162,7 @@ std::vector<std::uint32_t> places_without(const std::vector<CellId>& all,
     return places;
 }
 
-TEST(SlotPlan, AChangeThatIsKnownGivesTheSameSlotsAndMessagesAsComparing) {
+TEST(SlotAssignment, AChangeThatIsKnownGivesTheSameSlotsAndMessagesAsComparing) {
     std::mt19937 random(test_seed());
     for (int round = 0; round < 300; ++round) {
         std::vector<std::vector<CellId>> before(1 + random() % 3), after;
@@ -172,33 +172,33 @@ TEST(SlotPlan, AChangeThatIsKnownGivesTheSameSlotsAndMessagesAsComparing) {
         }
         index::Extraction from = set_of(before), to = set_of(after);
         const Slots none;
-        SlotPlan first(kGrid, nullptr, none, from);
+        SlotAssignment first(kGrid, nullptr, none, from);
         const Slots slots = run(first, random, 1000).slots;
-        SlotPlan compared(kGrid, &from, slots, to);
+        SlotAssignment compared(kGrid, &from, slots, to);
         const Made expected = run(compared, random, 1000);
         from.number = 7;
         to.change.from = 7;
         for (std::size_t i = 0; i < before.size(); ++i)
             to.change.surfaces.push_back(
                 {places_without(before[i], after[i]), places_without(after[i], before[i])});
-        SlotPlan known(kGrid, &from, slots, to);
+        SlotAssignment known(kGrid, &from, slots, to);
         const Made found = run(known, random, round % 2 ? 3 : 1000);
         ASSERT_EQ(found.words, expected.words) << "round " << round;
         ASSERT_EQ(found.slots.slot_of_rank, expected.slots.slot_of_rank);
         ASSERT_EQ(found.slots.places, expected.slots.places);
         to.change = {8, std::vector<index::SurfaceChange>(before.size())};
-        SlotPlan of_another(kGrid, &from, slots, to); // the change since some other set
+        SlotAssignment of_another(kGrid, &from, slots, to); // the change since some other set
         ASSERT_EQ(run(of_another, random, 1000).words, expected.words);
     }
 }
 
-TEST(SlotPlan, TheSameCellsAgainSendNothing) {
+TEST(SlotAssignment, TheSameCellsAgainSendNothing) {
     std::mt19937 random(test_seed());
     const index::Extraction set = set_of({{1, 5, 9, 200}, {5, 6}});
     const Slots none;
-    SlotPlan first(kGrid, nullptr, none, set);
+    SlotAssignment first(kGrid, nullptr, none, set);
     const Slots slots = run(first, random, 3).slots;
-    SlotPlan again(kGrid, &set, slots, set);
+    SlotAssignment again(kGrid, &set, slots, set);
     run(again, random, 3);
     EXPECT_EQ(again.words(), 0u);
 }

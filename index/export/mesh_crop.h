@@ -1,4 +1,4 @@
-// Parts of meshes that are exported: those within a box, and those that triangles still use.
+// Crops a mesh that is exported: to a box, or to the corners that a function keeps.
 #pragma once
 
 #include "index/surface/cell_mesh.h"
@@ -9,13 +9,13 @@
 
 namespace isochron::index {
 
-/// Vertices of the grid along each axis, both ends included.
+/// A box of vertices of the grid, both ends included.
 struct VertexBox {
     std::array<std::uint32_t, 3> first{}, last{}; ///< x, y, z
 };
 
-/// Removes triangles with a corner outside of the box, and vertices that none is left to use. What
-/// stays keeps its order. `cases` are those of all cells still.
+/// Removes the triangles with a corner outside of the box, and the vertices that no triangle uses
+/// then. The others keep their order; `cases` stay those of all cells.
 void crop(CellMesh& mesh, const VertexBox& box);
 
 /// Removes triangles with a corner that is not to be kept, and vertices that none is left to use.

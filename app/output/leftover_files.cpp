@@ -1,5 +1,5 @@
 // Files that killed commands have left.
-#include "app/output/left_files.h"
+#include "app/output/leftover_files.h"
 
 #include "index/system/new_file.h"
 
@@ -34,7 +34,7 @@ void remove_files_beside(int argc, const char* const* argv) {
 
 } // namespace
 
-void remove_left_files(int argc, const char* const* argv) noexcept {
+void remove_leftover_files(int argc, const char* const* argv) noexcept {
     try {
         remove_files_beside(argc, argv);
     } catch (const std::exception&) { // they stay for the next command

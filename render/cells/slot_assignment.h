@@ -45,12 +45,12 @@ struct Slots {
 /// Finds the changes from one set to the next, in short portions. Cells in both sets keep their
 /// slots, new cells take slots of removed ones, and cells with the last slots move into holes, so
 /// that slots stay dense. Call `merge` until it is done, then `message`.
-class SlotPlan {
+class SlotAssignment {
   public:
     /// @param from null if nothing is shown
-    /// @param slots of `from`; both sets and these must live as long as the plan
-    SlotPlan(const index::Grid& grid, const index::Extraction* from, const Slots& slots,
-             const index::Extraction& to);
+    /// @param slots of `from`; both sets and these must live as long as the assignment
+    SlotAssignment(const index::Grid& grid, const index::Extraction* from, const Slots& slots,
+                   const index::Extraction& to);
 
     /// Compares at most `cells` cells. Where the new set knows what came and went since `from`, only
     /// that is looked at. @return true when all are compared
@@ -94,7 +94,7 @@ class SlotPlan {
     const index::Extraction* from_;
     const Slots* slots_;
     const index::Extraction* to_;
-    std::size_t cells_; ///< of the new set
+    std::size_t cells_; ///< number of cells in the new set
     // Position of the walk: a surface, and in it the next cell of the old set and of the new one.
     std::size_t surface_ = 0, old_at_ = 0, new_at_ = 0;
     std::size_t old_rank_ = 0, new_rank_ = 0;

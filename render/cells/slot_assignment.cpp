@@ -1,35 +1,35 @@
 // Merges sorted ids and assigns slots.
-#include "render/cells/slot_plan.h"
+#include "render/cells/slot_assignment.h"
 
 #include <algorithm>
 
 namespace isochron::render {
 
-SlotPlan::SlotPlan(const index::Grid& grid, const index::Extraction* from, const Slots& slots,
-                   const index::Extraction& to)
+SlotAssignment::SlotAssignment(const index::Grid& grid, const index::Extraction* from,
+                               const Slots& slots, const index::Extraction& to)
     : grid_(grid), from_(from), slots_(&slots), to_(&to), cells_(to.cells()), walk_(grid) {
     next_.slot_of_rank.resize(cells_);
     next_.places.resize(cells_);
 }
 
-std::span<const index::CellId> SlotPlan::ids_of(const index::Extraction* set) const {
+std::span<const index::CellId> SlotAssignment::ids_of(const index::Extraction* set) const {
     if (!set || surface_ >= set->surfaces.size())
         return {};
     return set->surfaces[surface_].ids;
 }
 
-void SlotPlan::next_surface() {
+void SlotAssignment::next_surface() {
     ++surface_;
     old_at_ = new_at_ = removed_at_ = added_at_ = 0;
     walk_ = index::CellWalk(grid_);
 }
 
-std::uint16_t SlotPlan::style_of(std::size_t rank) const {
+std::uint16_t SlotAssignment::style_of(std::size_t rank) const {
     return cell_style(surface_, to_->colors.empty() ? 0 : to_->colors[rank]);
 }
 
 /// What is known of the current surface; null: both sets are compared.
-const index::SurfaceChange* SlotPlan::known_change() const {
+const index::SurfaceChange* SlotAssignment::known_change() const {
     const bool known = from_ && from_->number != 0 && to_->change.from == from_->number &&
                        from_->surfaces.size() == to_->surfaces.size();
     return known ? &to_->change.surfaces[surface_] : nullptr;
@@ -37,7 +37,7 @@ const index::SurfaceChange* SlotPlan::known_change() const {
 
 /// Takes over the slots of the current surface's cells, run by run, by its known change.
 /// @param cells that may still be handled; counted down @return true when all are
-bool SlotPlan::follow(std::size_t& cells) {
+bool SlotAssignment::follow(std::size_t& cells) {
     const index::SurfaceChange& change = *known_change();
     const std::size_t old_end = ids_of(from_).size(), new_end = ids_of(to_).size();
     while (old_at_ < old_end || new_at_ < new_end) {
@@ -63,7 +63,7 @@ bool SlotPlan::follow(std::size_t& cells) {
     return true;
 }
 
-bool SlotPlan::merge(std::size_t cells) {
+bool SlotAssignment::merge(std::size_t cells) {
     const std::size_t surfaces =
         std::max(to_->surfaces.size(), from_ ? from_->surfaces.size() : std::size_t{0});
     for (; surface_ < surfaces; next_surface()) {
@@ -94,7 +94,7 @@ bool SlotPlan::merge(std::size_t cells) {
     return true;
 }
 
-void SlotPlan::find_free_slots() {
+void SlotAssignment::find_free_slots() {
     const auto now = static_cast<std::uint32_t>(slots_->places.size());
     const auto then = static_cast<std::uint32_t>(cells_);
     std::erase_if(free_, [&](std::uint32_t slot) { return slot >= then; });
@@ -103,7 +103,7 @@ void SlotPlan::find_free_slots() {
     changes_ = free_.size();
 }
 
-std::size_t SlotPlan::message(std::span<std::uint32_t> out, std::size_t& cells) {
+std::size_t SlotAssignment::message(std::span<std::uint32_t> out, std::size_t& cells) {
     const auto slots = static_cast<std::uint32_t>(cells_);
     const std::size_t words_each = whole() ? 1 : 2;
     std::size_t written = 0;

@@ -1,5 +1,5 @@
-// A window with nothing but the choice of data, or the progress of indexing them.
-#include "app/session/data_choice.h"
+// A window for choosing data, or for the progress of indexing them.
+#include "app/session/data_window.h"
 
 #include "app/config/series_names.h"
 
@@ -11,10 +11,11 @@ namespace isochron::app {
 
 namespace fs = std::filesystem;
 
-std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataChoice& choice) {
-    PageWindow window(windows, choice.window);
+std::optional<fs::path> choose_data(const stereo::Windows& windows,
+                                    const DataWindowOptions& options) {
+    PageWindow window(windows, options.window);
     PanelLayer& layer = window.layer();
-    layer.pages().offer_files([&choice] { return choice.recent; });
+    layer.pages().offer_files([&options] { return options.recent; });
     layer.pages().open_files();
     std::string complaint;
     while (layer.pages().any() && window.goes_on()) {
@@ -29,7 +30,7 @@ std::optional<fs::path> choose_data(const stereo::Windows& windows, const DataCh
         }
         if (!wanted)
             continue;
-        complaint = choice.why_not_open(*wanted);
+        complaint = options.why_not_open(*wanted);
         if (complaint.empty())
             return wanted;
         layer.pages().open_files_again();

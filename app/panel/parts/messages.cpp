@@ -1,5 +1,5 @@
 // What lies over the picture: how exact it is, and what the user is told and asked.
-#include "app/panel/parts/notes.h"
+#include "app/panel/parts/messages.h"
 
 #include "app/panel/panel_statistics.h"
 #include "app/panel/panel_words.h"

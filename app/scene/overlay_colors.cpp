@@ -1,5 +1,5 @@
 // The colors of words and lines that stand on the picture's background.
-#include "app/scene/ink.h"
+#include "app/scene/overlay_colors.h"
 
 #include "render/gl/srgb.h"
 
@@ -22,7 +22,7 @@ float contrast_of(const glm::vec3& a, const glm::vec3& b) {
 
 } // namespace
 
-glm::vec3 legible_on(const glm::vec4& paper, const glm::vec3& color, const Ink& ink) {
+glm::vec3 legible_on(const glm::vec4& paper, const glm::vec3& color, const OverlayColors& overlay) {
     constexpr float kContrast = 4.5f;
     constexpr int kMixtures = 20;
     // Behind light paper what is black shines through most, behind dark paper what is white.
@@ -30,11 +30,11 @@ glm::vec3 legible_on(const glm::vec4& paper, const glm::vec3& color, const Ink& 
     const glm::vec3 worst = glm::mix(behind, glm::vec3(paper), paper.w);
     for (int i = 0; i < kMixtures; ++i) {
         const glm::vec3 mixed =
-            glm::mix(color, glm::vec3(ink.text), static_cast<float>(i) / kMixtures);
+            glm::mix(color, glm::vec3(overlay.text), static_cast<float>(i) / kMixtures);
         if (contrast_of(mixed, worst) >= kContrast)
             return mixed;
     }
-    return glm::vec3(ink.text);
+    return glm::vec3(overlay.text);
 }
 
 } // namespace isochron::app

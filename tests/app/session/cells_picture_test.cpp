@@ -11,7 +11,7 @@ namespace {
 using interaction::Commands;
 using render::Footprint;
 
-class KeptCellsTest : public SessionQuality {
+class CellsPictureTest : public SessionQuality {
   protected:
     /// Commands that change what lies over the cells, or nothing that is seen.
     static std::vector<std::pair<std::string, Commands>> over_cells() {
@@ -30,11 +30,11 @@ class KeptCellsTest : public SessionQuality {
         return all;
     }
 };
-INSTANTIATE_TEST_SUITE_P(Contexts, KeptCellsTest,
+INSTANTIATE_TEST_SUITE_P(Contexts, CellsPictureTest,
                          testing::Values(stereo::ContextKind::egl, stereo::ContextKind::osmesa),
                          context_name);
 
-TEST_P(KeptCellsTest, WhatChangesNoSurfaceDropsNoPictureAndGivesThatOfASessionThatBeganSo) {
+TEST_P(CellsPictureTest, WhatChangesNoSurfaceDropsNoPictureAndGivesThatOfASessionThatBeganSo) {
     Session session(config_in_parts(), file_, *context_);
     start(session);
     rest_until(session, is_exact);
@@ -57,7 +57,7 @@ TEST_P(KeptCellsTest, WhatChangesNoSurfaceDropsNoPictureAndGivesThatOfASessionTh
     EXPECT_TRUE(shown(other) == after) << "to the bit";
 }
 
-TEST_P(KeptCellsTest, AButtonThatMovesNothingDropsNoPictureAndAMotionDoes) {
+TEST_P(CellsPictureTest, AButtonThatMovesNothingDropsNoPictureAndAMotionDoes) {
     Session session(config_in_parts(), file_, *context_);
     start(session);
     rest_until(session, is_exact);
@@ -80,7 +80,7 @@ TEST_P(KeptCellsTest, AButtonThatMovesNothingDropsNoPictureAndAMotionDoes) {
     EXPECT_LT(pressed(0.2f).footprint, Footprint::surface);
 }
 
-TEST_P(KeptCellsTest, AnythingThatTheCellsDependOnIsDrawnAnew) {
+TEST_P(CellsPictureTest, AnythingThatTheCellsDependOnIsDrawnAnew) {
     Session session(config_in_parts(), file_, *context_);
     start(session);
     rest_until(session, is_exact);

@@ -1,8 +1,8 @@
-// What lies over the picture: how exact it is, and what the user is told and asked.
+// Messages over the picture: how exact it is, what goes wrong, what is waited for, and questions.
 #pragma once
 
 #include "app/panel/panel_model.h"
-#include "app/panel/parts/places.h"
+#include "app/panel/parts/panel_layout.h"
 #include "interaction/commands.h"
 
 #include <string>

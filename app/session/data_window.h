@@ -14,7 +14,7 @@
 
 namespace isochron::app {
 
-struct DataChoice {
+struct DataWindowOptions {
     std::vector<std::filesystem::path> recent; ///< the newest first
     /// Why data cannot be opened, in one line; empty: they can.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
@@ -24,14 +24,15 @@ struct DataChoice {
 /// Shows the window until the user has chosen data, or dropped files onto it.
 /// @return a file, a folder or the pattern of a series; empty: the user leaves
 std::optional<std::filesystem::path> choose_data(const stereo::Windows& windows,
-                                                 const DataChoice& choice);
+                                                 const DataWindowOptions& options);
 
 /// The progress of data that the user waits for.
 struct DataProgress {
     bool ready = false; ///< they can be shown, or never will be
     std::string line;   ///< what is going on
     float fraction = 0;
-    std::vector<ListedArray> arrays = {}; ///< of which the user is to choose one; empty: none
+    /// Arrays of which the user is to choose one; empty: none.
+    std::vector<ListedArray> arrays = {};
 };
 
 /// The choice among arrays, where the data leave one.

@@ -23,22 +23,22 @@ Picture drawn_as(Picture picture, const Picture& drawn);
 
 /// Color and depth of the newest picture of the cells, a copy for each viewport: what only changes
 /// over them is drawn without them.
-class KeptCells {
+class CellsPicture {
   public:
     /// @param gl outlives the pictures
-    explicit KeptCells(const render::Gl& gl) : gl_(gl) {}
+    explicit CellsPicture(const render::Gl& gl) : gl_(gl) {}
 
     /// Keeps what has been drawn into the views of the bound framebuffer, for this picture alone.
     void keep(const Picture& picture, std::span<const render::View> views);
     /// Whether the cells of this picture are kept for all of its viewports.
     /// @param viewports that show the picture
     bool hold(const Picture& picture, std::size_t viewports) const;
-    /// The picture of which cells are kept, if they can be drawn for other eyes: they have one sample
-    /// in each pixel. Empty: there is none.
+    /// The picture whose cells are kept, if they can be drawn for other eyes: they have one sample
+    /// in each pixel. Null: there is none.
     /// @param viewports that show it
     const Picture* movable(std::size_t viewports) const;
-    /// Of the kept pictures, the one for the same screens as these views: the eyes or the cells may
-    /// have moved since. @return by view: where it lies; empty: there is none
+    /// The kept pictures for the screens of these views; the eyes or the cells may have moved
+    /// since. @return by view: where its picture lies; empty: there is none
     std::vector<render::PictureWithDepth> for_screens_of(std::span<const render::View> views) const;
     /// Draws the kept cells and their background into the views of the bound framebuffer.
     /// @return false: they are not kept
@@ -50,7 +50,7 @@ class KeptCells {
     struct Kept {
         std::vector<render::View> views;
         render::RenderTarget target;
-        bool newest; ///< of `picture_`; else the target is there for the next one
+        bool newest; ///< holds cells of `picture_`; else the target is there for the next one
     };
     std::deque<Kept>::const_iterator find(std::span<const render::View> views) const;
     void copy(GLuint from, GLuint to, std::span<const render::View> views) const;

@@ -1,5 +1,5 @@
 // Levels are lossless if possible, else divide values well, and depend on nothing but the values.
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 
 #include "index/volume/ordinal.h"
 #include "tests/support/test_field.h"
@@ -27,7 +27,7 @@ std::vector<std::size_t> histogram(const LevelMap& levels, const std::vector<flo
     return counts;
 }
 
-TEST(LevelChoice, EightBitTypesHaveALevelForEveryValue) {
+TEST(LevelChooser, EightBitTypesHaveALevelForEveryValue) {
     for (const ValueType type : {ValueType::i8, ValueType::u8})
         EXPECT_EQ(LevelChooser(type).choose(), LevelMap::of_type(type));
 }
@@ -50,7 +50,7 @@ TEST(LevelChoice, AStepOfFewValuesIsLosslessForEveryType) {
     }
 }
 
-TEST(LevelChoice, Exactly256ValuesAreFewAnd257AreMany) {
+TEST(LevelChooser, Exactly256ValuesAreFewAnd257AreMany) {
     for (const int distinct : {256, 257}) {
         std::vector<float> values{float(kNaN), -0.0f, 0.0f};
         for (int i = 0; i < 5000; ++i)
@@ -69,7 +69,7 @@ TEST(LevelChoice, Exactly256ValuesAreFewAnd257AreMany) {
     }
 }
 
-TEST(LevelChoice, DividesSmoothValuesEvenly) {
+TEST(LevelChooser, DividesSmoothValuesEvenly) {
     std::mt19937 random(test_seed());
     std::uniform_real_distribution<float> uniform(300, 301);
     std::vector<float> values(200'000);
@@ -83,7 +83,7 @@ TEST(LevelChoice, DividesSmoothValuesEvenly) {
     EXPECT_LT(*std::max_element(counts.begin(), counts.end()), 5 * values.size() / 256);
 }
 
-TEST(LevelChoice, ABackgroundAndOutliersTakeFewLevels) {
+TEST(LevelChooser, ABackgroundAndOutliersTakeFewLevels) {
     std::mt19937 random(test_seed());
     std::uniform_real_distribution<float> uniform(0, 1);
     std::vector<float> values(200'000), inner;
@@ -107,7 +107,7 @@ TEST(LevelChoice, ABackgroundAndOutliersTakeFewLevels) {
     EXPECT_LT(*std::max_element(counts.begin(), counts.end()), inner.size() / 20);
 }
 
-TEST(LevelChoice, ALongTailIsDividedByItsRange) {
+TEST(LevelChooser, ALongTailIsDividedByItsRange) {
     std::mt19937 random(test_seed());
     std::exponential_distribution<float> exponential(1);
     std::vector<float> values(200'000);
@@ -122,7 +122,7 @@ TEST(LevelChoice, ALongTailIsDividedByItsRange) {
     EXPECT_GE(tail, 15);
 }
 
-TEST(LevelChoice, NothingButNanIsOneLevel) {
+TEST(LevelChooser, NothingButNanIsOneLevel) {
     LevelChooser chooser(ValueType::f32);
     chooser.add(bytes(std::vector<float>(100, float(kNaN))));
     EXPECT_EQ(chooser.choose().levels(), 1u);

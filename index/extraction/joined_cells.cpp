@@ -1,5 +1,5 @@
 // Merges kept cells and others.
-#include "index/extraction/kept_cells.h"
+#include "index/extraction/joined_cells.h"
 
 #include "index/volume/cell_walk.h"
 

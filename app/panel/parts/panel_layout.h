@@ -1,4 +1,4 @@
-// Where the parts of the panel lie: bars above and below, the column of sections, the picture.
+// The layout of the panel: bars above and below, the column of sections, and the picture.
 #pragma once
 
 #include "app/panel/panel_model.h"
@@ -9,7 +9,7 @@
 
 namespace isochron::app {
 
-/// In panel pixels from the top left.
+/// A rectangle in panel pixels from the top left.
 struct PanelBox {
     glm::vec2 low{0.0f}, high{0.0f};
     glm::vec2 size() const { return high - low; }
@@ -19,19 +19,19 @@ struct PanelBox {
     bool operator==(const PanelBox&) const = default;
 };
 
-struct PanelPlaces {
+struct PanelLayout {
     PanelBox top, column, time, picture;
     bool folded = false; ///< the column shows only icons, which open the sections over the picture
-    bool two_rows = false; ///< of the bar of the time: its buttons stand above its track
+    bool two_rows = false; ///< in the bar of the time the buttons stand above the track
 
     /// Whether a part that is always there covers a place.
     bool covers(glm::vec2 at) const {
         return top.contains(at) || column.contains(at) || time.contains(at);
     }
-    bool operator==(const PanelPlaces&) const = default;
+    bool operator==(const PanelLayout&) const = default;
 };
 
-/// @param size of the window or the panel that they lie in, panel pixels
-PanelPlaces places_in(PanelPlace place, glm::vec2 size);
+/// The layout of a panel. @param size of the window or the panel in the room, panel pixels
+PanelLayout layout_in(PanelPlace place, glm::vec2 size);
 
 } // namespace isochron::app

@@ -1,4 +1,4 @@
-// Cells that an earlier set has already, joined with those that were found anew.
+// Joins the cells that stay from an earlier set with those that were found anew.
 #pragma once
 
 #include "index/search/staying_cells.h"
@@ -20,7 +20,7 @@ struct SurfaceChange {
     bool operator==(const SurfaceChange&) const = default;
 };
 
-/// The share of a set's cells that stay, by one in sixteen of them. 1 if there are none.
+/// Estimates the share of a set's cells that stay, by one in sixteen of them. 1 if there are none.
 /// @param ids ascending
 double share_kept(const Grid& grid, std::span<const CellId> ids, const StayingCells& staying);
 

@@ -1,5 +1,5 @@
-// Cuts meshes to a box, or to what else is to stay.
-#include "index/export/mesh_parts.h"
+// Removes triangles and the vertices that no other triangle uses.
+#include "index/export/mesh_crop.h"
 
 #include <limits>
 

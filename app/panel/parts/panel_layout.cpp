@@ -1,0 +1,33 @@
+// Where the parts of the panel lie: bars above and below, the column of sections, the picture.
+#include "app/panel/parts/panel_layout.h"
+
+#include <algorithm>
+
+namespace isochron::app {
+namespace {
+
+constexpr float kTop = 36.0f, kTime = 52.0f, kTimeOfTwoRows = 84.0f;
+constexpr float kColumn = 300.0f, kIcons = 40.0f;
+constexpr float kFoldedBelow = 800.0f; ///< width of the picture's window
+constexpr float kOneRow = 560.0f;      ///< width of the bar of the time, at least
+/// Bar at the top of the panel in the room, by which a hand carries it.
+constexpr float kTitle = 24.0f;
+
+} // namespace
+
+PanelLayout layout_in(PanelPlace place, glm::vec2 size) {
+    PanelLayout layout;
+    layout.two_rows = size.x < kOneRow;
+    const bool over = place == PanelPlace::over;
+    layout.folded = over && size.x < kFoldedBelow;
+    const float above = place == PanelPlace::in_room ? kTitle : 0.0f;
+    const float below = std::max(above + kTop, size.y - (layout.two_rows ? kTimeOfTwoRows : kTime));
+    const float right = !over ? size.x : std::min(layout.folded ? kIcons : kColumn, size.x);
+    layout.top = {{0.0f, above}, {size.x, above + kTop}};
+    layout.time = {{0.0f, below}, size};
+    layout.column = {{0.0f, above + kTop}, {right, below}};
+    layout.picture = {{right, above + kTop}, {size.x, below}};
+    return layout;
+}
+
+} // namespace isochron::app

@@ -2,6 +2,7 @@
 #include "app/command_line/cancel.h"
 
 #include "index/reader/process_text.h"
+#include "index/reader/reader_pool.h"
 
 #include <array>
 #include <atomic>
@@ -16,12 +17,18 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t came = 0; // a signal handler can reach nothing else
-volatile pid_t sender = 0;           // who sent the signal that came
-pid_t launcher = 0;                  // leader of this process's group
-int living = 0;                      // living CancelOnSignal, one within the other
+std::atomic<int> came = 0; // the signal; a handler may write only what takes no lock
+static_assert(std::atomic<int>::is_always_lock_free);
+volatile pid_t sender = 0;   // who sent the signal that came
+pid_t launcher = 0;          // leader of this process's group
+std::atomic<int> living = 0; // objects of CancelOnSignal, one within the other
 std::atomic<const WakeOnSignal*> woken_by_signals = nullptr;
 static_assert(std::atomic<const WakeOnSignal*>::is_always_lock_free);
+
+void end_what_is_canceled() {
+    if (living > 0 && came != 0)
+        throw Canceled(came);
+}
 
 /// The parent of a process, or 0 where that cannot be read.
 pid_t parent_of(pid_t process) {
@@ -54,8 +61,9 @@ CancelOnSignal::CancelOnSignal() {
     if (living++ == 0) {
         came = 0;
         launcher = find_launcher(); // before the end of a shell between the two leaves no trace
+        index::readers_of_this_process().call_while_waiting(end_what_is_canceled);
     }
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_sigaction = note_signal;
     action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {

@@ -1,22 +1,23 @@
 // Ctrl-C ends long work at its next report of progress, so that the work can clean up.
 #pragma once
 
+#include "index/interrupted.h"
+
 #include <memory>
-#include <stdexcept>
 
 #include <csignal>
 
 namespace isochron::app {
 
 /// Thrown to end the work; `run_program` prints its line and returns `status`.
-class Canceled : public std::runtime_error {
+class Canceled : public index::Interrupted {
   public:
-    explicit Canceled(int signal) : std::runtime_error("canceled"), status(128 + signal) {}
+    explicit Canceled(int signal) : index::Interrupted("canceled"), status(128 + signal) {}
     int status; ///< 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed. One may live within
-/// another, on the same thread.
+/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of obeyed, and end every wait for a
+/// reader with Canceled. One may live within another, on the same thread.
 class CancelOnSignal {
   public:
     CancelOnSignal();

@@ -293,7 +293,7 @@ void add_build(Command& program) {
         "build ... spreads the work over N processes that\nshare a file system.");
     command.on_run([arguments, lattice, variation, command] {
         arguments->build.with_tree = lattice.given() || variation.given();
-        let_read_allowed(*arguments);
+        set_up_readers(*arguments);
         run_build(with_path_within(*arguments), command);
     });
 }

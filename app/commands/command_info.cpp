@@ -40,7 +40,7 @@ void describe_sources(BuildArguments arguments, bool in_json) {
 
 void run_info(const InfoArguments& given) {
     const BuildArguments arguments = with_path_within(given.sources);
-    let_read_allowed(arguments);
+    set_up_readers(arguments);
     const std::string& first = arguments.files.front();
     std::error_code ignored;
     const bool is_data = arguments.files.size() > 1 ||

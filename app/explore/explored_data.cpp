@@ -71,7 +71,7 @@ bool is_index_name(const std::vector<std::string>& files) {
 
 ExploreOptions with_index(ExploreOptions options) {
     options.sources = with_path_within(std::move(options.sources));
-    let_read_allowed(options.sources);
+    set_up_readers(options.sources);
     const std::vector<std::string>& files = options.sources.files;
     if (files.empty() || options.test_pattern)
         return options;

@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 #include <string_view>
@@ -245,8 +247,10 @@ std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOp
     return {};
 }
 
-void let_read_allowed(const BuildArguments& arguments) {
-    index::readers_of_this_process().let_read(arguments.allowed);
+void set_up_readers(const BuildArguments& arguments) {
+    index::ReaderPool& readers = index::readers_of_this_process();
+    readers.let_read(arguments.allowed);
+    readers.set_patience(std::chrono::milliseconds(std::lround(arguments.patience * 1000)));
 }
 
 void add_reading_options(Command& command, BuildArguments& arguments) {
@@ -347,6 +351,14 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .repeatable()
         .existing_folder()
         .type_name("FOLDER")
+        .group("Reading");
+    command
+        .option("--patience", arguments.patience,
+                "End a reader that does nothing for this many seconds, and a second more for each "
+                "megabyte of its file; time in which it waits for a local disk does not count")
+        .between(1, 86400)
+        .shows_default()
+        .type_name("SECONDS")
         .group("Reading");
     command.option("--time-unit", read.time_unit, "Unit of times, such as s").group("Reading");
     command.option("--value-unit", read.value_unit, "Unit of the values, such as K")

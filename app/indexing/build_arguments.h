@@ -14,6 +14,7 @@ namespace isochron::app {
 struct BuildArguments {
     std::vector<std::string> files;
     std::vector<std::filesystem::path> allowed; ///< folders that files may name, besides their own
+    double patience = 60;                       ///< [s] in which a reader may do nothing
     std::filesystem::path out;
     index::ReadOptions read;
     std::string type;
@@ -55,8 +56,9 @@ BuildArguments with_held(BuildArguments arguments, const index::IndexFile& held)
 /// Why an index cannot grow in place; empty if it can.
 std::string reason_to_rewrite(const index::IndexFile& held, const index::BuildOptions& options);
 
-/// Lets readers read the folders that the user allows. To be called before anything is read.
-void let_read_allowed(const BuildArguments& arguments);
+/// Lets readers read the folders that the user allows, for as long as the user's patience lasts. To
+/// be called before anything is read.
+void set_up_readers(const BuildArguments& arguments);
 
 /// Adds the options that say how files are read.
 void add_reading_options(Command& command, BuildArguments& arguments);

@@ -72,7 +72,7 @@ class FileFence {
         const int place = ::open(path, O_PATH | O_CLOEXEC);
         if (place < 0)
             return true;
-        struct stat status{};
+        struct stat status {};
         const bool there = ::fstat(place, &status) == 0;
         const PathRule rule{there && S_ISDIR(status.st_mode) ? kReadFile | kReadFolder
                                                              : std::uint64_t{kReadFile},
@@ -155,7 +155,7 @@ constexpr int kAllowed[]{
     // Messages of the program, which bring descriptors, and waiting for them.
     SCMP_SYS(recvmsg), SCMP_SYS(poll), SCMP_SYS(ppoll),
     // Memory of this process. What it shares with the program is meant to be written.
-    SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
+    SCMP_SYS(brk), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect),
     // Threads of this process wait for each other and start.
     SCMP_SYS(futex), SCMP_SYS(set_robust_list), SCMP_SYS(rseq), SCMP_SYS(sched_yield),
     SCMP_SYS(sched_getaffinity), SCMP_SYS(gettid), SCMP_SYS(getpid), SCMP_SYS(getppid),
@@ -179,10 +179,6 @@ constexpr int kAllowedOnDescriptors[]{F_GETFD, F_SETFD, F_GETFL, F_DUPFD, F_DUPF
 /// or cut holes into files (MADV_REMOVE).
 constexpr int kAllowedAdvice[]{MADV_NORMAL,   MADV_RANDOM, MADV_SEQUENTIAL, MADV_WILLNEED,
                                MADV_DONTNEED, MADV_FREE,   MADV_HUGEPAGE,   MADV_NOHUGEPAGE};
-
-/// Limits that each file sets anew (see ReaderBudget). Others hold for good, also for root: no file
-/// grows.
-constexpr int kOwnLimits[]{RLIMIT_DATA, RLIMIT_CPU};
 
 /// A list of calls in the making.
 class CallList {
@@ -242,12 +238,11 @@ bool refuse_all_other_calls() {
     // A lock makes other programs wait or fail. Libraries hear that they have it; whether another
     // program writes the file is for the program to find out (see ReaderProcess).
     calls.answer(SCMP_SYS(flock), 0);
-    // Limits only of this process: a limit of time ends any other process of the user.
-    for (const int limit : kOwnLimits) {
-        calls.allow(SCMP_SYS(setrlimit), SCMP_A0(SCMP_CMP_EQ, datum(limit)));
-        calls.allow(SCMP_SYS(prlimit64), SCMP_A0(SCMP_CMP_EQ, 0),
-                    SCMP_A1(SCMP_CMP_EQ, datum(limit)));
-    }
+    // Memory that processes share counts against no limit: only what the program sends is mapped so.
+    constexpr scmp_datum_t kShared = MAP_SHARED, kOfNoFile = MAP_ANONYMOUS;
+    for (const scmp_datum_t kind : {scmp_datum_t{0}, kShared, kOfNoFile})
+        calls.allow(SCMP_SYS(mmap), SCMP_A3(SCMP_CMP_MASKED_EQ, kShared | kOfNoFile, kind));
+    // Limits are read only: the program sets them from outside (see ReaderBudget).
     calls.allow(SCMP_SYS(prlimit64), SCMP_A0(SCMP_CMP_EQ, 0), SCMP_A2(SCMP_CMP_EQ, 0));
     // Signals only to this process, as abort() sends.
     calls.allow(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, datum(::getpid())));
@@ -271,7 +266,7 @@ bool refuse_all_other_calls() {
 
 bool fence_in(std::span<const std::filesystem::path> readable) {
     bool good = ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
-    const struct rlimit none{};
+    const struct rlimit none {};
     for (const auto resource : {RLIMIT_CORE, RLIMIT_FSIZE})
         good &= ::setrlimit(resource, &none) == 0;
     good &= hide_files(readable);

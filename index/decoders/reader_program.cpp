@@ -3,7 +3,6 @@
 
 #include "index/decoders/denied_files.h"
 #include "index/decoders/fence.h"
-#include "index/decoders/reader_limits.h"
 #include "index/error.h"
 #include "index/reader/reader_start.h"
 
@@ -28,7 +27,7 @@ bool nobody_is_there() {
 
 /// Ends this process as soon as the program closes the socket, even while a library is at work.
 void end_with_the_program() {
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = [](int) {
         if (nobody_is_there())
             ::_exit(0);
@@ -55,7 +54,6 @@ bool fence_in_as_told(MessageSocket& socket) {
     if (!told)
         ::_exit(0);
     const LeftReadable readable = readable_from(told->bytes);
-    hold_sources_of_limits();
     return kReaderIsWatched || fence_in(readable.places);
 }
 

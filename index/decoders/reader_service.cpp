@@ -1,12 +1,13 @@
 // Opens, describes and decodes files on request.
 #include "index/decoders/reader_service.h"
 
-#include "index/decoders/reader_limits.h"
 #include "index/error.h"
 #include "index/reader/readable_places.h"
 #include "index/system/shared_memory.h"
 
 #include <fmt/format.h>
+
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cctype>
@@ -33,14 +34,13 @@ class Service {
     std::optional<ReaderReply> answer_to(const OpenFile& open) {
         files_.erase(open.number);
         path_ = open.path;
-        limits_.emplace(open.path, open.most_memory);
         const auto decoder = std::ranges::find(decoders_, open.format, &Decoder::format);
         if (decoder == decoders_.end())
             throw Error("asked for a format of another reader");
         return attempt([&]() -> ReaderReply {
             auto file = decoder->open(open.path, open.options);
-            limits_->expect(file->decoded_bytes());
-            Described described{file->info(), file->steps(), file->slices_at_once()};
+            Described described{file->info(), file->steps(), file->slices_at_once(),
+                                file->decoded_bytes()};
             files_[open.number] = std::move(file);
             return described;
         });
@@ -66,7 +66,6 @@ class Service {
             std::uint64_t{slab.slices.first} + slab.slices.count > grid.vertices[2] ||
             slab.offset > shared.size() || bytes > shared.size() - slab.offset)
             throw Error("asked for a slab that there is not, or to where there is no memory");
-        limits_->renew_time();
         return attempt([&]() -> ReaderReply {
             file.read(slab.step, slab.slices, shared.subspan(slab.offset, bytes));
             return SlabRead{};
@@ -76,18 +75,14 @@ class Service {
     std::optional<ReaderReply> answer_to(const ReadCollection& collection) {
         files_.clear();
         path_ = collection.path;
-        limits_.emplace(collection.path, 0);
         if (!collection_)
             throw Error("asked for a collection, which are for another reader");
         return attempt([&]() -> ReaderReply { return Collected{collection_(collection.path)}; });
     }
 
     std::optional<ReaderReply> answer_to(const ReadPicture& asked) {
-        constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30; // [bytes] of its pixels
         path_ = asked.path;
         pixels_.clear();
-        limits_.emplace(asked.path, 0);
-        limits_->expect(kLargestPicture);
         if (!picture_)
             throw Error("asked for a picture, which are for another reader");
         return attempt([&]() -> ReaderReply {
@@ -127,8 +122,11 @@ class Service {
         } catch (const Error& error) {
             return Refused{in_one_line(error.what())};
         } catch (const std::bad_alloc&) {
-            return Refused{fmt::format("{}: cannot be read: out of memory ({})", path_.string(),
-                                       limits_->text())};
+            struct rlimit limit {};
+            ::getrlimit(RLIMIT_DATA, &limit);
+            return Refused{fmt::format("{}: cannot be read: out of memory (at most {:.1f} GB for "
+                                       "its reader)",
+                                       path_.string(), static_cast<double>(limit.rlim_cur) / 1e9)};
         } catch (const std::exception& other) {
             return Refused{
                 in_one_line(fmt::format("{}: cannot be read: {}", path_.string(), other.what()))};
@@ -141,7 +139,6 @@ class Service {
     TakeDenied denied_;
     std::filesystem::path path_; ///< the last file that was requested
     std::map<std::uint64_t, std::unique_ptr<DecodedFile>> files_; ///< by number
-    std::optional<ReaderBudget> limits_;                          ///< limits of that file
     std::unique_ptr<SharedMemory> memory_;
     std::vector<std::uint8_t> pixels_; ///< pixels of the last picture
     Descriptor attached_;
@@ -157,7 +154,8 @@ std::uint32_t slices_worth_asking(const SeriesInfo& info) {
 }
 
 std::string in_one_line(std::string message) {
-    std::ranges::replace_if(message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    std::ranges::replace_if(
+        message, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     return message;
 }
 

@@ -61,8 +61,7 @@ class ForeignFile final : public VolumeFile {
                 const ReadOptions& options)
         : name_(path.string()), open_{.format = std::string(format.name),
                                       .path = path,
-                                      .options = options,
-                                      .most_memory = readers.limits().memory},
+                                      .options = options},
           lease_(readers, program_of(format.reader), path, format.decodes_all_arrays) {
         readers.let_read(place_of(format, path));
         readers.let_read(options.slices);
@@ -146,7 +145,7 @@ class ForeignFile final : public VolumeFile {
             } catch (const ReaderEnded&) {
                 throw;
             } catch (...) {
-                for (; replied < asked; ++replied)
+                for (; replied < asked && lease_.reader().answers(); ++replied)
                     lease_.reader().reply();
                 throw;
             }

@@ -42,7 +42,7 @@ void LentReader::close(std::uint64_t file) {
     try {
         reader->ask(CloseFile{file});
         reader->reply();
-    } catch (const Error&) { // it has gone
+    } catch (...) { // it has gone, or is no longer waited for
         let_go();
     }
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <sstream>
 #include <string>
 
@@ -30,15 +32,18 @@ std::optional<ProcessSigns> signs_of(pid_t process) {
     std::istringstream fields(stat.substr(name_end + 1));
     char state = 0;
     std::int64_t skipped = 0;
-    std::uint64_t minor = 0, major = 0;
+    std::uint64_t minor = 0, major = 0, user = 0, system = 0; // the last two in clock ticks
     fields >> state;
     for (int field = 4; field < 10; ++field)
         fields >> skipped;
-    fields >> minor >> skipped >> major;
+    fields >> minor >> skipped >> major >> skipped >> user >> system;
     if (!fields)
         return std::nullopt;
     signs.touched = minor + major;
+    signs.worked = std::chrono::milliseconds((user + system) * 1000 /
+                                             static_cast<std::uint64_t>(::sysconf(_SC_CLK_TCK)));
     signs.waits_for_disk = state == 'D';
+    signs.runs = state == 'R';
     return signs;
 }
 

@@ -1,6 +1,7 @@
 // What the system tells about another process, to see whether it still makes progress.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
@@ -11,7 +12,8 @@ namespace isochron::index {
 struct ProcessSigns {
     std::uint64_t read = 0;    ///< [bytes] by read calls
     std::uint64_t touched = 0; ///< page faults: pages that it has touched for the first time
-    bool waits_for_disk = false;
+    std::chrono::milliseconds worked{0};       ///< processor time of all its threads
+    bool waits_for_disk = false, runs = false; ///< `runs`: has a processor, or waits for one
 };
 
 /// None if the system does not tell.

@@ -48,7 +48,7 @@ void each_field(auto& bytes, Of<ReadOptions> auto& options) {
 }
 
 void each_field(auto& bytes, Of<OpenFile> auto& open) {
-    bytes(open.format, open.path, open.most_memory, open.number);
+    bytes(open.format, open.path, open.number);
     each_field(bytes, open.options);
 }
 void each_field(auto& bytes, Of<UseMemory> auto& use) {
@@ -73,7 +73,7 @@ void each_field(auto& bytes, Of<Ready> auto& ready) {
     bytes(ready.version);
 }
 void each_field(auto& bytes, Of<Described> auto& described) {
-    bytes(described.steps, described.slices_at_once);
+    bytes(described.steps, described.slices_at_once, described.decoded_bytes);
     each_field(bytes, described.info);
 }
 void each_field(auto&, Of<SlabRead> auto&) {}

@@ -34,8 +34,7 @@ struct OpenFile {
     std::string format; ///< its name, see `Format`
     std::filesystem::path path;
     ReadOptions options;
-    std::uint64_t most_memory = 0; ///< [bytes] that decoding may take; 0: what is free
-    std::uint64_t number = 0;      ///< number by which later requests name it
+    std::uint64_t number = 0; ///< number by which later requests name it
 };
 /// Sets the shared memory into which values go from now on; its descriptor is attached. Not
 /// answered.
@@ -86,6 +85,7 @@ struct Described {
     SeriesInfo info;
     std::uint64_t steps = 0;
     std::uint32_t slices_at_once = 0; ///< best number for one request; the last may have fewer
+    std::uint64_t decoded_bytes = 0;  ///< of a step in the library's memory
 };
 struct SlabRead {};
 struct Collected {

@@ -55,12 +55,19 @@ std::unique_ptr<ReaderProcess> ReaderPool::take(const std::string& program) {
 std::unique_ptr<ReaderProcess> ReaderPool::take_new(const std::string& program) const {
     LeftReadable readable;
     std::uint64_t age = 0;
+    ReaderLimits limits;
     {
         const std::lock_guard lock(mutex_);
         readable.places = readable_.all();
         age = readable_.age();
+        limits = limits_;
     }
-    return std::make_unique<ReaderProcess>(program, limits_, readable, age);
+    return std::make_unique<ReaderProcess>(program, limits, readable, age, waiting_);
+}
+
+void ReaderPool::set_patience(std::chrono::milliseconds patience) {
+    const std::lock_guard lock(mutex_);
+    limits_.patience = patience;
 }
 
 void ReaderPool::give_back(std::unique_ptr<ReaderProcess> reader) {

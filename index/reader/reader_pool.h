@@ -4,6 +4,8 @@
 #include "index/reader/readable_places.h"
 #include "index/reader/reader_process.h"
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -18,7 +20,10 @@ class ReaderPool {
   public:
     explicit ReaderPool(ReaderLimits limits = {}) : limits_(limits) {}
 
-    const ReaderLimits& limits() const { return limits_; }
+    /// How long readers that are taken from now on may be silent, see ReaderLimits.
+    void set_patience(std::chrono::milliseconds patience);
+    /// What is called from now on while a thread waits for a reader that is taken then.
+    void call_while_waiting(WhileWaiting waiting) { waiting_ = waiting; }
 
     /// From now on readers that are taken can read this file and all that is in its folder; where
     /// it is a folder, all that is in it. Where it is a symbolic link, also what it leads to.
@@ -37,8 +42,9 @@ class ReaderPool {
     void give_back(std::unique_ptr<ReaderProcess> reader);
 
   private:
-    ReaderLimits limits_;
     mutable std::mutex mutex_;
+    ReaderLimits limits_;
+    std::atomic<WhileWaiting> waiting_ = nullptr;
     ReadablePlaces readable_;
     std::vector<std::unique_ptr<ReaderProcess>> idle_;
 };

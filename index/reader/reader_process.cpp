@@ -98,9 +98,9 @@ std::string text_of_end(int status) {
 } // namespace
 
 ReaderProcess::ReaderProcess(std::string program, ReaderLimits limits, const LeftReadable& readable,
-                             std::uint64_t readable_age)
+                             std::uint64_t readable_age, WhileWaiting waiting)
     : program_(std::move(program)), limits_(limits), readable_age_(readable_age),
-      parent_(::getpid()) {
+      parent_(::getpid()), waiting_(waiting) {
     const std::string file = file_of_program(program_).string();
     auto [ours, theirs] = MessageSocket::pair();
     const SpawnSetup setup(theirs.number());
@@ -133,7 +133,20 @@ void ReaderProcess::ask(const ReaderRequest& request) {
     if (std::holds_alternative<OpenFile>(request) ||
         std::holds_alternative<ReadCollection>(request))
         ++files_;
+    limit(request);
     send(request);
+}
+
+void ReaderProcess::limit(const ReaderRequest& request) {
+    constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30; // [bytes] of its pixels
+    if (const auto* open = std::get_if<OpenFile>(&request))
+        budget_.emplace(process_, open->path, limits_.memory);
+    else if (const auto* listed = std::get_if<ReadCollection>(&request))
+        budget_.emplace(process_, listed->path, limits_.memory);
+    else if (const auto* picture = std::get_if<ReadPicture>(&request))
+        budget_.emplace(process_, picture->path, limits_.memory).expect(kLargestPicture);
+    else if (budget_)
+        budget_->renew_time();
 }
 
 void ReaderProcess::send(const ReaderRequest& request, int attached) {
@@ -155,30 +168,31 @@ ReaderReply ReaderProcess::reply() {
 }
 
 ReaderReply ReaderProcess::next_reply() {
-    silence_ = {};
+    watch_.begin(limits_.patience, budget_ ? budget_->time_of_bytes() : std::chrono::seconds{0});
     try {
-        const auto message = socket_->receive([this] { watch(); });
-        if (message)
-            return reply_from(message->bytes);
+        const auto message = socket_->receive([this] { look(); });
+        if (message) {
+            ReaderReply reply = reply_from(message->bytes);
+            if (const auto* described = std::get_if<Described>(&reply); described && budget_)
+                budget_->expect(described->decoded_bytes);
+            return reply;
+        }
     } catch (const ReaderEnded&) {
         throw;
     } catch (const Error& error) {
         fail(fmt::format("its reader sent {}", error.what()));
+    } catch (...) { // from `waiting_`: the reply will not be waited for
+        kill();
+        throw;
     }
     fail_as_it_ended();
 }
 
-// Called every `kAwait`: each call counts as `kAwait`, so that time in which this process itself
-// was stopped does not count.
-void ReaderProcess::watch() {
-    const auto now = signs_of(process_);
-    const bool alive = now && (!signs_ || now->waits_for_disk || now->read != signs_->read ||
-                               now->touched != signs_->touched);
-    signs_ = now;
-    silence_ = alive ? std::chrono::milliseconds{0} : silence_ + MessageSocket::kAwait;
-    if (silence_ >= limits_.patience)
-        fail(fmt::format("its reader made no progress for {} s and was stopped",
-                         static_cast<double>(limits_.patience.count()) / 1000));
+void ReaderProcess::look() {
+    if (waiting_)
+        waiting_();
+    if (const auto why = watch_.look(signs_of(process_)))
+        fail(*why);
 }
 
 std::span<std::byte> ReaderProcess::memory(std::size_t bytes) {
@@ -194,8 +208,13 @@ std::span<std::byte> ReaderProcess::memory(std::size_t bytes) {
     return memory_->bytes();
 }
 
-void ReaderProcess::fail(const std::string& why) {
+void ReaderProcess::kill() {
     ::kill(process_, SIGKILL);
+    killed_ = true;
+}
+
+void ReaderProcess::fail(const std::string& why) {
+    kill();
     throw ReaderEnded(why, ReaderEnded::How::by_our_hand);
 }
 

@@ -6,8 +6,9 @@
 
 #include "index/error.h"
 #include "index/reader/message_socket.h"
-#include "index/reader/process_signs.h"
+#include "index/reader/reader_budget.h"
 #include "index/reader/reader_messages.h"
+#include "index/reader/reader_watch.h"
 #include "index/system/shared_memory.h"
 
 #include <chrono>
@@ -22,10 +23,15 @@ namespace isochron::index {
 
 struct ReaderLimits {
     std::uint64_t memory = 0; ///< [bytes] that decoding a file may take; 0: what was free
-    /// How long a reader may neither read nor touch new memory. Time in which it waits for a disk
-    /// does not count, so that a slow disk is no failure.
+    /// How long a reader may neither read nor touch new memory; and, with a second more for each
+    /// megabyte of its file, how long it may do nothing at all during one request. Time in which it
+    /// waits for a disk does not count, so that a slow disk is no failure.
     std::chrono::milliseconds patience{60'000};
 };
+
+/// Called every 100 ms on the thread that waits for a reader; what it throws ends the wait, and the
+/// reader. Null: nothing is called.
+using WhileWaiting = void (*)();
 
 /// A reader has ended. The message names the file that it had open and says how the reader ended.
 class ReaderEnded : public Error {
@@ -46,7 +52,7 @@ class ReaderProcess {
     /// @param readable_age of these places, see ReadablePlaces
     /// @throws Error when it cannot be started
     ReaderProcess(std::string program, ReaderLimits limits, const LeftReadable& readable,
-                  std::uint64_t readable_age);
+                  std::uint64_t readable_age, WhileWaiting waiting = nullptr);
     ~ReaderProcess();
     ReaderProcess(const ReaderProcess&) = delete;
     ReaderProcess& operator=(const ReaderProcess&) = delete;
@@ -56,6 +62,8 @@ class ReaderProcess {
     /// Whether this process has started it. A fork of that process must not use it, nor end it: it
     /// shares the socket.
     bool is_ours() const;
+    /// Whether it can still be asked something.
+    bool answers() const { return process_ >= 0 && !killed_; }
     /// Number of files that it has been asked to open or to list.
     unsigned files() const { return files_; }
 
@@ -73,7 +81,9 @@ class ReaderProcess {
   private:
     void send(const ReaderRequest& request, int attached = -1);
     ReaderReply next_reply();
-    void watch();
+    void limit(const ReaderRequest& request);
+    void look();
+    void kill();
     [[noreturn]] void fail(const std::string& why);
     [[noreturn]] void fail_as_it_ended();
 
@@ -82,11 +92,12 @@ class ReaderProcess {
     std::uint64_t readable_age_;
     pid_t process_ = -1, parent_;
     std::optional<MessageSocket> socket_;
-    bool ready_ = false;
+    WhileWaiting waiting_;
+    bool ready_ = false, killed_ = false;
     unsigned files_ = 0;
     std::unique_ptr<SharedMemory> memory_;
-    std::chrono::milliseconds silence_{0}; ///< time since it last made progress
-    std::optional<ProcessSigns> signs_;
+    std::optional<ReaderBudget> budget_; ///< for the file that was opened last
+    ReaderWatch watch_;
 };
 
 } // namespace isochron::index

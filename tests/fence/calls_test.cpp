@@ -45,15 +45,14 @@ using test_support::TestFolder;
 const std::set<std::string_view> kUsable{
     "read", "pread64", "readv", "preadv", "lseek", "close", "dup", "getdents64", "write", "writev",
     "stat", "fstat", "lstat", "newfstatat", "statx", "statfs", "fstatfs", "access", "faccessat",
-    "faccessat2", "readlink", "readlinkat", "getcwd", "recvmsg", "poll", "ppoll", "brk", "mmap",
-    "munmap", "mremap", "mprotect", "futex", "set_robust_list", "rseq", "sched_yield",
-    "sched_getaffinity", "gettid", "getpid", "getppid", "arch_prctl", "exit", "exit_group",
-    "rt_sigaction", "rt_sigprocmask", "rt_sigreturn", "sigaltstack", "restart_syscall",
-    "clock_gettime", "clock_getres", "clock_nanosleep", "nanosleep", "gettimeofday", "time",
-    "times", "getrlimit", "getrusage", "uname", "sysinfo", "getrandom", "getuid", "geteuid",
-    "getgid", "getegid",
+    "faccessat2", "readlink", "readlinkat", "getcwd", "recvmsg", "poll", "ppoll", "brk", "munmap",
+    "mremap", "mprotect", "futex", "set_robust_list", "rseq", "sched_yield", "sched_getaffinity",
+    "gettid", "getpid", "getppid", "arch_prctl", "exit", "exit_group", "rt_sigaction",
+    "rt_sigprocmask", "rt_sigreturn", "sigaltstack", "restart_syscall", "clock_gettime",
+    "clock_getres", "clock_nanosleep", "nanosleep", "gettimeofday", "time", "times", "getrlimit",
+    "getrusage", "uname", "sysinfo", "getrandom", "getuid", "geteuid", "getgid", "getegid",
     // With some arguments only; the tests below have those.
-    "open", "openat", "sendto", "fcntl", "madvise", "setrlimit", "prlimit64", "tgkill", "clone"};
+    "open", "openat", "sendto", "fcntl", "madvise", "mmap", "prlimit64", "tgkill", "clone"};
 
 /// The calls that are answered without being made.
 const std::map<std::string_view, int> kAnswered{{"flock", 0}, {"clone3", ENOSYS}};
@@ -182,7 +181,7 @@ TEST_F(FencedArguments, OfDescriptorsReachNobodyElse) {
                   {},
                   [&] {
                       const f_owner_ex owner{F_OWNER_PID, ::getppid()};
-                      struct flock lock{};
+                      struct flock lock {};
                       lock.l_type = F_RDLCK;
                       int on = 1;
                       return false_of({
@@ -209,9 +208,11 @@ TEST_F(FencedArguments, OfDescriptorsReachNobodyElse) {
 
 // The answer is that it is locked, and yet another can lock it.
 TEST_F(FencedArguments, OfLocksHoldNobodyUp) {
-    EXPECT_EQ(
-        surprises_inside({}, [&] { return false_of({{"flock", ::flock(open_, LOCK_EX) == 0}}); }),
-        "");
+    EXPECT_EQ(surprises_inside({},
+                               [&] {
+                                   return false_of({{"flock", ::flock(open_, LOCK_EX) == 0}});
+                               }),
+              "");
     // A lock of the child would be one of the same open file: this is another.
     const int again = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
     EXPECT_EQ(surprises_inside({}, [&] { return ::flock(open_, LOCK_EX) == 0 ? "" : "no"; }), "");
@@ -224,7 +225,7 @@ TEST_F(FencedArguments, OfLimitsAndSignalsAreForThisProcess) {
         surprises_inside(
             {},
             [&] {
-                struct rlimit limit{};
+                struct rlimit limit {};
                 std::string lines = false_of({
                     {"read", ::prlimit(0, RLIMIT_NOFILE, nullptr, &limit) == 0},
                     {"no other process's",
@@ -240,13 +241,37 @@ TEST_F(FencedArguments, OfLimitsAndSignalsAreForThisProcess) {
                      refused(::syscall(SYS_rt_sigqueueinfo, ::getppid(), SIGUSR1, nullptr))},
                     {"to itself", ::syscall(SYS_tgkill, ::getpid(), ::gettid(), 0) == 0},
                 });
-                for (const auto resource : {RLIMIT_DATA, RLIMIT_CPU}) {
+                for (const auto resource : {RLIMIT_DATA, RLIMIT_CPU, RLIMIT_AS}) {
                     ::getrlimit(resource, &limit);
-                    lines += false_of({{"own limits", ::setrlimit(resource, &limit) == 0}});
+                    lines += false_of(
+                        {{"no limit of its own", refused(::prlimit(0, resource, &limit, nullptr))},
+                         {"none by the older call",
+                          refused(::syscall(SYS_setrlimit, resource, &limit))}});
                 }
                 return lines;
             }),
         "");
+}
+
+// Private memory counts against the limit that the program has set; shared memory would not.
+TEST_F(FencedArguments, OfMemoryShareNoneThatBelongsToNoFile) {
+    EXPECT_EQ(surprises_inside(
+                  {},
+                  [&] {
+                      const auto mapped = [&](int flags, int file) {
+                          void* const at = ::mmap(nullptr, 4096, PROT_READ, flags, file, 0);
+                          return at == MAP_FAILED ? -1L : 0L;
+                      };
+                      return false_of({
+                          {"memory", mapped(MAP_PRIVATE | MAP_ANONYMOUS, -1) == 0},
+                          {"a file", mapped(MAP_PRIVATE, open_) == 0},
+                          {"a shared file", mapped(MAP_SHARED, open_) == 0},
+                          {"no shared memory", refused(mapped(MAP_SHARED | MAP_ANONYMOUS, -1))},
+                          {"nor checked", refused(mapped(MAP_SHARED_VALIDATE | MAP_ANONYMOUS, -1))},
+                          {"no file of memory", refused(::syscall(SYS_memfd_create, "m", 0))},
+                      });
+                  }),
+              "");
 }
 
 TEST_F(FencedArguments, OfCloneMakeThreadsOnly) {
@@ -302,10 +327,10 @@ TEST_F(FencedArguments, OfReadingTimeAndThreadsDoWhatTheyAreFor) {
                   [&] {
                       std::array<char, 256> bytes{};
                       iovec part{bytes.data(), 4};
-                      struct stat status{};
+                      struct stat status {};
                       timespec time{0, 1};
-                      struct utsname machine{};
-                      struct rusage usage{};
+                      struct utsname machine {};
+                      struct rusage usage {};
                       cpu_set_t processors{};
                       const int folder = ::open(folder_().path().c_str(), O_RDONLY | O_DIRECTORY);
                       const int null = ::open("/dev/null", O_RDONLY);

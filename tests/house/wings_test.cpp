@@ -39,7 +39,7 @@ const std::map<std::string, Steps> kOrder{
       {"thi", "scan", "formats"},
       {"reader"},
       {"volume", "system"},
-      {"error", "lower_case", "progress", "shell_word", "utf8"}}},
+      {"error", "interrupted", "lower_case", "progress", "shell_word", "utf8"}}},
     {"interaction",
      {{"trackers", "recording"}, {"controls"}, {"tools"}, {"navigation"}, {"input"}, {"."}}},
     {"render", {{"drawing"}, {"culling"}, {"cells", "passes"}, {"gl"}}},

@@ -1,6 +1,8 @@
 // A series of files: checks them against the first, and sets their times.
 #include "index/formats/series/file_series.h"
 
+#include "index/interrupted.h"
+
 #include "index/error.h"
 #include "index/formats/converted_file.h"
 #include "index/formats/series/missing_numbers.h"
@@ -54,6 +56,8 @@ auto named(const std::filesystem::path& file, Work&& work) {
     try {
         return work();
     } catch (const Error&) {
+        throw;
+    } catch (const Interrupted&) {
         throw;
     } catch (const std::bad_alloc&) {
         throw Error(fmt::format("{}: there is not enough memory to read it", file.string()));

@@ -27,7 +27,7 @@ class ReaderWatch {
   private:
     Duration patience_{0}, of_bytes_{0};
     Duration silent_{0}; ///< since it last read, touched new memory or waited for a disk
-    Duration asleep_{0}; ///< of this request, in which it neither ran nor waited for a disk
+    Duration asleep_{0}; ///< time of this request in which the reader neither ran nor waited for a disk
     std::optional<ProcessSigns> last_;
 };
 

@@ -2,7 +2,7 @@
 #include "app/command_line/subcommands.h"
 #include "app/output/leftover_files.h"
 #include "commit.h"
-#include "index/reader/file_fence.h"
+#include "index/readers/process/file_fence.h"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 #include "stereo/image_file.h"
 
 #include "index/error.h"
-#include "index/reader/reader_pool.h"
+#include "index/readers/process/reader_pool.h"
 #include "index/system/memory_limit.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"

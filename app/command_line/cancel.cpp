@@ -1,8 +1,8 @@
 // Ctrl-C ends long work at its next report of progress.
 #include "app/command_line/cancel.h"
 
-#include "index/reader/process_text.h"
-#include "index/reader/reader_pool.h"
+#include "index/readers/process/process_text.h"
+#include "index/readers/process/reader_pool.h"
 
 #include <array>
 #include <atomic>

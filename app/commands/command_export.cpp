@@ -13,7 +13,7 @@
 #include "index/error.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"
-#include "index/formats/length_units.h"
+#include "index/readers/formats/length_units.h"
 #include "index/system/memory_limit.h"
 #include "index/system/new_file.h"
 #include "render/passes/color_map.h"
@@ -48,7 +48,7 @@ struct ExportArguments {
 };
 
 /// @param has what the formats have; null: all formats
-std::vector<std::string> format_names(bool index::SurfaceFormat::* has = nullptr) {
+std::vector<std::string> format_names(bool index::SurfaceFormat::*has = nullptr) {
     std::vector<std::string> names;
     for (const index::SurfaceFormat& format : index::surface_formats())
         if (!has || format.*has)
@@ -163,7 +163,7 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
     struct Need {
         const char* option;
         bool given;
-        bool index::SurfaceFormat::* held;
+        bool index::SurfaceFormat::*held;
     };
     for (const Need& need :
          {Need{"--precision double", arguments.precision == "double",

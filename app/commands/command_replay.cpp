@@ -4,10 +4,10 @@
 #include "app/explore/cluster_job.h"
 #include "app/explore/control_options.h"
 #include "app/explore/replay_source.h"
+#include "app/kept/recording_file.h"
+#include "app/loop/pattern_show.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
-#include "app/session/kept/recording_file.h"
-#include "app/session/pattern_show.h"
 #include "app/text.h"
 #include "index/system/new_file.h"
 

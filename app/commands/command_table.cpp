@@ -1,9 +1,9 @@
 // `isochron table`: what a session marked, or how long its frames took, as a table.
 #include "app/command_line/subcommands.h"
+#include "app/kept/recording_file.h"
+#include "app/kept/session_file.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/known_files.h"
-#include "app/session/kept/recording_file.h"
-#include "app/session/kept/session_file.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"

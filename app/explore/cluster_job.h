@@ -10,8 +10,8 @@
 // A process that was started without mpirun is a job of one: then nothing here has an effect.
 #pragma once
 
-#include "app/session/pattern_show.h"
-#include "app/session/replay.h"
+#include "app/loop/pattern_show.h"
+#include "app/loop/replay.h"
 #include "app/session/session.h"
 #include "stereo/cluster.h"
 

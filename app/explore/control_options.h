@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/command_line/command_line.h"
-#include "app/session/session_control.h"
+#include "app/loop/session_control.h"
 
 #include <memory>
 #include <optional>

@@ -5,8 +5,8 @@
 #include "app/explore/loading.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
-#include "app/session/data_window.h"
-#include "app/session/kept/user_memory.h"
+#include "app/kept/user_memory.h"
+#include "app/loop/data_window.h"
 #include "index/file/index_series.h"
 #include "index/system/user_folders.h"
 

@@ -1,7 +1,7 @@
 // Saving and resuming of the session of `explore`.
 #include "app/explore/kept_session.h"
 
-#include "app/session/kept/session_keeper.h"
+#include "app/loop/session_keeper.h"
 #include "app/text.h"
 #include "app/version.h"
 #include "index/file/index_states.h"

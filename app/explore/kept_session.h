@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/explore/explore_options.h"
-#include "app/session/kept/earlier_sessions.h"
-#include "app/session/kept/session_file.h"
-#include "app/session/live_loop.h"
+#include "app/kept/earlier_sessions.h"
+#include "app/kept/session_file.h"
+#include "app/loop/live_loop.h"
 
 #include <filesystem>
 #include <optional>

@@ -3,9 +3,9 @@
 
 #include "app/explore/explore_options.h"
 #include "app/frame/background_work.h"
-#include "app/session/kept/user_memory.h"
-#include "app/session/live_loop.h"
-#include "app/session/movie_maker.h"
+#include "app/kept/user_memory.h"
+#include "app/loop/live_loop.h"
+#include "app/loop/movie_maker.h"
 
 #include <filesystem>
 #include <string>

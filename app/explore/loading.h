@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/config/config.h"
-#include "app/session/data_window.h"
-#include "app/session/page_window.h"
+#include "app/loop/data_window.h"
+#include "app/loop/page_window.h"
 #include "index/file/index_file.h"
 #include "interaction/input/window_event.h"
 #include "stereo/windows.h"

@@ -5,7 +5,7 @@
 #include "app/config/tracker_setup.h"
 #include "app/explore/explore_start.h"
 #include "app/explore/live_setup.h"
-#include "app/session/live_loop.h"
+#include "app/loop/live_loop.h"
 
 #include <optional>
 #include <string>

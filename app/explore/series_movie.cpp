@@ -5,8 +5,8 @@
 #include "app/command_line/step_range.h"
 #include "app/config/first_placement.h"
 #include "app/explore/explore_start.h"
-#include "app/session/movie_maker.h"
-#include "app/session/replay.h"
+#include "app/loop/movie_maker.h"
+#include "app/loop/replay.h"
 #include "app/version.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "app/generate/demo_series.h"
 
 #include "index/error.h"
-#include "index/formats/series/series_writer.h"
+#include "index/readers/formats/series/series_writer.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 

@@ -4,8 +4,8 @@
 #include "app/command_line/step_range.h"
 #include "app/indexing/file_patterns.h"
 #include "index/file/index_file.h"
-#include "index/formats/series/resampled_series.h"
-#include "index/reader/reader_pool.h"
+#include "index/readers/formats/series/resampled_series.h"
+#include "index/readers/process/reader_pool.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #include "app/indexing/open_index.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
-#include "index/formats/series/opening.h"
 #include "index/indexing/appended_series.h"
+#include "index/readers/formats/series/opening.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,7 +5,7 @@
 #include "app/version.h"
 #include "index/export/mesh_crop.h"
 #include "index/file/color_source.h"
-#include "index/formats/length_units.h"
+#include "index/readers/formats/length_units.h"
 #include "interaction/step_track.h"
 #include "render/gl/srgb.h"
 

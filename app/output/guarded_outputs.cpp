@@ -4,8 +4,8 @@
 #include "app/output/known_files.h"
 #include "app/output/movie_file.h"
 #include "index/error.h"
-#include "index/formats/format.h"
-#include "index/formats/series/file_series.h"
+#include "index/readers/formats/format.h"
+#include "index/readers/formats/series/file_series.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 

@@ -3,8 +3,8 @@
 
 #include "app/config/series_names.h"
 #include "app/text.h"
-#include "index/formats/format.h"
 #include "index/lower_case.h"
+#include "index/readers/formats/format.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ bool is_readable(const std::string& name, bool folder) {
 
 ListedFile line_of(const fs::path& path, std::string name) {
     ListedFile line{.kind = Kind::file, .name = std::move(name), .path = path, .bytes = {}};
-    struct stat facts{};
+    struct stat facts {};
     if (stat(path.c_str(), &facts) != 0)
         return line;
     line.changed = facts.st_mtime;

@@ -2,7 +2,7 @@
 #include "app/panel/file_window.h"
 
 #include "app/config/series_names.h"
-#include "app/panel/number_entry.h"
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"

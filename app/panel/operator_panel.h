@@ -1,8 +1,8 @@
 // The operator's panel: over the first window, or alone in a window of its own.
 #pragma once
 
+#include "app/panel/imgui/panel_layer.h"
 #include "app/panel/operator_window.h"
-#include "app/panel/panel_layer.h"
 #include "stereo/windows.h"
 
 #include <functional>

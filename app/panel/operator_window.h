@@ -1,7 +1,7 @@
 // The operator's window: shows only the panel, beside the windows that viewers see.
 #pragma once
 
-#include "app/panel/panel_layer.h"
+#include "app/panel/imgui/panel_layer.h"
 #include "render/gl/render_target.h"
 #include "stereo/presenter.h"
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "app/config/config.h"
-#include "app/panel/panel_layer.h"
+#include "app/panel/imgui/panel_layer.h"
 #include "app/scene/shown_panel.h"
 #include "interaction/controls/panel_pointer.h"
 #include "render/passes/panel_picture.h"

@@ -8,7 +8,7 @@
 #include "app/scene/look.h"
 #include "app/scene/orientation.h"
 #include "app/scene/overlay_colors.h"
-#include "app/scene/warm_up/small_surface.h"
+#include "app/scene/small_surface.h"
 #include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
 #include "render/gl/shader.h"

@@ -11,7 +11,7 @@
 #include "app/scene/cells_picture.h"
 #include "app/scene/moving_cells.h"
 #include "app/scene/picture.h"
-#include "app/scene/warm_up/small_surface.h"
+#include "app/scene/small_surface.h"
 #include "index/volume/volume_series.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/view.h"

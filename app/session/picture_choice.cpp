@@ -1,7 +1,7 @@
 // Chooses how a frame's picture is drawn.
 #include "app/session/picture_choice.h"
 
-#include "app/session/kept/moved_picture.h"
+#include "app/choice/moved_picture.h"
 
 #include <algorithm>
 #include <utility>

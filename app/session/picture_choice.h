@@ -2,11 +2,11 @@
 // the frame's plan.
 #pragma once
 
+#include "app/choice/cell_supply.h"
+#include "app/choice/frame.h"
 #include "app/frame/frame_log.h"
 #include "app/output/outputs.h"
 #include "app/scene/scene.h"
-#include "app/session/cell_supply.h"
-#include "app/session/frame.h"
 #include "app/session/picture_maker.h"
 
 namespace isochron::app {

@@ -1,11 +1,11 @@
 // Makes the picture of a frame: from the state, the viewers and the cells that are shown.
 #pragma once
 
+#include "app/choice/frame.h"
 #include "app/config/config.h"
 #include "app/output/outputs.h"
 #include "app/scene/cell_sets.h"
 #include "app/scene/picture.h"
-#include "app/session/frame.h"
 #include "app/session/picker.h"
 #include "app/session/session_panel.h"
 #include "app/session/shown_arrays.h"

@@ -7,6 +7,8 @@
 //     }
 #pragma once
 
+#include "app/choice/cell_supply.h"
+#include "app/choice/partial_pictures.h"
 #include "app/cluster/frame_sharing.h"
 #include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
@@ -19,8 +21,6 @@
 #include "app/quality/capture_wait.h"
 #include "app/quality/frame_plan.h"
 #include "app/scene/scene.h"
-#include "app/session/cell_supply.h"
-#include "app/session/partial_pictures.h"
 #include "app/session/picker.h"
 #include "app/session/picture_choice.h"
 #include "app/session/picture_maker.h"

@@ -5,9 +5,9 @@
 #include "index/file/detail_levels.h"
 #include "index/indexing/chunk_history.h"
 #include "index/indexing/color_pass.h"
+#include "index/paper/thi_tree.h"
 #include "index/system/mapped_file.h"
 #include "index/system/parallel.h"
-#include "index/thi/thi_tree.h"
 
 #include <algorithm>
 #include <optional>
@@ -22,14 +22,14 @@ class ArrayBuild::Work {
     Work(VolumeSeries& series, const std::filesystem::path& out, const BuildOptions& options,
          std::size_t number, Team& team, BuildTarget& target, const IndexFile* held)
         : series_(series), out_(out), options_(options), number_(number), team_(team),
-          threads_(thread_count(options.threads)), target_(target), held_(held),
-          metadata_{.info = series.info(),
-                    .codec = options.codec,
-                    .tree = options.tree,
-                    .referral = options.referral,
-                    .chosen_array = options.array,
-                    .chosen_component = options.component,
-                    .reading = options.reading},
+          threads_(thread_count(options.threads)), target_(target),
+          held_(held), metadata_{.info = series.info(),
+                                 .codec = options.codec,
+                                 .tree = options.tree,
+                                 .referral = options.referral,
+                                 .chosen_array = options.array,
+                                 .chosen_component = options.component,
+                                 .reading = options.reading},
           steps_(static_cast<std::uint32_t>(series.info().steps())),
           levels_(detail_grids(series.info().grid).size()) {
         if (held)

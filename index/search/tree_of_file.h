@@ -2,7 +2,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
-#include "index/thi/thi_tree.h"
+#include "index/paper/thi_tree.h"
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 // `isochron-reader-image`: pictures, which OpenImageIO and the libraries behind it decode.
-#include "index/decoders/reader_program.h"
 #include "index/error.h"
+#include "index/readers/decoders/reader_program.h"
 #include "index/system/module.h"
 #include "stereo/image_module/image_module.h"
 

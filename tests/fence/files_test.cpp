@@ -1,5 +1,5 @@
 // Files inside the fence: those of the named folders can be read, and no others.
-#include "index/reader/file_fence.h"
+#include "index/readers/process/file_fence.h"
 #include "tests/fence/inside.h"
 #include "tests/support/test_folder.h"
 

@@ -1,7 +1,7 @@
 // Runs code inside the fence, in a process of its own.
 #include "tests/fence/inside.h"
 
-#include "index/decoders/fence.h"
+#include "index/readers/decoders/fence.h"
 
 #include <fmt/format.h>
 

@@ -3,11 +3,11 @@
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/targets.h"
 
-#include "index/decoders/decoders.h"
-#include "index/decoders/reader_service.h"
-#include "index/decoders/tiff/tiff_metadata.h"
-#include "index/decoders/zarr/zarr_store.h"
 #include "index/error.h"
+#include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/reader_service.h"
+#include "index/readers/decoders/tiff/tiff_metadata.h"
+#include "index/readers/decoders/zarr/zarr_store.h"
 
 #include <algorithm>
 #include <array>

@@ -3,13 +3,13 @@
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/targets.h"
 
-#include "index/decoders/reader_service.h"
-#include "index/decoders/vtk/vtk_ghosts.h"
-#include "index/decoders/vtk/vtk_numbers.h"
-#include "index/decoders/vtk/vtk_resample.h"
-#include "index/decoders/vtk/vtk_session.h"
-#include "index/decoders/vtk/xml_markup.h"
 #include "index/error.h"
+#include "index/readers/decoders/reader_service.h"
+#include "index/readers/decoders/vtk/vtk_ghosts.h"
+#include "index/readers/decoders/vtk/vtk_numbers.h"
+#include "index/readers/decoders/vtk/vtk_resample.h"
+#include "index/readers/decoders/vtk/vtk_session.h"
+#include "index/readers/decoders/vtk/xml_markup.h"
 
 #include <vtkAMRBox.h>
 #include <vtkCellData.h>

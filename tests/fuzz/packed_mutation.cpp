@@ -1,7 +1,7 @@
 // Mutates the compressed contents of a file.
 #include "tests/fuzz/packed_mutation.h"
 
-#include "tests/index/formats/packed.h"
+#include "tests/index/readers/formats/packed.h"
 
 #include <bzlib.h>
 #include <zlib.h>

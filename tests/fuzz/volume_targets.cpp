@@ -3,9 +3,9 @@
 #include "tests/fuzz/targets.h"
 
 #include "index/error.h"
-#include "index/formats/own_formats.h"
-#include "index/formats/series/file_series.h"
-#include "index/reader/reader_messages.h"
+#include "index/readers/formats/own_formats.h"
+#include "index/readers/formats/series/file_series.h"
+#include "index/readers/process/reader_messages.h"
 #include "index/volume/time_unit.h"
 
 #include <algorithm>

@@ -43,8 +43,9 @@ const std::map<std::string, std::string> kReasons{
     {"tests/app/commands/kills_test.cpp", "files of which the time of writing is minutes ago"},
     {"tests/fence/calls_test.cpp", "calls that tell the time are tried, whatever they tell"},
     {"tests/index/system/new_file_test.cpp", "a file of which the time of writing is minutes ago"},
-    {"tests/index/reader/foreign_file_test.cpp", "the patience with a reader that is stopped: any "
-                                                 "runs out; a start that takes longer is repeated"},
+    {"tests/index/readers/process/foreign_file_test.cpp",
+     "the patience with a reader that is stopped: any "
+     "runs out; a start that takes longer is repeated"},
     {"tests/index/conformance/conformance_test.cpp", "the patience with damaged files: who is too "
                                                      "slow counts as refused, which is allowed"},
 };

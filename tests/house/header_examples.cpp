@@ -7,6 +7,9 @@
 #include "app/explore/exploration.h"
 #include "app/frame/asker.h"
 #include "app/frame/history.h"
+#include "app/kept/session_file.h"
+#include "app/loop/live_loop.h"
+#include "app/loop/live_recording.h"
 #include "app/output/kept_pictures.h"
 #include "app/output/movie_file.h"
 #include "app/output/outputs.h"
@@ -15,9 +18,6 @@
 #include "app/quality/frame_quality.h"
 #include "app/quality/quality_controller.h"
 #include "app/scene/scene.h"
-#include "app/session/kept/live_recording.h"
-#include "app/session/kept/session_file.h"
-#include "app/session/live_loop.h"
 #include "app/session/session.h"
 #include "index/detail/cell_thinning.h"
 #include "index/export/surface_writer.h"
@@ -25,16 +25,16 @@
 #include "index/extraction/extractor.h"
 #include "index/file/index_file.h"
 #include "index/file/step_view.h"
-#include "index/formats/foreign_file.h"
-#include "index/formats/format.h"
-#include "index/formats/series/series_writer.h"
 #include "index/indexing/level_chooser.h"
-#include "index/reader/reader_messages.h"
+#include "index/paper/thi_tree.h"
+#include "index/readers/formats/foreign_file.h"
+#include "index/readers/formats/format.h"
+#include "index/readers/formats/series/series_writer.h"
+#include "index/readers/process/reader_messages.h"
 #include "index/scan/bricks.h"
 #include "index/search/layer_search.h"
 #include "index/search/surface_mesh.h"
 #include "index/surface/mesh_clusters.h"
-#include "index/thi/thi_tree.h"
 #include "index/volume/level_map.h"
 #include "index/volume/order_key.h"
 #include "interaction/command_fields.h"
@@ -115,17 +115,17 @@ void extractor_example(const std::shared_ptr<const IndexFile>& file, std::uint32
 }
 
 void format_example(const ReadOptions& options) {
-#include "index/formats/format.example"
+#include "index/readers/formats/format.example"
 }
 
 void series_writer_example(const std::filesystem::path& dir, const SeriesInfo& info,
                            std::size_t steps, const std::vector<float>& (*values_of)(std::size_t),
                            double (*time_of)(std::size_t)) {
-#include "index/formats/series/series_writer.example"
+#include "index/readers/formats/series/series_writer.example"
 }
 
 void reader_messages_example() {
-#include "index/reader/reader_messages.example"
+#include "index/readers/process/reader_messages.example"
 }
 
 void bricks_example(const StepValues& values, const LevelMap& levels, std::uint32_t step,
@@ -150,7 +150,7 @@ void surface_mesh_example(const std::shared_ptr<const IndexFile>& file, std::uin
 
 void thi_tree_example(const StepValues& values, const KeyMap& keys, std::uint32_t step,
                       double isovalue) {
-#include "index/thi/thi_tree.example"
+#include "index/paper/thi_tree.example"
 }
 
 void level_map_example(const StepValues& values, std::size_t t, double isovalue,
@@ -333,12 +333,12 @@ void movie_file_example(const render::Image& image) {
 void session_file_example(const std::filesystem::path& path, const std::string& data,
                           const std::string& hash, Session& session,
                           const interaction::StandingPlace& head, std::size_t steps) {
-#include "app/session/kept/session_file.example"
+#include "app/kept/session_file.example"
 }
 
 void live_loop_example(const Config& config, interaction::CompositeInput trackers, Session& session,
                        const std::shared_ptr<LiveRecording>& recording) {
-#include "app/session/live_loop.example"
+#include "app/loop/live_loop.example"
 }
 
 void panel_in_room_example(PanelInRoom& panel, Picture& picture,
@@ -358,7 +358,7 @@ void cell_sets_example(CellSets& sets, const index::ExtractionPtr& newest, bool 
 void cell_supply_example(CellSupply& supply, const Frame& frame, Picture& picture,
                          const PictureMaker& pictures, const FrameQuality& quality,
                          FramePlan& plan) {
-#include "app/session/cell_supply.example"
+#include "app/choice/cell_supply.example"
 }
 
 void scene_example(Scene& scene, const index::ExtractionPtr& newest, const Picture& picture,

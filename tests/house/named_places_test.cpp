@@ -156,10 +156,10 @@ TEST(NamedPlaces, OfTheDevelopersPagesAreThere) {
 
 TEST(NamedPlaces, WhatHasMovedIsFound) {
     const PlantedTree tree;
-    tree.plant("index/formats/known.h", "class Known;\nint count_of();\n");
+    tree.plant("index/readers/formats/known.h", "class Known;\nint count_of();\n");
     tree.plant("index/other.cpp", "int kTable = 1;\n");
     tree.plant("CONTRIBUTING.md",
-               "# A page\n\n1. `index/formats/known.h`: a `Known`, and `count_of`.\n"
+               "# A page\n\n1. `index/readers/formats/known.h`: a `Known`, and `count_of`.\n"
                "2. `known.*`: a line in `kTable`.\n3. `index/gone.cpp`: more.\n"
                "\nA `kTable` is somewhere, a `kNowhere` is not.\n");
     EXPECT_EQ(misplaced_names(tree.root(), {"CONTRIBUTING.md"}),

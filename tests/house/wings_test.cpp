@@ -56,7 +56,7 @@ const std::map<std::string, std::set<std::string>> kApart{
     {"app/command_line",
      {"app/main", "app/commands", "app/explore", "app/indexing", "app/generate"}},
     // The readers: programs of their own.
-    {"index/decoders", {"stereo/image_module"}},
+    {"index/readers/decoders", {"stereo/image_module"}},
     // The module is loaded when a picture is read or written; nobody else knows it.
     {"stereo/image_module", {"stereo/image_file"}},
 };

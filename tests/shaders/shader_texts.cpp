@@ -4,7 +4,7 @@
 //     shader_texts FOLDER
 //
 // fills FOLDER with one file for each text, numbered: 07.cell.vert.
-#include "app/panel/panel_layer.h"
+#include "app/panel/imgui/panel_layer.h"
 #include "render/cells/cell_compute.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/shader.h"

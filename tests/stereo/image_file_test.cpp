@@ -2,7 +2,7 @@
 #include "stereo/image_file.h"
 
 #include "index/error.h"
-#include "index/reader/process_text.h"
+#include "index/readers/process/process_text.h"
 #include "render/gl/gl.h"
 #include "tests/support/drawing/image_compare.h"
 #include "tests/support/paths.h"

@@ -1,7 +1,7 @@
 // Tells whether another thread of this process has nothing left to do.
 #pragma once
 
-#include "index/reader/process_text.h"
+#include "index/readers/process/process_text.h"
 
 #include <string>
 

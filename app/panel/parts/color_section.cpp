@@ -1,7 +1,7 @@
 // The panel's section on color: what colors the surfaces, and the color map.
 #include "app/panel/parts/color_section.h"
 
-#include "app/panel/keyed_list.h"
+#include "app/panel/imgui/keyed_list.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"

@@ -1,7 +1,7 @@
 // The search of commands: the user types what they want, sees its key, and runs it.
 #include "app/panel/parts/key_search.h"
 
-#include "app/panel/number_entry.h"
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"

@@ -1,7 +1,7 @@
 // A list of things with names: the user goes to one, renames one, removes one.
 #include "app/panel/parts/named_list.h"
 
-#include "app/panel/number_entry.h"
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/theme.h"

@@ -1,7 +1,7 @@
 // Rows of the panel's sections: the label in a column at the left, the control beside it.
 #include "app/panel/parts/rows.h"
 
-#include "app/panel/keyed_list.h"
+#include "app/panel/imgui/keyed_list.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/room_keys.h"
 #include "app/panel/parts/theme.h"

@@ -1,7 +1,7 @@
 // What pictures and movies that are written show, and their size.
 #include "app/panel/parts/written_pictures.h"
 
-#include "app/panel/number_entry.h"
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"

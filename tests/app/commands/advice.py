@@ -357,7 +357,7 @@ NO_ADVICE = [
     "times-from-names cannot", "spaces the steps evenly",
     "--array {}; the groups", "-expected", "given with", "--steps {}:{}:{}", "h4toh5"]
 texts = []
-for name in glob.glob(sources + "/index/formats/**/*.cpp", recursive=True) + glob.glob(sources + "/index/decoders/**/*.cpp",
+for name in glob.glob(sources + "/index/readers/formats/**/*.cpp", recursive=True) + glob.glob(sources + "/index/readers/decoders/**/*.cpp",
                                                                                        recursive=True):
     code = re.sub(r"//[^\n]*", "", open(name).read())
     for literal in re.findall(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', code):

@@ -6,7 +6,7 @@
 
 #include "app/config/shipped_configs.h"
 #include "app/explore/explore_start.h"
-#include "app/session/kept/recording_file.h"
+#include "app/kept/recording_file.h"
 #include "index/file/index_file.h"
 #include "stereo/image_file.h"
 

@@ -3,8 +3,8 @@
 #include "tests/support/child_process.h"
 #include "tests/support/eventually.h"
 
-#include "app/session/kept/recording_file.h"
-#include "app/session/kept/user_memory.h"
+#include "app/kept/recording_file.h"
+#include "app/kept/user_memory.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>

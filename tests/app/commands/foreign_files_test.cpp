@@ -1,5 +1,5 @@
 // Files that libraries decode: damaged ones, and the program started from any folder.
-#include "index/reader/reader_start.h"
+#include "index/readers/process/reader_start.h"
 #include "tests/app/commands/command_line.h"
 
 #include <set>

@@ -1,9 +1,9 @@
 // A movie has exactly the frames that follow from its rate and its recording's length.
 #include "tests/support/session_fixture.h"
 
+#include "app/loop/replay.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_note.h"
-#include "app/session/replay.h"
 #include "index/error.h"
 #include "index/indexing/index_build.h"
 #include "interaction/recording/recording.h"

@@ -4,7 +4,7 @@
 #include "tests/app/commands/explore_fixture.h"
 
 #include "app/config/shipped_configs.h"
-#include "app/session/kept/recording_file.h"
+#include "app/kept/recording_file.h"
 #include "stereo/image_file.h"
 #include "tests/support/test_seed.h"
 #include "tests/support/tracker_packets.h"

@@ -4,7 +4,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
-#include "app/session/kept/recording_file.h"
+#include "app/kept/recording_file.h"
 #include "tests/support/nearness_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/virtual_display.h"

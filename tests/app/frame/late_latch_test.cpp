@@ -3,7 +3,7 @@
 
 #include "tests/support/session_fixture.h"
 
-#include "app/session/replay.h"
+#include "app/loop/replay.h"
 
 namespace isochron::app {
 namespace {

@@ -1,7 +1,7 @@
 // The guard against overwriting data knows every format that the program reads.
 #include "app/output/guarded_outputs.h"
 #include "index/error.h"
-#include "index/formats/format.h"
+#include "index/readers/formats/format.h"
 #include "tests/support/test_folder.h"
 
 #include <gmock/gmock.h>

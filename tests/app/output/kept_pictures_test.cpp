@@ -1,7 +1,7 @@
 // Pictures to keep are smoother than those on the displays, which stay as they are.
 #include "tests/support/session_fixture.h"
 
-#include "app/session/pattern_show.h"
+#include "app/loop/pattern_show.h"
 #include "render/gl/driver.h"
 #include "render/gl/srgb.h"
 #include "stereo/image_file.h"

@@ -1,6 +1,6 @@
 // Surfaces that a session exports: in the background, under names that are free, and no part of a file.
+#include "app/loop/surface_maker.h"
 #include "app/output/export_request.h"
-#include "app/output/surface_maker.h"
 #include "index/surface/cell_colors.h"
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"

@@ -1,7 +1,7 @@
 // The panel over a window, event by event.
 #pragma once
 
-#include "app/panel/panel_layer.h"
+#include "app/panel/imgui/panel_layer.h"
 #include "stereo/context/gl_context.h"
 #include "tests/app/panel/drawn_text.h"
 

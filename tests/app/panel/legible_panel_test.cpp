@@ -2,7 +2,7 @@
 // behind it, in any size of the window and in both themes.
 #include "tests/app/panel/drawn_text.h"
 
-#include "app/panel/panel_layer.h"
+#include "app/panel/imgui/panel_layer.h"
 #include "interaction/controls/controls.h"
 #include "stereo/context/gl_context.h"
 

@@ -1,5 +1,5 @@
 // What is typed into a field of the panel is the number that its user means, or refused.
-#include "app/panel/number_entry.h"
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/parts/rows.h"
 
 #include <gmock/gmock.h>

@@ -4,8 +4,8 @@
 
 #include "tests/support/drawing/sphere_oracle.h"
 
+#include "app/loop/replay.h"
 #include "app/scene/font.h"
-#include "app/session/replay.h"
 #include "interaction/input/actions.h"
 #include "interaction/navigation/navigation.h"
 

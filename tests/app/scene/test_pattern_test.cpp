@@ -2,7 +2,7 @@
 // every wall.
 #include "tests/support/drawing/golden_fixture.h"
 
-#include "app/session/pattern_show.h"
+#include "app/loop/pattern_show.h"
 
 #include <array>
 #include <map>

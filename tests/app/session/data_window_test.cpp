@@ -1,7 +1,7 @@
 // The window of an explorer without data, on a stand-in for a desktop.
 #include "tests/support/session_fixture.h"
 
-#include "app/session/data_window.h"
+#include "app/loop/data_window.h"
 
 #include <gmock/gmock.h>
 
@@ -221,12 +221,12 @@ TEST_F(DataWindowTest, WaitsForDataThatAreBeingIndexedUntilTheyCanBeShown) {
         PlayedWindow window(frame);
         const stereo::Windows windows(window);
         asked = 0;
-        return wait_for_data(windows, "t0.vti",
-                             [&] {
-                                 return DataProgress{++asked >= ready, "reading",
-                                                     0.01f * static_cast<float>(asked)};
-                             },
-                             {.frame_rate_limit = 1e6});
+        return wait_for_data(
+            windows, "t0.vti",
+            [&] {
+                return DataProgress{++asked >= ready, "reading", 0.01f * static_cast<float>(asked)};
+            },
+            {.frame_rate_limit = 1e6});
     };
     EXPECT_EQ(wait(5, [](auto&, auto&) {}), Waited::ready);
     EXPECT_EQ(asked, 5);

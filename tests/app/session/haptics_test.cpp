@@ -1,5 +1,5 @@
 // The haptic pulses of hands.
-#include "app/session/haptics.h"
+#include "app/loop/haptics.h"
 
 #include "interaction/input/actions.h"
 

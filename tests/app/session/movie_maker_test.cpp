@@ -2,8 +2,8 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
-#include "app/session/kept/recording_file.h"
-#include "app/session/movie_maker.h"
+#include "app/kept/recording_file.h"
+#include "app/loop/movie_maker.h"
 #include "interaction/error.h"
 
 #include <gmock/gmock.h>

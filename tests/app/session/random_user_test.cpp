@@ -5,7 +5,7 @@
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"
 
-#include "app/session/replay.h"
+#include "app/loop/replay.h"
 #include "interaction/controls/desktop_emulation.h"
 
 #include <glm/gtc/quaternion.hpp>

@@ -1,5 +1,5 @@
 // Switching between the arrays of an index: the pictures, the isovalues, and what replays do.
-#include "app/session/replay.h"
+#include "app/loop/replay.h"
 #include "index/error.h"
 #include "interaction/input/actions.h"
 #include "tests/support/eventually.h"

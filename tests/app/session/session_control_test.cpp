@@ -1,6 +1,6 @@
 // A session that is steered from outside: which state the pictures show that its clients ask for.
 #include "app/control/control_client.h"
-#include "app/session/session_control.h"
+#include "app/loop/session_control.h"
 #include "stereo/image_file.h"
 #include "tests/app/session/quality_session.h"
 #include "tests/support/gate.h"

@@ -3,7 +3,7 @@
 #include "tests/app/session/quality_session.h"
 #include "tests/support/eventually.h"
 
-#include "app/session/replay.h"
+#include "app/loop/replay.h"
 #include "stereo/image_file.h"
 
 #include <gmock/gmock.h>

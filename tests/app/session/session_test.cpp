@@ -3,7 +3,7 @@
 #include "tests/support/gate.h"
 #include "tests/support/session_fixture.h"
 
-#include "app/session/replay.h"
+#include "app/loop/replay.h"
 #include "index/error.h"
 
 #include <gmock/gmock.h>

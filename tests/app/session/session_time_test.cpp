@@ -1,6 +1,6 @@
 // Ranges, steps left out, ways to and fro and bookmarks: recorded, replayed, undone and saved.
-#include "app/session/kept/session_file.h"
-#include "app/session/replay.h"
+#include "app/kept/session_file.h"
+#include "app/loop/replay.h"
 #include "interaction/controls/desktop_emulation.h"
 #include "tests/support/session_fixture.h"
 

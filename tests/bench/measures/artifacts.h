@@ -3,7 +3,7 @@
 #pragma once
 
 #include "index/file/index_file.h"
-#include "index/thi/thi_tree.h"
+#include "index/paper/thi_tree.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/image.h"
 #include "tests/bench/rivals/span_normals.h"

@@ -1,8 +1,8 @@
 // A search structure for the benchmark: its costs, and the operations that it has.
 #pragma once
 
+#include "index/paper/thi_entries.h"
 #include "index/surface/cell_set.h"
-#include "index/thi/thi_entries.h"
 #include "index/volume/query.h"
 #include "tests/bench/rivals/span_normals.h"
 

@@ -1,10 +1,10 @@
 // The search structures that are measured.
 #include "tests/bench/measures/structures.h"
 
+#include "index/paper/thi_tree.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/system/parallel.h"
-#include "index/thi/thi_tree.h"
 #include "index/volume/order_key.h"
 #include "tests/bench/measures/stopwatch.h"
 #include "tests/bench/rivals/tbon.h"

@@ -1,7 +1,7 @@
 // Draws settled pictures, frame by frame, as a replay does.
 #include "tests/bench/motion/references.h"
 
-#include "app/session/replay.h"
+#include "app/loop/replay.h"
 #include "stereo/context/gl_context.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ const Reference& References::wanted(const ShownPicture& picture) {
 }
 
 void References::make() {
-    const auto of_all = [this](std::vector<render::Image> Reference::* pictures, auto&& state_of) {
+    const auto of_all = [this](std::vector<render::Image> Reference::*pictures, auto&& state_of) {
         StillSession session(config_, file_);
         for (Reference& reference : references_) {
             check_();

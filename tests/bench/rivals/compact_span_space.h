@@ -1,7 +1,7 @@
 // A span space whose AL and DR share their ids: one of the improvements that the paper proposes.
 #pragma once
 
-#include "index/thi/span_space.h"
+#include "index/paper/span_space.h"
 
 #include <cstdint>
 #include <span>

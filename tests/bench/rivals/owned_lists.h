@@ -1,7 +1,7 @@
 // The sorted lists of one time node, with their memory.
 #pragma once
 
-#include "index/thi/interval_tree.h"
+#include "index/paper/interval_tree.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The error of normals that are stored once for a time span.
 #pragma once
 
-#include "index/thi/thi_tree.h"
+#include "index/paper/thi_tree.h"
 #include "index/volume/query.h"
 #include "index/volume/step_values.h"
 

@@ -1,9 +1,9 @@
 // The improvements of the THI tree that its authors proposed as future work.
 #include "tests/bench/rivals/thi_variants.h"
 
+#include "index/paper/lattice.h"
+#include "index/paper/span_space.h"
 #include "index/system/parallel.h"
-#include "index/thi/lattice.h"
-#include "index/thi/span_space.h"
 #include "index/volume/time_tree.h"
 #include "tests/bench/rivals/compact_span_space.h"
 #include "tests/bench/rivals/owned_lists.h"

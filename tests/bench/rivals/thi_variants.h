@@ -1,8 +1,8 @@
 // The improvements of the THI tree that its authors proposed as future work, for measurements.
 #pragma once
 
+#include "index/paper/thi_entries.h"
 #include "index/progress.h"
-#include "index/thi/thi_entries.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 // The variants of the THI tree find what the published tree finds, in as many entries.
 #include "tests/bench/rivals/thi_variants.h"
 
+#include "index/paper/thi_tree.h"
 #include "index/scan/scan.h"
-#include "index/thi/thi_tree.h"
 #include "tests/support/test_field.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // What docs/FORMATS.md says of instants, sentence by sentence, each tried on a cell.
 #include "index/file/step_view.h"
-#include "index/formats/series/missing_numbers.h"
 #include "index/indexing/index_build.h"
+#include "index/readers/formats/series/missing_numbers.h"
 #include "index/search/first_crossing.h"
 #include "index/search/index_search.h"
 #include "index/volume/blend.h"
@@ -85,8 +85,13 @@ const std::vector<std::pair<const char*, std::function<void()>>> kSentences{
          }
      }},
     {"At n = 0 the instant is the step itself, where infinities are values.",
-     [] { EXPECT_TRUE(OneCell({kInfinite, 1}).active({0, 0}, 0.5)); }},
-    {"The last step holds.", [] { EXPECT_TRUE(OneCell({0, 1}).active({1, 40000}, 1.0)); }},
+     [] {
+         EXPECT_TRUE(OneCell({kInfinite, 1}).active({0, 0}, 0.5));
+     }},
+    {"The last step holds.",
+     [] {
+         EXPECT_TRUE(OneCell({0, 1}).active({1, 40000}, 1.0));
+     }},
     {"The first crossing of a cell is the first instant at which it is active, also where playing "
      "holds; where steps are held it is the first step.",
      [] {

@@ -1,0 +1,115 @@
+// Finds earlier sessions by their names, which end in a date.
+#include "app/kept/earlier_sessions.h"
+
+#include "app/kept/session_claim.h"
+#include "index/error.h"
+#include "interaction/error.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+#include <sys/stat.h>
+#include <tuple>
+#include <utility>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::tm local(std::time_t time) {
+    std::tm parts{};
+    localtime_r(&time, &parts);
+    return parts;
+}
+
+/// When a file was written; 0: it is not there.
+std::time_t time_of(const fs::path& file) {
+    struct stat status {};
+    return stat(file.c_str(), &status) == 0 ? status.st_mtime : 0;
+}
+
+/// Whether a name is STEM, then `.2026-11-29T19-07-35`, then perhaps a number, then the extension.
+bool is_dated(std::string_view name, const fs::path& path) {
+    const std::string start = path.stem().string(), end = path.extension().string();
+    if (name.size() < start.size() + end.size() || !name.starts_with(start) || !name.ends_with(end))
+        return false;
+    name = name.substr(start.size(), name.size() - start.size() - end.size());
+    constexpr std::string_view kForm = ".0000-00-00T00-00-00";
+    const auto fits = [](char c, char form) {
+        return form == '0' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
+    };
+    return name.size() >= kForm.size() &&
+           std::ranges::equal(name.substr(0, kForm.size()), kForm, fits) &&
+           name.substr(kForm.size()).find_first_not_of("-0123456789") == name.npos;
+}
+
+void drop_too_many(const fs::path& path) {
+    auto kept = sessions_in(path.parent_path(),
+                            [&](const std::string& name) { return is_dated(name, path); });
+    std::ranges::sort(kept, {}, [](const EarlierSession& each) {
+        return std::tuple(!each.session.only_looked, each.saved, each.path);
+    });
+    std::error_code ignored;
+    for (std::size_t i = 0; i + kMostEarlierSessions < kept.size(); ++i)
+        fs::remove(kept[i].path, ignored);
+}
+
+} // namespace
+
+std::string words_of(const EarlierSession& earlier) {
+    return fmt::format("{:%Y-%m-%d %H:%M:%S}{}", local(earlier.saved),
+                       earlier.session.only_looked ? ", only looked at" : "");
+}
+
+bool is_session_of(std::string_view name, const fs::path& path) {
+    constexpr std::string_view kBefore = ".before";
+    if (name.ends_with(kBefore))
+        name.remove_suffix(kBefore.size());
+    const std::string stem = path.stem().string(), end = path.extension().string();
+    for (int window = 1; window <= kMostWindows; ++window) {
+        const std::string of_window = window > 1 ? fmt::format("{}-{}", stem, window) : stem;
+        if (name == of_window + end || is_dated(name, of_window + end))
+            return true;
+    }
+    return false;
+}
+
+std::vector<EarlierSession>
+sessions_in(const fs::path& folder, const std::function<bool(const std::string& name)>& wanted) {
+    std::vector<EarlierSession> found;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error);
+         !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        if (!wanted(entry->path().filename().string()))
+            continue;
+        try {
+            found.push_back({entry->path(), time_of(entry->path()), read_session(entry->path())});
+        } catch (const index::Error&) {       // no regular file, or gone meanwhile
+        } catch (const interaction::Error&) { // no session
+        }
+    }
+    std::ranges::sort(found, std::greater(),
+                      [](const EarlierSession& each) { return std::tuple(each.saved, each.path); });
+    return found;
+}
+
+void keep_earlier(const fs::path& path) {
+    const std::string start =
+        fmt::format("{}.{:%Y-%m-%dT%H-%M-%S}", path.stem().string(), local(time_of(path)));
+    fs::path dated = path;
+    dated.replace_filename(start + path.extension().string());
+    std::error_code error;
+    for (int number = 2; fs::exists(fs::symlink_status(dated, error)); ++number)
+        dated.replace_filename(fmt::format("{}-{}{}", start, number, path.extension().string()));
+    fs::rename(path, dated, error);
+    if (error)
+        throw index::Error(fmt::format("{}: the earlier session there cannot be renamed: {}",
+                                       path.string(), error.message()));
+    drop_too_many(path);
+}
+
+} // namespace isochron::app

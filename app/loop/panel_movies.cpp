@@ -1,0 +1,82 @@
+// The movies and recordings that the panel asks for, and the folder of pictures that it chooses.
+#include "app/loop/panel_movies.h"
+
+#include "index/error.h"
+#include "index/system/new_file.h"
+#include "interaction/error.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace isochron::app {
+
+PanelMovies::PanelMovies(MovieOrders orders, std::shared_ptr<LiveRecording> recording)
+    : recording_(std::move(recording)), movies_(std::move(orders)) {}
+
+/// The panel's button: a recording from now on, in the folder of the movies; or the end of the one
+/// that goes on.
+void PanelMovies::begin_or_end_recording(Session& session) {
+    if (recording_->is_open()) {
+        recording_->end();
+    } else {
+        try {
+            interaction::RecordingHeader header = movies_.orders().header;
+            header.start = session.state().as_commands();
+            const auto path = free_recording_name(chosen_folder(session));
+            recording_->begin(path, header);
+            session.show_messages({fmt::format("recording to {}", path.string())});
+        } catch (const interaction::Error& error) {
+            session.show_messages({error.what()});
+        }
+    }
+    session.set_recording(recording_->is_open());
+}
+
+/// Where pictures, movies and recordings are written.
+std::filesystem::path PanelMovies::chosen_folder(const Session& session) const {
+    const std::filesystem::path chosen = session.state().pictures.folder;
+    return chosen.empty() ? movies_.orders().folder : chosen;
+}
+
+/// Pictures lie where the user has said last.
+void PanelMovies::place_pictures(Session& session) {
+    if (session.state().pictures.folder == picture_folder_)
+        return;
+    picture_folder_ = session.state().pictures.folder;
+    try {
+        index::make_folder(chosen_folder(session));
+        session.outputs().set_screenshots(chosen_folder(session));
+    } catch (const index::Error& error) {
+        session.show_messages({error.what()});
+    }
+}
+
+/// Begins and ends what the panel asks for.
+void PanelMovies::after_frame(Session& session, const LiveFrame&) {
+    place_pictures(session);
+    const interaction::WrittenPictures& how = session.state().pictures;
+    const MovieManner manner{how.folder, how.rate, how.width, how.height};
+    const std::optional<MovieWish> wish = session.panel().take_wanted_movie();
+    if (wish == MovieWish::record)
+        begin_or_end_recording(session);
+    else if (wish == MovieWish::give_up)
+        movies_.give_up();
+    else if (wish == MovieWish::recording && recording_->is_open())
+        movies_.make(recording_->copy(), recording_->work(), manner);
+    else if (wish == MovieWish::series)
+        movies_.make([series = series_seen(sized(movies_.orders().header, how), session.note(),
+                                           session.times(), how.rate)](
+                         const auto& path) { write_recording(path, series); },
+                     recording_->work(), manner);
+    movies_.update();
+    session.set_movies({true, recording_->is_open(), movies_.progress()});
+}
+
+std::string PanelMovies::why_stay() const {
+    return movies_.busy()
+               ? "a movie is being made: open other data when it is finished, or cancel it"
+               : "";
+}
+
+} // namespace isochron::app

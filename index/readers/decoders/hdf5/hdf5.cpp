@@ -1,0 +1,90 @@
+// Opens HDF5 datasets by their path.
+#include "index/error.h"
+#include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/hdf5/hdf5_grid.h"
+#include "index/readers/decoders/hdf5/hdf5_volume.h"
+#include "index/readers/decoders/hdf5/vtkhdf.h"
+#include "index/readers/formats/stored_file.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace isochron::index {
+
+namespace {
+
+/// Formats within HDF5 that need more than their datasets: what they are, and the way out.
+void expect_no_other_format(const Hdf5File& file) {
+    const auto refuse = [&](const char* what, const char* way_out) {
+        throw Error(fmt::format("{}: {}, expected volumes as plain datasets; {}", file.name(), what,
+                                way_out));
+    };
+    if (file.holds("/minc-2.0"))
+        refuse("MINC 2, which scales each slice in its own way",
+               "mnc2nii of the MINC tools makes NIfTI of it");
+    if (!file.texts("/", "ImarisDataSet").empty() || file.holds("/DataSetInfo/Image"))
+        refuse("an Imaris file, whose datasets are padded",
+               "Fiji (Bio-Formats) saves its image as OME-TIFF");
+    if (file.holds("/bounding box") && file.holds("/refine level"))
+        refuse("FLASH's blocks of a refined grid",
+               "yt's covering_grid makes a regular grid of them");
+    if (!file.numbers("/", "NumMeshBlocks").empty() && file.holds("/LogicalLocations"))
+        refuse("Athena++'s blocks of a mesh", "yt's covering_grid makes a regular grid of them");
+    if (file.holds("/Grid00000001"))
+        refuse("Enzo's boxes of a refined grid", "yt's covering_grid makes a regular grid of them");
+    if (file.holds("/_silolibinfo"))
+        refuse("Silo, whose datasets are flat", "VisIt exports them as VTK");
+    if (file.text("/", "label") == "Root Node of HDF5 File")
+        refuse("CGNS", "name it .cgns");
+    if (!file.text("/", "nwb_version").empty())
+        refuse("NWB, whose pictures follow each other in time", "--array /PATH reads one of its "
+                                                                "datasets all the same");
+    if (file.holds("/s00/resolutions") && file.holds("/s00/subdivisions"))
+        refuse("BigDataViewer's, whose places are in the .xml beside it",
+               "--array /t00000/s00/0/cells --spacing X Y Z reads one of its views");
+    if (file.holds("/Chombo_global"))
+        refuse("Chombo's boxes of a refined grid",
+               "yt's covering_grid makes a regular grid of them");
+}
+
+} // namespace
+
+std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
+                                         const ReadOptions& options) {
+    auto file = std::make_unique<Hdf5File>(path, options.crop.has_value());
+    if (!(options.array && options.array->starts_with('/')))
+        expect_no_other_format(*file);
+    if (is_vtkhdf(*file) && !(options.array && options.array->starts_with('/')))
+        return decode_vtkhdf(std::move(file), options);
+    const Hdf5Array array = choose_array(*file, options);
+    const Hdf5Dataset& first = array.steps.front();
+    if (!first.type)
+        throw Error(
+            fmt::format("{}: {} does not hold numbers that can be read", file->name(), first.path));
+    std::string why;
+    const auto layout = layout_of(first, options, &why);
+    if (!layout)
+        throw Error(fmt::format("{}: {} ({}): {}", file->name(), array.name,
+                                shape_text(first.dimensions), why));
+    Hdf5Volume volume{{}, array.steps, *layout};
+    if (layout->time && array.steps.size() > 1)
+        throw Error(fmt::format("{}: {} ({}): each of {} groups holds several steps, choose one "
+                                "with --array {}",
+                                file->name(), array.name, shape_text(first.dimensions),
+                                array.steps.size(), first.path));
+    volume.info.arrays = array.offered;
+    if (array.note)
+        volume.info.notes.push_back(*array.note);
+    size_grid(*file, volume);
+    const std::size_t steps = layout->time ? first.dimensions[*layout->time] : array.steps.size();
+    expect_few_steps(steps, file->name());
+    if (layout->time && file->scales(first)[*layout->time].empty())
+        volume.info.notes.push_back(fmt::format("the first axis of {} ({}) is taken for time",
+                                                array.name, shape_text(first.dimensions)));
+    place_hdf5(*file, first, *layout, options, volume.info);
+    time_hdf5(*file, array, *layout, steps, volume.info);
+    return open_volume(std::move(file), array.name, std::move(volume), options);
+}
+
+} // namespace isochron::index

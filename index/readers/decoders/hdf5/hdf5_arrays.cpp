@@ -1,0 +1,230 @@
+// Groups datasets into arrays, and chooses one.
+#include "index/readers/decoders/hdf5/hdf5_arrays.h"
+
+#include "index/error.h"
+#include "index/readers/formats/series/numbered_name.h"
+
+#include <fmt/format.h>
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <map>
+
+namespace isochron::index {
+namespace {
+
+/// Most components of a vector or tensor, and most that an axis without a name may be.
+constexpr std::uint64_t kMostComponents = 9, kMaybeComponents = 4;
+
+/// The path with its last numbered group replaced by `*`, and the end of that group in the path.
+std::optional<std::pair<std::string, std::size_t>> pattern_of(const std::string& path) {
+    std::size_t slash = path.rfind('/');
+    while (slash != std::string::npos && slash > 0) {
+        const std::size_t before = path.rfind('/', slash - 1);
+        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+        if (const auto number = number_at_end(std::string_view(path).substr(begin, slash - begin)))
+            return std::pair(path.substr(0, begin + *number) + "*" + path.substr(slash), slash);
+        slash = before;
+    }
+    return std::nullopt;
+}
+
+/// The part of a path that matches the pattern, up to the end of the group at the first `*`.
+std::string group_in(const std::string& path, const std::string& pattern) {
+    const std::size_t star = pattern.find('*');
+    const auto behind = std::count(pattern.begin() + static_cast<std::ptrdiff_t>(star),
+                                   pattern.end(), '/'); // slashes that follow
+    std::size_t end = path.size();
+    for (std::ptrdiff_t i = 0; i < behind; ++i)
+        end = path.rfind('/', end - 1);
+    return path.substr(0, end);
+}
+
+Hdf5Array steps_of(std::string name, const std::vector<Hdf5Dataset>& steps) {
+    std::vector<std::string> paths;
+    for (const Hdf5Dataset& step : steps)
+        paths.push_back(step.path);
+    const ReadNames read = read_names(paths);
+    Hdf5Array array{.name = std::move(name), .steps = {}, .groups = {}, .note = read.note};
+    for (const std::size_t step : read.order)
+        array.steps.push_back(steps[step]);
+    for (const Hdf5Dataset& step : array.steps)
+        array.groups.push_back(group_in(step.path, array.name));
+    return array;
+}
+
+/// The path of a dataset with `*` for the number of its iteration, where each has a file of its own.
+/// After "openPMD - a standard", iterationEncoding `fileBased`.
+std::optional<std::string> pattern_of_iteration(const Hdf5File& file, const std::string& path) {
+    if (file.text("/", "openPMD").empty() || file.text("/", "iterationEncoding") != "fileBased")
+        return std::nullopt;
+    const auto pattern = pattern_of(path);
+    return pattern ? std::optional(pattern->first) : std::nullopt;
+}
+
+std::vector<Hdf5Array> put_together(const Hdf5File& file,
+                                    const std::vector<Hdf5Dataset>& datasets) {
+    std::map<std::string, std::vector<Hdf5Dataset>> families;
+    for (const Hdf5Dataset& dataset : datasets)
+        if (const auto pattern = pattern_of(dataset.path))
+            families[pattern->first].push_back(dataset);
+    std::vector<Hdf5Array> arrays;
+    for (const Hdf5Dataset& dataset : datasets) {
+        const auto pattern = pattern_of(dataset.path);
+        const auto family = pattern ? families.find(pattern->first) : families.end();
+        if (family != families.end() && family->second.size() > 1 &&
+            std::ranges::all_of(family->second, [&](const Hdf5Dataset& other) {
+                return other.dimensions == dataset.dimensions && other.type == dataset.type;
+            })) {
+            if (family->second.front().path == dataset.path)
+                arrays.push_back(steps_of(family->first, family->second));
+        } else {
+            const auto iteration = pattern_of_iteration(file, dataset.path);
+            arrays.push_back({iteration.value_or(dataset.path), {dataset}, {}});
+        }
+    }
+    return arrays;
+}
+
+/// Whether it may be a volume, by the number of its dimensions.
+bool may_be_volume(const Hdf5Dataset& dataset) {
+    const auto dimensions =
+        std::ranges::count_if(dataset.dimensions, [](std::uint64_t length) { return length != 1; });
+    return dimensions >= 3 && dimensions <= 5 && dataset.type &&
+           std::ranges::find(dataset.dimensions, 0u) == dataset.dimensions.end();
+}
+
+[[noreturn]] void fail_without_volumes(const Hdf5File& file,
+                                       const std::vector<Hdf5Dataset>& datasets) {
+    constexpr std::size_t kListed = 8;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(kListed, datasets.size()); ++i)
+        list += fmt::format("{}{} ({})", i ? ", " : ": ", datasets[i].path,
+                            shape_text(datasets[i].dimensions));
+    throw Error(fmt::format("{}: holds no dataset of numbers with three to five dimensions{}",
+                            file.name(), list));
+}
+
+/// The arrays whose path is `name`, or else those whose path ends in it.
+std::vector<Hdf5Array> called(const std::vector<Hdf5Array>& arrays, const std::string& name) {
+    std::vector<Hdf5Array> found;
+    const std::string end = name.starts_with('/') ? name : "/" + name;
+    for (const bool whole : {true, false}) {
+        for (const Hdf5Array& array : arrays)
+            if (whole ? array.name == end : array.name.ends_with(end))
+                found.push_back(array);
+        if (!found.empty())
+            break;
+    }
+    return found;
+}
+
+/// The datasets that match a pattern, as one array. @throws Error when types or shapes differ
+Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& datasets,
+                   const std::string& pattern) {
+    std::vector<Hdf5Dataset> steps;
+    for (const Hdf5Dataset& dataset : datasets)
+        if (::fnmatch(pattern.c_str(), dataset.path.c_str(), FNM_PATHNAME) == 0)
+            steps.push_back(dataset);
+    if (steps.empty())
+        throw Error(fmt::format("{}: no dataset matches {}", file.name(), pattern));
+    for (const Hdf5Dataset& step : steps)
+        if (step.dimensions != steps.front().dimensions || step.type != steps.front().type)
+            throw Error(fmt::format("{}: {} is {}, {} is {}, expected steps that are alike",
+                                    file.name(), step.path, shape_text(step.dimensions),
+                                    steps.front().path, shape_text(steps.front().dimensions)));
+    return steps_of(pattern, steps);
+}
+
+} // namespace
+
+std::optional<Hdf5Layout> layout_of(const Hdf5Dataset& dataset, const ReadOptions& options,
+                                    std::string* why) {
+    std::vector<std::size_t> left; // slowest first
+    for (std::size_t i = 0; i < dataset.dimensions.size(); ++i)
+        if (dataset.dimensions[i] != 1)
+            left.push_back(i);
+    const auto length = [&](std::size_t i) { return dataset.dimensions[i]; };
+    const auto fail = [&](std::string reason) {
+        if (why)
+            *why = std::move(reason);
+        return std::nullopt;
+    };
+    Hdf5Layout layout;
+    if (options.component && left.size() > 3) {
+        // Components are the last axis, or the first one, or the second one after time.
+        const std::size_t first = left.size() - 4;
+        std::size_t at = left.size() - 1;
+        if (length(left[at]) > kMostComponents ||
+            (length(left[first]) < length(left[at]) && length(left[first]) <= kMaybeComponents))
+            at = first;
+        if (length(left[at]) > kMostComponents)
+            return fail(fmt::format("no axis of at most {} components", kMostComponents));
+        layout.component = left[at];
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+    if (left.size() == 4) {
+        const bool open =
+            length(left.front()) <= kMaybeComponents || length(left.back()) <= kMaybeComponents;
+        if (open && !options.component && !options.extra_axis_is_time)
+            return fail("its first axis may be time (--extra-axis-is-time) or an axis components "
+                        "(--component 0, 1, ... or magnitude)");
+        layout.time = left.front();
+        left.erase(left.begin());
+    }
+    if (left.size() != 3)
+        return fail(left.size() > 3 ? "expected three axes, time, and components with --component"
+                                    : "expected three axes of more than one vertex");
+    layout.space = {left[2], left[1], left[0]};
+    return layout;
+}
+
+Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
+    if (options.array && options.array->find('*') == std::string::npos) {
+        // The path may go through a link, or name a single step of several.
+        const std::string path =
+            options.array->starts_with('/') ? *options.array : "/" + *options.array;
+        if (auto dataset = file.dataset(path))
+            return {pattern_of_iteration(file, path).value_or(path), {std::move(*dataset)}, {}};
+    }
+    const std::vector<Hdf5Dataset> datasets = file.datasets();
+    if (options.array && options.array->starts_with('/'))
+        if (const auto pattern = pattern_of_iteration(file, *options.array))
+            return matching(file, datasets, *pattern);
+    if (options.array && options.array->find('*') != std::string::npos)
+        return matching(file, datasets, *options.array);
+    std::vector<Hdf5Array> offered;
+    for (Hdf5Array& array : put_together(file, datasets))
+        if (may_be_volume(array.steps.front()))
+            offered.push_back(std::move(array));
+    if (offered.empty())
+        fail_without_volumes(file, datasets);
+    ReadOptions asked = options;
+    if (options.array)
+        if (const std::vector<Hdf5Array> found = called(offered, *options.array); !found.empty()) {
+            if (found.size() == 1)
+                return found.front();
+            offered = found; // several paths have this end
+            asked.array.reset();
+        }
+    if (options.any_array) // one that can be read before one that leaves something open
+        std::ranges::stable_partition(offered, [&](const Hdf5Array& array) {
+            return layout_of(array.steps.front(), options).has_value();
+        });
+    std::vector<StoredArray> listed;
+    for (const Hdf5Array& array : offered) {
+        std::string shape = shape_text(array.steps.front().dimensions);
+        if (array.steps.size() > 1)
+            shape += fmt::format(", {} steps", array.steps.size());
+        listed.push_back(
+            {.name = array.name, .type = array.steps.front().type, .shape = std::move(shape)});
+    }
+    asked.component.reset(); // components are an axis of the dataset here
+    const ChosenScalar chosen = choose_scalar(listed, asked, file.name());
+    Hdf5Array found = *std::ranges::find(offered, chosen.array.name, &Hdf5Array::name);
+    found.offered = chosen.offered;
+    return found;
+}
+
+} // namespace isochron::index

@@ -1,0 +1,250 @@
+// Reads NetCDF (classic, 64-bit offset, CDF-5 and NetCDF-4) through Unidata's library.
+#include "index/error.h"
+#include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/netcdf/netcdf_values.h"
+#include "index/readers/formats/stored_file.h"
+#include "index/readers/formats/text_header.h"
+#include "index/readers/formats/unread_fields.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of variables that hold cell bounds of coordinates, which are not fields to show.
+std::vector<std::string> bounds_in(const NetcdfFile& file) {
+    std::vector<std::string> names;
+    for (const NetcdfVariable& variable : file.variables())
+        for (const char* attribute : {"bounds", "climatology"})
+            if (const std::string name = file.text(variable, attribute); !name.empty())
+                names.push_back(variable.name.substr(0, variable.name.rfind('/') + 1) + name);
+    return names;
+}
+
+[[noreturn]] void fail_without_volume(const NetcdfFile& file) {
+    constexpr std::size_t kListed = 8;
+    std::vector<std::string> found;
+    for (const NetcdfVariable& variable : file.variables())
+        if (variable.dimensions.size() > 1 && found.size() < kListed)
+            found.push_back(text(variable));
+    throw Error(fmt::format("{}: holds no array with three dimensions of more than one vertex "
+                            "besides time{}{}",
+                            file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
+}
+
+/// The file's variables with three dimensions.
+std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
+    const std::vector<std::string> bounds = bounds_in(file);
+    std::vector<StoredArray> offered;
+    for (const NetcdfVariable& variable : file.variables())
+        if (layout_of(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
+            (variable.type || options.array == variable.name)) {
+            std::vector<std::size_t> lengths;
+            for (const NetcdfDimension& dimension : variable.dimensions)
+                lengths.push_back(dimension.length);
+            offered.push_back({.name = variable.name,
+                               .type = variable.type,
+                               .shape = fmt::format("{}", fmt::join(lengths, " x "))});
+        }
+    return offered;
+}
+
+/// Picks the variable that `options` ask for among those with three dimensions.
+/// @throws Error naming the file, as `choose_scalar` does, or when it has others
+const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions& options) {
+    const auto& variables = file.variables();
+    if (options.array) {
+        const auto named = std::ranges::find(variables, *options.array, &NetcdfVariable::name);
+        if (named != variables.end() && !layout_of(file, *named))
+            throw Error(fmt::format("{}: array {}, expected three dimensions of more than one "
+                                    "vertex besides time",
+                                    file.name(), text(*named)));
+    }
+    const std::vector<StoredArray> offered = offered_in(file, options);
+    if (offered.empty())
+        fail_without_volume(file);
+    const ChosenScalar chosen = choose_scalar(offered, options, file.name());
+    return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
+}
+
+/// Whether coordinates that an attribute names place the vertices one by one, as on a curved grid:
+/// then they are not used.
+bool names_curved_axes(const NetcdfFile& file, const NetcdfVariable& variable) {
+    std::istringstream names(file.text(variable, "coordinates"));
+    for (std::string name; names >> name;)
+        for (const NetcdfVariable& other : file.variables())
+            if (other.name.substr(other.name.rfind('/') + 1) == name &&
+                std::ranges::count_if(other.dimensions, [](const NetcdfDimension& each) {
+                    return each.length > 1;
+                }) > 1)
+                return true;
+    return false;
+}
+
+/// Attributes of the CF conventions and others that change neither values nor places here; texts that
+/// only describe are left out.
+std::optional<std::string> note_on_attributes(const NetcdfFile& file,
+                                              const NetcdfVariable& variable) {
+    static const std::set<std::string_view> kReadOrText{"units",
+                                                        "scale_factor",
+                                                        "add_offset",
+                                                        "_FillValue",
+                                                        "missing_value",
+                                                        "valid_min",
+                                                        "valid_max",
+                                                        "valid_range",
+                                                        "_Unsigned",
+                                                        "unitSI",
+                                                        "gridSpacing",
+                                                        "gridUnitSI",
+                                                        "gridGlobalOffset",
+                                                        "axisLabels",
+                                                        "dataOrder",
+                                                        "position",
+                                                        "long_name",
+                                                        "standard_name",
+                                                        "description",
+                                                        "comment",
+                                                        "history",
+                                                        "title",
+                                                        "references",
+                                                        "institution",
+                                                        "source",
+                                                        "DIMENSION_LIST",
+                                                        "_Netcdf4Dimid",
+                                                        "_Netcdf4Coordinates",
+                                                        "FieldType",
+                                                        "MemoryOrder",
+                                                        "_DeflateLevel",
+                                                        "_ChunkSizes",
+                                                        "_Storage",
+                                                        "_Endianness",
+                                                        "name",
+                                                        "param",
+                                                        "coordinates",
+                                                        "stagger",
+                                                        "axis"};
+    std::vector<std::string> unread;
+    for (const std::string& name : file.attributes(variable))
+        if (!kReadOrText.contains(name))
+            unread.push_back(name);
+    if (names_curved_axes(file, variable))
+        unread.push_back(fmt::format("coordinates {} (a curved grid is shown straight)",
+                                     excerpt(file.text(variable, "coordinates"))));
+    return note_on_unread(unread);
+}
+
+/// Formats within NetCDF whose values would be wrong if they were read as they are stored.
+void expect_no_other_format(const NetcdfFile& file) {
+    for (const NetcdfVariable& variable : file.variables())
+        if (file.text(variable, "varid").starts_with("MINC standard variable"))
+            throw Error(fmt::format("{}: MINC 1, which scales each slice in its own way, expected "
+                                    "plain NetCDF; mnc2nii of the MINC tools makes NIfTI of it",
+                                    file.name()));
+    if (!file.variables().empty() &&
+        file.text(group_of(file.variables().front()), "Conventions").find("AMBER") !=
+            std::string::npos)
+        throw Error(fmt::format("{}: a trajectory of AMBER, expected volumes", file.name()));
+}
+
+class NetcdfVolume final : public DecodedFile {
+  public:
+    NetcdfVolume(const fs::path& path, const ReadOptions& options)
+        : file_(path, options.crop.has_value()),
+          variable_((expect_no_other_format(file_), choose_variable(file_, options))),
+          layout_(*layout_of(file_, variable_)), missing_(file_, variable_) {
+        const std::string& name = file_.name();
+        const StoredArray array{.name = variable_.name,
+                                .type = variable_.type,
+                                .gaps = missing_.possible() && *variable_.type != StoredType::f32 &&
+                                        *variable_.type != StoredType::f64};
+        chosen_ = choose_scalar(std::span(&array, 1), options, name);
+        steps_ = layout_.time ? variable_.dimensions[*layout_.time].length : 1;
+        if (steps_ == 0)
+            throw Error(
+                fmt::format("{}: {} has 0 steps, expected at least 1", name, text(variable_)));
+        std::array<std::int64_t, 3> sizes{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sizes[axis] = static_cast<std::int64_t>(
+                std::min<std::size_t>(length_along(axis), std::int64_t{1} << 62));
+        info_.grid.vertices = checked_vertices(sizes, name);
+        file_.expect_room(variable_);
+        if (layout_.time)
+            file_.keep_chunks(variable_, *layout_.time);
+        ReadOptions any = options;
+        any.any_array = true;
+        info_.arrays = choose_scalar(offered_in(file_, options), any, name).offered;
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        info_.scaling = file_.scaling(variable_);
+        if (const std::string unit = file_.text(variable_, "units"); unit != "1")
+            info_.value_unit = unit;
+        info_.notes = chosen_.notes();
+        place_axes(file_, variable_, layout_, options, info_);
+        place_steps(file_, variable_, layout_, info_);
+        if (auto note = note_on_attributes(file_, variable_))
+            info_.notes.push_back(std::move(*note));
+        part_ = crop_description(info_, options, name);
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return steps_; }
+
+    /// Whole chunks, since HDF5 decompresses a whole chunk for each request of a part of it.
+    std::uint32_t slices_at_once() const override {
+        const std::uint32_t all = info_.grid.vertices[2], worth = slices_worth_asking(info_);
+        const std::vector<std::size_t> chunk = file_.chunk_of(variable_);
+        if (chunk.empty())
+            return worth;
+        const auto along = std::clamp<std::uint64_t>(chunk[layout_.space[2]], 1, all);
+        const std::uint64_t whole = (worth + along - 1) / along * along;
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(whole, all));
+    }
+
+    std::uint64_t decoded_bytes() const override {
+        double chunk = 1; // values of a chunk, which may span several steps
+        for (const std::size_t length : file_.chunk_of(variable_))
+            chunk *= static_cast<double>(length);
+        const double values = std::max(chunk, static_cast<double>(info_.grid.vertex_count()));
+        constexpr double kMost = 1e15;
+        return static_cast<std::uint64_t>(std::min(values, kMost)) * size_of(*variable_.type);
+    }
+
+    void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
+        read_netcdf_slab(file_, variable_, layout_, step, slices, chosen_, missing_, info_.grid,
+                         part_, out);
+    }
+
+  private:
+    std::size_t length_along(std::size_t axis) const {
+        return variable_.dimensions[layout_.space[axis]].length;
+    }
+
+    NetcdfFile file_;
+    NetcdfVariable variable_;
+    NetcdfLayout layout_;
+    MissingValues missing_;
+    ChosenScalar chosen_;
+    SeriesInfo info_;
+    std::optional<VolumePart> part_;
+    std::size_t steps_ = 1;
+};
+
+} // namespace
+
+std::unique_ptr<DecodedFile> decode_netcdf(const fs::path& path, const ReadOptions& options) {
+    return std::make_unique<NetcdfVolume>(path, options);
+}
+
+} // namespace isochron::index

@@ -1,0 +1,22 @@
+// Times that are written as dates, as in files of WRF.
+#pragma once
+
+#include "index/readers/decoders/netcdf/netcdf_file.h"
+#include "index/volume/volume_series.h"
+
+namespace isochron::index {
+
+/// Sets the times from a variable of text with a date for each step, `Times` (WRF) or `xtime`
+/// (MPAS): `2005-08-28_12:00:00`. They are seconds since the first. Where the text is no date, a
+/// note says so.
+void place_dates(const NetcdfFile& file, const NetcdfDimension& time, SeriesInfo& info);
+
+/// Whether a unit says that numbers are dates, as in CDO's absolute time axes: `day as %Y%m%d.%f`.
+bool says_dates(const std::string& unit);
+
+/// Makes times of such numbers: days since the first. Where one is no date, steps keep the numbers, and
+/// a note says so.
+void place_absolute_dates(std::vector<double> numbers, const std::string& unit,
+                          const std::string& calendar, SeriesInfo& info);
+
+} // namespace isochron::index

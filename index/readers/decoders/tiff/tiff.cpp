@@ -1,0 +1,205 @@
+// TIFF volumes: pages of a file, of several, or a file for each slice.
+#include "index/error.h"
+#include "index/lower_case.h"
+#include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/tiff/tiff_file.h"
+#include "index/readers/decoders/tiff/tiff_metadata.h"
+#include "index/readers/formats/stored_file.h"
+#include "index/system/input_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `channel 1` where the file has no name for it.
+std::vector<std::string> names_of_channels(const TiffStack& stack) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < stack.channels; ++i) {
+        std::string name = i < stack.channel_names.size() ? stack.channel_names[i] : "";
+        if (name.empty() || std::ranges::find(names, name) != names.end())
+            name = stack.channels == 1 ? "intensity" : fmt::format("channel {}", i);
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+/// The file's own description, or that of the file beside it to which it refers.
+std::string full_description(const TiffFile& file, const fs::path& path) {
+    const std::string& own = file.description();
+    const std::string name = ome_metadata_file(own);
+    if (name.empty())
+        return own;
+    const fs::path beside = path.parent_path() / fs::path(name).filename();
+    if (lower_case(beside.extension().string()).starts_with(".tif"))
+        return TiffFile(beside).description();
+    constexpr std::uint64_t kLargest = std::uint64_t{256} << 20;
+    return read_text(beside, kLargest);
+}
+
+class TiffVolume final : public DecodedFile {
+  public:
+    TiffVolume(const fs::path& path, const ReadOptions& options)
+        : path_(path), slices_(options.slices), first_(path),
+          stack_(slices_.empty()
+                     ? stack_of(full_description(first_, path), first_.pages(),
+                                first_.shape().samples, first_.resolution(0), first_.resolution(1),
+                                path.string())
+                     : TiffStack{.slices = slices_.size(),
+                                 // Files of other channels have been left out by this name.
+                                 .channel_names = {options.array.value_or("intensity")}}) {
+        const std::string name = path.string();
+        if (stack_.appended)
+            first_.take_appended(stack_.slices * stack_.frames * stack_.channels);
+        if (slices_.empty() && stack_.planes.empty() &&
+            first_.pages() < stack_.slices * stack_.frames * stack_.channels)
+            throw Error(fmt::format("{}: truncated: {} pages, its description has {}", name,
+                                    first_.pages(),
+                                    stack_.slices * stack_.frames * stack_.channels));
+        const TiffShape& shape = first_.shape();
+        std::vector<StoredArray> offered;
+        for (const std::string& channel : names_of_channels(stack_))
+            offered.push_back({.name = channel, .type = shape.type, .components = shape.samples});
+        chosen_ = choose_scalar(offered, options, name);
+        channel_ = static_cast<std::size_t>(
+            std::ranges::find(offered, chosen_.array.name, &StoredArray::name) - offered.begin());
+        if (stack_.slices == 1 && stack_.frames > 1) {
+            std::swap(stack_.slices, stack_.frames); // a volume of it shows more than nothing
+            info_.notes.push_back("frames of one slice each: they are taken for slices");
+            frames_are_slices_ = true;
+        }
+        info_.grid.vertices = checked_vertices(
+            {std::int64_t{shape.width}, shape.height, static_cast<std::int64_t>(stack_.slices)},
+            name);
+        expect_few_steps(stack_.frames, name);
+        info_.arrays = chosen_.offered;
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        info_.length_unit = stack_.length_unit;
+        info_.grid.spacing = stack_.spacing;
+        info_.grid.origin = stack_.origin;
+        calibrate();
+        for (const auto& notes : {chosen_.notes(), stack_.notes, first_.notes()})
+            info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
+        if (shape.half)
+            info_.notes.push_back("float16 values converted to f32");
+        note_resolution();
+        if (stack_.times.size() == stack_.frames && !frames_are_slices_) {
+            info_.times = stack_.times;
+            info_.time_unit = stack_.time_unit;
+        }
+        if (stack_.time_step > 0 && std::isfinite(stack_.time_step) && !frames_are_slices_) {
+            info_.time_unit = stack_.time_unit;
+            for (std::size_t i = 0; i < stack_.frames; ++i)
+                info_.times.push_back(static_cast<double>(i) * stack_.time_step);
+        }
+    }
+
+    const SeriesInfo& info() const override { return info_; }
+    std::size_t steps() const override { return stack_.frames; }
+    std::uint32_t slices_at_once() const override { return slices_worth_asking(info_); }
+    std::uint64_t decoded_bytes() const override {
+        const TiffShape& shape = first_.shape();
+        return std::uint64_t{shape.width} * shape.height * shape.samples * size_of(shape.type);
+    }
+
+    void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
+        const std::size_t page = out.size() / slices.count;
+        for (std::uint32_t i = 0; i < slices.count; ++i)
+            read_slice(step, slices.first + i, out.subspan(i * page, page));
+    }
+
+  private:
+    /// ImageJ calibrates 8 and 16 bits only.
+    void calibrate() {
+        if (stack_.scaling == Scaling{} && stack_.value_unit.empty())
+            return;
+        const TiffShape& shape = first_.shape();
+        if (shape.type != StoredType::u8 && shape.type != StoredType::u16 &&
+            shape.type != StoredType::i8 && shape.type != StoredType::i16) {
+            info_.notes.push_back(
+                fmt::format("stated and not used: calibration of {} values, as in "
+                            "ImageJ",
+                            name_of(shape.type)));
+            return;
+        }
+        info_.scaling = stack_.scaling;
+        info_.value_unit = stack_.value_unit;
+    }
+
+    /// Notes the resolution of a plain file: it may be that of a print or of a pixel, nobody can
+    /// tell.
+    void note_resolution() {
+        const double x = first_.resolution(0), y = first_.resolution(1);
+        const unsigned unit = first_.resolution_unit();
+        const std::string& said = first_.description();
+        if (!slices_.empty() || !(x > 0) || !(y > 0) || unit < 2 || unit > 3 ||
+            said.starts_with("ImageJ=") || said.find("<OME") != said.npos)
+            return;
+        info_.notes.push_back(fmt::format("stated and not used: {} x {} pixels for each {} "
+                                          "(--spacing, --length-unit)",
+                                          x, y, unit == 2 ? "inch" : "cm"));
+    }
+
+    void read_slice(std::size_t step, std::uint32_t z, std::span<std::byte> out) {
+        const std::size_t number =
+            channel_ + stack_.channels * (frames_are_slices_ ? z : z + stack_.slices * step);
+        TiffPlane plane{.file = "", .page = number, .there = true};
+        if (!slices_.empty())
+            plane = {slices_[z].string(), 0, true};
+        else if (!stack_.planes.empty())
+            plane = stack_.planes[number];
+        TiffFile& file = file_of(plane);
+        if (plane.page >= file.pages())
+            throw Error(fmt::format("{}: truncated: {} pages, page {} is described", file.name(),
+                                    file.pages(), plane.page));
+        Grid slice = info_.grid;
+        slice.vertices[2] = 1;
+        convert_planes(chosen_, slice, out, file.name(),
+                       [&](std::size_t component, std::span<std::byte> samples) {
+                           file.read(plane.page, static_cast<std::uint32_t>(component), samples);
+                       });
+    }
+
+    TiffFile& file_of(const TiffPlane& plane) {
+        if (plane.file.empty() || fs::path(plane.file).filename() == path_.filename())
+            return first_;
+        const fs::path path = slices_.empty()
+                                  ? path_.parent_path() / fs::path(plane.file).filename()
+                                  : fs::path(plane.file);
+        if (!other_ || other_path_ != path) {
+            other_.reset();
+            other_ = std::make_unique<TiffFile>(path);
+            other_path_ = path;
+            if (other_->shape() != first_.shape())
+                throw Error(fmt::format("{}: {}, {} has {}", path.string(), text(other_->shape()),
+                                        path_.string(), text(first_.shape())));
+        }
+        return *other_;
+    }
+
+    fs::path path_;
+    std::vector<fs::path> slices_;
+    TiffFile first_;
+    TiffStack stack_;
+    ChosenScalar chosen_;
+    SeriesInfo info_;
+    std::size_t channel_ = 0;
+    bool frames_are_slices_ = false;
+    std::unique_ptr<TiffFile> other_;
+    fs::path other_path_;
+};
+
+} // namespace
+
+std::unique_ptr<DecodedFile> decode_tiff(const fs::path& path, const ReadOptions& options) {
+    return std::make_unique<TiffVolume>(path, options);
+}
+
+} // namespace isochron::index

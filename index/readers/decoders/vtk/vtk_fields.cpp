@@ -1,0 +1,215 @@
+// After "VTK File Formats" and the keys that VTK writes with its arrays.
+#include "index/readers/decoders/vtk/vtk_fields.h"
+
+#include "index/readers/decoders/vtk/vtk_resample.h"
+#include "index/readers/decoders/vtk/xml_markup.h"
+#include "index/readers/formats/text_header.h"
+#include "index/readers/formats/unread_fields.h"
+
+#include <fmt/format.h>
+
+#include <vtkAbstractArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationIterator.h>
+#include <vtkInformationKey.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace isochron::index {
+namespace {
+
+/// Attributes of elements that are read, or that say no more than the values do.
+constexpr std::array kReadAttributes{
+    "type",       "version",        "byte_order", "header_type",
+    "compressor", "WholeExtent",    "Origin",     "Spacing",
+    "Direction",  "Extent",         "Source",     "Name",
+    "format",     "offset",         "encoding",   "NumberOfComponents",
+    "RangeMin",   "RangeMax",       "GhostLevel", "TimeStep",
+    "TimeValue",  "NumberOfTuples", "index",      "file",
+    "location",   "NumberOfPoints"};
+/// Field data that give the time; field data that VTK's readers of meshes add, of what is said
+/// elsewhere; ranges of values that VTK writes with each array.
+constexpr std::array kTimeFields{"TimeValue", "TIME", "TimeStep"};
+constexpr std::array kOfReaders{"ElementBlockIds", "Title", "CasePath"};
+constexpr std::array kRanges{"L2_NORM_RANGE", "L2_NORM_FINITE_RANGE", "COMPONENT_RANGE",
+                             "FINITE_RANGE", "DISCRETE_VALUES"};
+constexpr std::string_view kUnit = "UNITS_LABEL", kSpace = " \t\r\n";
+
+/// Fields as `note_on_unread` takes them, each said once.
+class UnreadFields {
+  public:
+    void add(const std::string& key, std::string_view value) {
+        if (seen_.insert(key).second)
+            fields_.push_back(value.empty() ? key : fmt::format("{} {}", key, excerpt(value)));
+    }
+    void tell(SeriesInfo& info) const {
+        if (auto note = note_on_unread(fields_))
+            info.notes.push_back(std::move(*note));
+    }
+
+  private:
+    std::set<std::string> seen_;
+    std::vector<std::string> fields_;
+};
+
+std::string_view element_of(std::string_view tag) {
+    const std::size_t end = tag.find_first_of(" \t\r\n/>", 1);
+    return tag.substr(1, end == tag.npos ? end : end - 1);
+}
+
+std::map<std::string, std::string> attributes_of(std::string_view tag) {
+    std::map<std::string, std::string> attributes;
+    std::size_t at = std::min(element_of(tag).size() + 1, tag.size());
+    while ((at = tag.find_first_not_of(kSpace, at)) != tag.npos) {
+        const std::size_t equals = tag.find('=', at);
+        const std::size_t quote = equals == tag.npos ? equals : tag.find_first_of("\"'", equals);
+        const std::size_t end = quote == tag.npos ? quote : tag.find(tag[quote], quote + 1);
+        if (end == tag.npos)
+            break;
+        attributes.emplace(trimmed(tag.substr(at, equals - at)),
+                           tag.substr(quote + 1, end - quote - 1));
+        at = end + 1;
+    }
+    return attributes;
+}
+
+bool is_one_of(const auto& list, std::string_view word) {
+    return std::ranges::any_of(list, [&](std::string_view one) { return one == word; });
+}
+
+/// What makes one of several arrays the one to be shown is not used: the user chooses.
+void add_active(const std::string& group, const std::string& kind, const std::string& name,
+                const ChosenScalar& chosen, UnreadFields& unread) {
+    if (!name.empty() && chosen.offered.size() > 1 && name != chosen.array.name)
+        unread.add(fmt::format("{} {}", group, kind), name);
+}
+
+class MarkupFields {
+  public:
+    MarkupFields(std::string_view markup, const ChosenScalar& chosen, SeriesInfo& info)
+        : markup_(markup), chosen_(chosen), info_(info) {
+        for_each_tag(markup, [this](Tag tag) { take(tag); });
+        unread_.tell(info_);
+    }
+
+  private:
+    void take(Tag tag) {
+        const std::string element(element_of(tag.text));
+        if (element.starts_with('/')) {
+            if (element == "/" + group_)
+                group_.clear();
+            return;
+        }
+        auto attributes = attributes_of(tag.text);
+        if (element == "FieldData" || element == "PointData" || element == "CellData") {
+            if (!tag.text.ends_with("/>"))
+                group_ = element;
+            for (const auto& [kind, name] : attributes)
+                add_active(group_, kind, name, chosen_, unread_);
+            return;
+        }
+        if (element == "InformationKey")
+            return take_key(attributes["name"], tag);
+        if (element == "DataArray" || element == "Array")
+            array_ = attributes["Name"];
+        if (group_ == "FieldData" && !is_one_of(kTimeFields, array_))
+            unread_.add("FieldData " + array_, "");
+        for (const auto& [name, value] : attributes)
+            if (!is_one_of(kReadAttributes, name) && !name.starts_with("NumberOf"))
+                unread_.add(fmt::format("{} {}",
+                                        name.starts_with("ComponentName") ? array_ : element, name),
+                            value);
+    }
+
+    void take_key(const std::string& name, Tag tag) {
+        const std::size_t begin = tag.at + tag.text.size();
+        std::string_view text =
+            markup_.substr(begin, std::min(markup_.find('<', begin), markup_.size()) - begin);
+        constexpr std::string_view kRaw = "<![CDATA[";
+        if (markup_.substr(begin).starts_with(kRaw)) {
+            text = markup_.substr(begin + kRaw.size());
+            text = text.substr(0, text.find("]]>"));
+        }
+        const bool of_chosen = array_ == chosen_.array.name &&
+                               group_ == (chosen_.array.on_cells ? "CellData" : "PointData");
+        if (name == kUnit && of_chosen)
+            info_.value_unit = trimmed(text);
+        else if (name == kUnit && group_ != "FieldData")
+            return; // the unit of an array that is not shown
+        else if (!is_one_of(kRanges, name))
+            unread_.add(fmt::format("{} {}", array_, name), trimmed(text));
+    }
+
+    std::string_view markup_;
+    const ChosenScalar& chosen_;
+    SeriesInfo& info_;
+    UnreadFields unread_;
+    std::string group_, array_; ///< in which the tag is
+};
+
+/// Names of components, unit and further keys of an array.
+void take_array(vtkAbstractArray& array, bool chosen, UnreadFields& unread, SeriesInfo& info) {
+    const std::string name = array.GetName() ? array.GetName() : "";
+    for (int i = 0; i < array.GetNumberOfComponents(); ++i)
+        if (const char* component = array.GetComponentName(i))
+            unread.add(fmt::format("{} ComponentName{}", name, i), component);
+    if (!array.HasInformation())
+        return;
+    const vtkNew<vtkInformationIterator> each;
+    each->SetInformation(array.GetInformation());
+    for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem()) {
+        const std::string key = each->GetCurrentKey()->GetName();
+        if (key == kUnit && chosen)
+            info.value_unit = array.GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+        if (key != kUnit && !is_one_of(kRanges, key))
+            unread.add(fmt::format("{} {}", name, key), "");
+    }
+}
+
+} // namespace
+
+void take_fields_of_markup(std::string_view markup, const ChosenScalar& chosen, SeriesInfo& info) {
+    const MarkupFields fields(markup, chosen, info);
+}
+
+void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, const std::string& title,
+                        SeriesInfo& info) {
+    UnreadFields unread;
+    if (!title.empty() && title != "vtk output") // VTK's own
+        unread.add("title", title);
+    const auto take_arrays = [&](vtkFieldData* fields, bool of_chosen) {
+        for (int i = 0; fields && i < fields->GetNumberOfArrays(); ++i) {
+            vtkAbstractArray& array = *fields->GetAbstractArray(i);
+            const bool is_chosen = array.GetName() && array.GetName() == chosen.array.name;
+            take_array(array, of_chosen && is_chosen, unread, info);
+        }
+    };
+    const auto take_others = [&](vtkFieldData* fields) {
+        for (int i = 0; fields && i < fields->GetNumberOfArrays(); ++i)
+            if (const char* name = fields->GetAbstractArray(i)->GetName();
+                name && !is_one_of(kTimeFields, name) && !is_one_of(kOfReaders, name))
+                unread.add(fmt::format("FieldData {}", name), "");
+    };
+    take_others(data.GetFieldData());
+    each_grid(data, [&](vtkDataSet& grid) {
+        // Arrays of cells become arrays of points where a grid is resampled.
+        take_arrays(grid.GetPointData(), true);
+        take_arrays(grid.GetCellData(), !grid.GetPointData()->HasArray(chosen.array.name.c_str()));
+        if (&grid != &data)
+            take_others(grid.GetFieldData());
+    });
+    unread.tell(info);
+}
+
+} // namespace isochron::index

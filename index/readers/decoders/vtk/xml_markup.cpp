@@ -1,0 +1,167 @@
+// Checks the depth of elements by their tags only, and changes numbers as text.
+#include "index/readers/decoders/vtk/xml_markup.h"
+
+#include "index/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+constexpr int kDeepest = 64; ///< image data and collections have fewer than ten levels
+
+/// The position after the next `end` from `at` on.
+std::size_t behind(std::string_view markup, std::string_view end, std::size_t at) {
+    const std::size_t found = markup.find(end, at);
+    return found == markup.npos ? markup.size() : found + end.size();
+}
+
+/// The position after the tag that starts before `at`. Quoted values may contain `>`.
+std::size_t behind_tag(std::string_view markup, std::size_t at) {
+    while ((at = markup.find_first_of("\"'>", at)) != markup.npos) {
+        if (markup[at] == '>')
+            return at + 1;
+        at = behind(markup, markup.substr(at, 1), at + 1);
+    }
+    return markup.size();
+}
+
+/// Calls `visit` for each word of the text between tags, in order.
+template <class Visit>
+void for_each_word(std::string_view text, Visit visit) {
+    constexpr std::string_view kBlank = " \t\r\n";
+    for (std::size_t tag = text.find('<'); tag != text.npos;) {
+        const std::size_t begin = behind_tag(text, tag + 1);
+        tag = text.find('<', begin);
+        const std::string_view numbers = text.substr(begin, tag - begin);
+        for (std::size_t at = 0; (at = numbers.find_first_not_of(kBlank, at)) != numbers.npos;) {
+            const std::size_t end = std::min(numbers.find_first_of(kBlank, at), numbers.size());
+            visit(begin + at, numbers.substr(at, end - at));
+            at = end;
+        }
+    }
+}
+
+/// -1 and 1 for infinities that VTK reads wrongly, else 0.
+int hard_infinity(std::string_view word) {
+    const bool negative = word.starts_with('-');
+    if (negative || word.starts_with('+'))
+        word.remove_prefix(1);
+    const auto is = [&](std::string_view name) {
+        return std::ranges::equal(word, name, {}, [](unsigned char c) { return std::tolower(c); });
+    };
+    if (is("infinity"))
+        return negative ? -1 : 1;
+    return negative && is("inf") ? -1 : 0;
+}
+
+} // namespace
+
+std::string_view markup_of(const MappedFile& file) {
+    const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
+                               file.bytes().size());
+    return all.substr(0, std::min(all.find("<AppendedData"), all.size()));
+}
+
+void expect_end(const MappedFile& file, const std::string& name) {
+    constexpr std::size_t kTail = 4096; // some writers leave blanks or a comment after it
+    const std::span<const std::byte> bytes = file.bytes();
+    const std::span<const std::byte> tail = bytes.last(std::min(bytes.size(), kTail));
+    if (std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size())
+            .find("</VTKFile") == std::string_view::npos)
+        throw Error(fmt::format("{}: truncated: it does not end with </VTKFile>", name));
+}
+
+void expect_names(std::string_view markup, const std::string& file) {
+    constexpr std::string_view kArray = "<DataArray";
+    const auto has_name = [](std::string_view tag) {
+        for (std::size_t at = tag.find("Name"); at != tag.npos; at = tag.find("Name", at + 1)) {
+            const std::size_t end = tag.find_first_not_of(" \t\r\n", at + 4);
+            if (std::isspace(static_cast<unsigned char>(tag[at - 1])) != 0 && end != tag.npos &&
+                tag[end] == '=')
+                return true;
+        }
+        return false;
+    };
+    // Arrays of positions are told by their places.
+    const auto among_positions = [&](std::size_t at) {
+        const std::string_view before = markup.substr(0, at);
+        return std::ranges::any_of(std::array{"Coordinates", "Points"}, [&](const char* element) {
+            const std::size_t begin = before.rfind(fmt::format("<{}", element));
+            const std::size_t end = before.rfind(fmt::format("</{}", element));
+            return begin != before.npos && (end == before.npos || end < begin);
+        });
+    };
+    for (std::size_t at = markup.find(kArray); at != markup.npos; at = markup.find(kArray, at)) {
+        const std::size_t end = behind_tag(markup, at);
+        if (!has_name(markup.substr(at, end - at)) && !among_positions(at))
+            throw Error(
+                fmt::format("{}: cannot be read: an array at byte {} has no Name", file, at));
+        at = end;
+    }
+}
+
+bool holds_hard_infinities(std::string_view text) {
+    bool found = false;
+    for_each_word(text, [&](std::size_t, std::string_view word) {
+        found = found || hard_infinity(word) != 0;
+    });
+    return found;
+}
+
+std::optional<std::string> with_easy_infinities(std::string_view text) {
+    const std::string lowest = fmt::format("{:.17g}", static_cast<double>(kLowest));
+    std::string easy;
+    std::size_t copied = 0;
+    bool ambiguous = false;
+    for_each_word(text, [&](std::size_t at, std::string_view word) {
+        // kLowest in any spelling: no other f32 begins like this.
+        ambiguous = ambiguous || word.starts_with("-3.4028");
+        const int sign = hard_infinity(word);
+        if (sign == 0)
+            return;
+        easy += text.substr(copied, at - copied);
+        easy += sign > 0 ? "inf" : lowest;
+        copied = at + word.size();
+    });
+    easy += text.substr(copied);
+    return ambiguous ? std::nullopt : std::optional(std::move(easy));
+}
+
+void for_each_tag(std::string_view markup, const std::function<void(Tag)>& visit) {
+    std::size_t at = 0;
+    while ((at = markup.find('<', at)) != markup.npos) {
+        const std::string_view rest = markup.substr(at);
+        if (rest.starts_with("<!--")) {
+            at = behind(markup, "-->", at);
+        } else if (rest.starts_with("<![CDATA[")) {
+            at = behind(markup, "]]>", at);
+        } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
+            at = behind(markup, ">", at);
+        } else {
+            const std::size_t end = behind_tag(markup, at);
+            visit({at, markup.substr(at, end - at)});
+            at = end;
+        }
+    }
+}
+
+void expect_shallow(std::string_view markup, const std::string& file) {
+    int depth = 0;
+    for_each_tag(markup, [&](Tag tag) {
+        if (tag.text.starts_with("</"))
+            depth = std::max(0, depth - 1);
+        else if (!tag.text.ends_with("/>"))
+            ++depth;
+        if (depth > kDeepest)
+            throw Error(fmt::format("{}: elements nested more than {} deep, at byte {}", file,
+                                    kDeepest, tag.at));
+    });
+}
+
+} // namespace isochron::index

@@ -1,0 +1,27 @@
+// What the groups of a Zarr hierarchy say: their attributes, their arrays, images of OME-Zarr.
+#pragma once
+
+#include "index/readers/decoders/zarr/zarr_store.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// @param group empty: the root @throws Error naming the store: no JSON object
+nlohmann::json attributes_of_group(const ZarrStore& store, const std::string& group);
+
+/// What describes the image in the attributes of OME-Zarr; null: none.
+nlohmann::json multiscale_of(const nlohmann::json& attributes);
+
+/// Adds the paths of the arrays below a group, at most 1000.
+/// @param depth of the group
+void find_arrays(const ZarrStore& store, const std::string& group, int depth,
+                 std::vector<std::string>& paths);
+
+/// `um` for `micrometer`; other units as they are.
+std::string tidy_unit_of_ome(const std::string& unit);
+
+} // namespace isochron::index

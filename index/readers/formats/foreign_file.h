@@ -1,0 +1,28 @@
+// Opens a file as its format says: here, or in a reader process, whose library decodes it.
+#pragma once
+
+#include "index/readers/formats/format.h"
+#include "index/readers/process/reader_pool.h"
+
+#include <memory>
+
+namespace isochron::index {
+
+/// @throws Error in one line that names the file
+std::unique_ptr<VolumeFile> open_in_format(const Format& format, const std::filesystem::path& path,
+                                           const ReadOptions& options);
+/// `open_in_format` as a function of the file.
+OpenVolumeFile opener_of(const Format& format);
+
+/// Opens a file of a format that a reader decodes.
+/// @param readers gives the reader that is used as long as the file is open
+/// @throws Error in one line that names the file, also when the reader crashes or makes no progress
+std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, const Format& format,
+                                         const std::filesystem::path& path,
+                                         const ReadOptions& options);
+
+/// The files and times of a ParaView collection (.pvd), in its order; in a reader.
+/// @see Format::list
+ListedFiles read_pvd(const std::filesystem::path& path);
+
+} // namespace isochron::index

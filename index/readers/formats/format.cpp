@@ -1,0 +1,140 @@
+// Tells formats by names and first bytes.
+#include "index/readers/formats/format.h"
+
+#include "index/error.h"
+#include "index/lower_case.h"
+#include "index/system/input_file.h"
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+
+namespace isochron::index {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The end of a name that tells a format; null: none of its ends does.
+const NameEnd* end_in(const Format& format, const std::string& name, FileStart& start) {
+    const auto end = std::ranges::find_if(format.ends, [&](const NameEnd& each) {
+        return name.ends_with(each.end) && (!each.only_if || each.only_if(start));
+    });
+    return end == format.ends.end() ? nullptr : &*end;
+}
+
+void recognize(KnownFile& file) {
+    const std::string name = lower_case(file.path.filename().string());
+    FileStart start(file.path);
+    for (const Format& format : all_formats())
+        if (const NameEnd* end = end_in(format, name, start)) {
+            file.format = &format;
+            file.end = end;
+            return;
+        }
+    for (const Format& format : all_formats())
+        if (format.recognize && format.recognize(start)) {
+            file.format = &format;
+            return;
+        }
+}
+
+/// The file that describes a folder; without a format if none does.
+KnownFile description_in(const fs::path& folder) {
+    std::error_code ignored;
+    for (const Format& format : all_formats())
+        for (const std::string_view name : format.describe_folder) {
+            KnownFile file{.given = folder, .path = folder / name};
+            if (!fs::is_regular_file(file.path, ignored))
+                continue;
+            recognize(file);
+            if (file.format == &format)
+                return file;
+        }
+    return {.given = folder, .path = folder};
+}
+
+} // namespace
+
+std::string_view FileStart::bytes(std::size_t count) {
+    if (count > asked_) {
+        asked_ = std::max<std::size_t>(count, 512); // what all but one format look at
+        bytes_.resize(asked_);
+        try {
+            const InputFile file(path_);
+            bytes_.resize(file.read(0, std::as_writable_bytes(std::span(bytes_))));
+        } catch (const Error&) {
+            bytes_.clear();
+        }
+    }
+    return std::string_view(bytes_).substr(0, count);
+}
+
+const Format& format_named(std::string_view name) {
+    const auto format = std::ranges::find(all_formats(), name, &Format::name);
+    assert(format != all_formats().end());
+    return *format;
+}
+
+KnownFile known_file(const fs::path& given) {
+    std::error_code ignored;
+    if (fs::is_directory(given, ignored))
+        return description_in(given);
+    KnownFile file{.given = given, .path = given};
+    recognize(file);
+    return file;
+}
+
+fs::path described_folder(const fs::path& file) {
+    std::error_code ignored;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+    const auto is_described = [](const fs::path& folder) {
+        return known_file(folder).path != folder;
+    };
+    const std::string name = lower_case(whole.filename().string());
+    for (const Format& format : all_formats()) {
+        for (const NameEnd& end : format.ends)
+            if (end.with_folder && name.ends_with(end.end))
+                return whole.parent_path();
+        for (const fs::path within : format.describe_folder) {
+            fs::path folder = whole;
+            for (auto part = within.end(); part != within.begin() && !folder.empty();)
+                folder = folder.filename() == *--part ? folder.parent_path() : fs::path();
+            if (folder.empty() || !is_described(folder))
+                continue;
+            while (folder.has_relative_path() && is_described(folder.parent_path()))
+                folder = folder.parent_path(); // a group around it
+            return folder;
+        }
+    }
+    return {};
+}
+
+bool is_of_format(const Format& format, const KnownFile& file) {
+    if (file.format == &format)
+        return true;
+    FileStart start(file.path);
+    return format.recognize && format.recognize(start);
+}
+
+bool has_known_end(const std::string& name, bool folder) {
+    const std::string lower = lower_case(name);
+    return std::ranges::any_of(all_formats(), [&](const Format& format) {
+        const auto has = [&](std::string_view end) {
+            return (folder ? name : lower).ends_with(end);
+        };
+        return folder ? std::ranges::any_of(format.folder_ends, has)
+                      : std::ranges::any_of(format.ends, has, &NameEnd::end);
+    });
+}
+
+std::string known_extensions() {
+    std::string known;
+    for (const Format& format : all_formats())
+        for (const NameEnd& each : format.ends) {
+            known += known.empty() ? "" : " ";
+            known += each.end;
+        }
+    return known;
+}
+
+} // namespace isochron::index

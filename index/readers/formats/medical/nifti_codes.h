@@ -1,0 +1,18 @@
+// The codes of NIfTI-1's nifti1.h for types and units.
+#pragma once
+
+#include "index/readers/formats/stored_scalar.h"
+
+#include <cstdint>
+#include <string>
+
+namespace isochron::index {
+
+/// @throws Error naming the file: a type that no volume can have, and what it is
+StoredType nifti_type(std::int32_t datatype, const std::string& file);
+
+/// The unit that `xyzt_units` names; empty where it names none.
+std::string nifti_length_unit(std::int32_t units);
+std::string nifti_time_unit(std::int32_t units);
+
+} // namespace isochron::index

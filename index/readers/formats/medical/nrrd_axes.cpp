@@ -1,0 +1,188 @@
+// Finds the roles of the axes of an NRRD file, after "Definition of NRRD File Format",
+// https://teem.sourceforge.net/nrrd/format.html#kinds.
+#include "index/readers/formats/medical/nrrd_axes.h"
+
+#include "index/error.h"
+#include "index/lower_case.h"
+#include "index/readers/formats/text_header.h"
+#include "index/volume/time_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+// Splits a list of vectors. They may have blanks inside, so each ends at its bracket.
+std::vector<std::string> vectors_in(std::string_view text) {
+    std::vector<std::string> vectors;
+    while (!(text = trimmed(text)).empty()) {
+        const std::size_t end =
+            text.front() == '(' ? text.find(')') : text.find_first_of(" \t(") - 1;
+        const std::size_t length = end >= text.size() ? text.size() : end + 1;
+        vectors.emplace_back(trimmed(text.substr(0, length)));
+        text.remove_prefix(length);
+    }
+    return vectors;
+}
+
+bool is_space(const std::string& kind) {
+    return kind == "domain" || kind == "space";
+}
+
+bool is_unknown(const std::string& kind) {
+    return kind.empty() || kind == "???" || kind == "none";
+}
+
+/// The axes of space in a file without directions.
+std::vector<bool> spatial_by_kind(const std::vector<std::string>& kinds) {
+    const std::size_t count = kinds.size();
+    std::vector<bool> spatial(count, count == 3);
+    if (count == 3)
+        return spatial;
+    const bool told = std::ranges::count_if(kinds, is_space) >= 3;
+    std::size_t left = 3;
+    for (std::size_t axis = 0; axis < count; ++axis) {
+        spatial[axis] = left > 0 && (is_space(kinds[axis]) || (!told && is_unknown(kinds[axis])));
+        left -= spatial[axis];
+    }
+    return spatial;
+}
+
+enum class Role : std::uint8_t { components, time };
+
+/// The role of an axis that is not an axis of space.
+Role role_of(std::size_t axis, const std::string& kind, NrrdAxes& axes, const ReadOptions& options,
+             const std::string& file) {
+    if (kind == "time" || options.extra_axis_is_time)
+        return Role::time;
+    if (axis < axes.units.size() && times_in("s", axes.units[axis], {}))
+        return Role::time;
+    const bool unknown = is_unknown(kind) || is_space(kind);
+    if (kind.empty() && axis > 0) {
+        axes.time_is_guessed = true;
+        return Role::time;
+    }
+    if (!unknown || kind.empty() || options.component)
+        return Role::components;
+    throw Error(fmt::format("{}: axis {}, of {}, is neither space nor said to be time (its kind is "
+                            "{}): --extra-axis-is-time reads it as time, --component N takes one "
+                            "of it",
+                            file, axis, axes.sizes[axis], kind));
+}
+
+} // namespace
+
+std::optional<std::vector<double>> nrrd_vector(std::string_view text, const std::string& key,
+                                               const std::string& file, std::size_t dimensions) {
+    if (text == "none")
+        return std::nullopt;
+    std::string numbers(text);
+    std::replace_if(
+        numbers.begin(), numbers.end(), [](char c) { return c == '(' || c == ')' || c == ','; },
+        ' ');
+    auto v = numbers_of(numbers, key, file);
+    if (v.size() != dimensions)
+        throw Error(fmt::format("{}: {}: {} has {} numbers, expected {}", file, key, excerpt(text),
+                                v.size(), dimensions));
+    return v;
+}
+
+std::size_t space_dimensions(const NrrdHeader& header) {
+    const std::string space = lower_case(header.find("space").value_or(""));
+    const auto said = header.find("spacedimension");
+    const bool timed = space.ends_with("-time") ||
+                       (space.size() == 4 && space.ends_with('t')) || // rast
+                       (said && trimmed(*said) == "4");
+    return timed ? 4 : 3;
+}
+
+std::vector<double> per_axis(const NrrdHeader& header, const std::string& key, std::size_t count) {
+    const auto text = header.find(key);
+    if (!text)
+        return {};
+    auto numbers = numbers_of(*text, key, header.file());
+    if (numbers.size() != count)
+        throw Error(
+            fmt::format("{}: {} {}, expected {}", header.file(), numbers.size(), key, count));
+    return numbers;
+}
+
+std::vector<std::string> quoted_in(std::string_view text) {
+    std::vector<std::string> quoted;
+    for (std::size_t begin = text.find('"'); begin != text.npos;) {
+        const std::size_t end = text.find('"', begin + 1);
+        if (end == text.npos)
+            break;
+        quoted.emplace_back(text.substr(begin + 1, end - begin - 1));
+        begin = text.find('"', end + 1);
+    }
+    return quoted;
+}
+
+NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
+    const std::string& file = header.file();
+    NrrdAxes axes;
+    axes.sizes = integers_of(header.need("sizes"), "sizes", file);
+    const std::size_t count = axes.sizes.size();
+    const auto dimension = integers_of(header.need("dimension"), "dimension", file);
+    if (dimension.size() != 1 || dimension[0] != static_cast<std::int64_t>(count))
+        throw Error(fmt::format("{}: {} sizes, dimension is {}", file, count,
+                                excerpt(header.need("dimension"))));
+    if (count < 3 || count > 5)
+        throw Error(fmt::format("{}: {} dimensions, expected 3, or 4 with time", file, count));
+    axes.units = quoted_in(header.find("units").value_or(""));
+    if (axes.units.size() != count)
+        axes.units.clear();
+    std::vector<std::string> kinds = words_of(lower_case(header.find("kinds").value_or("")));
+    if (kinds.size() != count)
+        kinds.assign(count, "");
+    std::vector<bool> spatial = spatial_by_kind(kinds);
+    if (const auto text = header.find("spacedirections")) {
+        const std::size_t dimensions = space_dimensions(header);
+        for (const std::string& vector : vectors_in(*text)) {
+            const auto v = nrrd_vector(vector, "space directions", file, dimensions);
+            const bool along_time = v && dimensions == 4 && (*v)[3] != 0;
+            if (along_time && ((*v)[0] != 0 || (*v)[1] != 0 || (*v)[2] != 0))
+                throw Error(fmt::format("{}: space directions: {} goes through space and time, "
+                                        "expected one of them",
+                                        file, excerpt(vector)));
+            if (along_time && axes.directions.size() < count)
+                axes.time_step = (*v)[3], kinds[axes.directions.size()] = "time";
+            axes.directions.push_back(v && !along_time
+                                          ? std::optional(glm::dvec3((*v)[0], (*v)[1], (*v)[2]))
+                                          : std::nullopt);
+        }
+        if (axes.directions.size() != count)
+            throw Error(fmt::format("{}: {} space directions, expected {}", file,
+                                    axes.directions.size(), count));
+        for (std::size_t axis = 0; axis < count; ++axis)
+            spatial[axis] = axes.directions[axis].has_value();
+    }
+    std::size_t found = 0;
+    for (std::size_t axis = 0; axis < count; ++axis) {
+        if (spatial[axis]) {
+            if (found == 3)
+                throw Error(fmt::format("{}: more than 3 axes of space", file));
+            axes.space[found++] = axis;
+            continue;
+        }
+        if (axis != 0 && axis != count - 1)
+            throw Error(fmt::format("{}: axis {} is not one of space; expected that of the slowest "
+                                    "or the fastest axis only",
+                                    file, axis));
+        const Role role = role_of(axis, kinds[axis], axes, options, file);
+        std::optional<std::size_t>& place = role == Role::time ? axes.time : axes.components;
+        if (place)
+            throw Error(fmt::format("{}: axes {} and {} are both {}, expected one", file, *place,
+                                    axis, role == Role::time ? "time" : "components"));
+        place = axis;
+    }
+    if (found != 3)
+        throw Error(fmt::format("{}: {} axes of space, expected 3", file, found));
+    return axes;
+}
+
+} // namespace isochron::index

@@ -5,7 +5,7 @@
 #include "index/error.h"
 #include "index/file/index_series.h"
 #include "index/indexing/appended_series.h"
-#include "index/readers/formats/series/opening.h"
+#include "index/readers/formats/open_series.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

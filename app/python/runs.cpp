@@ -1,5 +1,6 @@
 // Searches, meshes and values of an open index for several threads at once.
 #include "app/python/runs.h"
+#include "index/readers/formats/open_series.h"
 
 #include "index/error.h"
 #include "index/file/index_states.h"

@@ -1,5 +1,6 @@
 // Reads the steps of an index that refers to its sources instead of carrying a copy.
 #include "index/file/step_source.h"
+#include "index/readers/formats/open_series.h"
 
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"

@@ -118,14 +118,4 @@ class VolumeSeries {
     virtual std::vector<std::filesystem::path> files() const { return {}; }
 };
 
-/// Opens files, a glob's result or a .pvd as one series. Files are put in the order of the times that
-/// they, or a .pvd, state; without times in that of the numbers in their names (`t0.5` before `t2`
-/// before `t10`).
-/// @throws Error: unreadable, unknown format, several arrays and none chosen (lists them), ...
-std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
-                                          const ReadOptions& options = {});
-
-/// The file name extensions that `open_series` knows, as in ".pvd .vti .vtk".
-std::string known_extensions();
-
 } // namespace isochron::index

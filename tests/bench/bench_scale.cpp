@@ -4,6 +4,7 @@
 #include "app/generate/fourier_modes.h"
 #include "index/error.h"
 #include "index/indexing/index_build.h"
+#include "index/readers/formats/open_series.h"
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
 #include "index/search/index_search.h"

@@ -1,5 +1,6 @@
 // Times looks at steps whose bytes are on the disk alone.
 #include "tests/bench/cold_steps.h"
+#include "index/readers/formats/open_series.h"
 
 #include "index/error.h"
 #include "index/scan/scan.h"

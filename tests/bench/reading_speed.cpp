@@ -3,6 +3,7 @@
 // Makes a volume of f32 in each format in the folder, which the page cache must have room for, and
 // reads it in turns with the library alone and with ours: into memory that was never touched, and
 // into memory that was. Prints the best time of each and their ratio.
+#include "index/readers/formats/open_series.h"
 #include "index/system/input_file.h"
 #include "index/volume/volume_series.h"
 

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A wing is a folder of its floor, or a file at its root by its name without extension; `.` is
-/// every other file at the root. Wings of one step do not include each other.
+/// A wing is a folder of its floor, a folder within `readers`, or a file at the floor's root by its
+/// name without extension; `.` is every other file at the root. Wings of one step do not include each other.
 using Steps = std::vector<std::vector<std::string>>;
 
 /// From the front to the back: a wing may include those of the steps that come after its own.
@@ -23,7 +23,9 @@ const std::map<std::string, Steps> kOrder{
      {{"main"},
       {"commands"},
       {"explore"},
+      {"loop"},
       {"session", "indexing", "generate"},
+      {"choice", "kept"},
       {"panel", "output"},
       {"scene", "cluster", "control"},
       {"quality"},
@@ -31,13 +33,14 @@ const std::map<std::string, Steps> kOrder{
       {"config", "command_line"},
       {"text", "version", "python"}}},
     {"index",
-     {{"extraction", "indexing", "decoders", "export"},
+     {{"extraction", "indexing", "export"},
       {"detail"},
       {"search"},
       {"surface"},
       {"file"},
-      {"thi", "scan", "formats"},
-      {"reader"},
+      {"paper", "scan", "readers/decoders"},
+      {"readers/formats"},
+      {"readers/process"},
       {"volume", "system"},
       {"error", "interrupted", "lower_case", "progress", "shell_word", "utf8"}}},
     {"interaction",
@@ -86,6 +89,8 @@ Place place_of(const std::string& file) {
     place.stem = (path.parent_path() / path.stem()).generic_string();
     const bool at_root = path.parent_path() == place.floor;
     place.wing = at_root ? path.stem().string() : std::next(path.begin())->string();
+    if (place.wing == "readers")
+        place.wing += "/" + std::next(path.begin(), 2)->string();
     place.step = step_of(floor->second, place.wing);
     if (at_root && place.step == kNowhere) {
         place.wing = ".";

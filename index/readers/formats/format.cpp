@@ -1,5 +1,6 @@
 // Tells formats by names and first bytes.
 #include "index/readers/formats/format.h"
+#include "index/readers/formats/open_series.h"
 
 #include "index/error.h"
 #include "index/lower_case.h"

@@ -1,4 +1,5 @@
 // Opens files as a series: lists of files, slices, parts, or a file for each step.
+#include "index/readers/formats/open_series.h"
 #include "index/error.h"
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/foreign_file.h"
@@ -10,7 +11,6 @@
 #include "index/readers/formats/series/folder_files.h"
 #include "index/readers/formats/series/joined_blocks.h"
 #include "index/readers/formats/series/numbered_name.h"
-#include "index/readers/formats/series/opening.h"
 #include "index/readers/formats/series/resampled_series.h"
 #include "index/readers/formats/series/step_order.h"
 #include "index/readers/formats/series/vector_arrays.h"
@@ -206,11 +206,6 @@ std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
 }
 
 } // namespace
-
-std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
-                                          const ReadOptions& options) {
-    return open_series(files, options, {});
-}
 
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options, const Progress& progress) {

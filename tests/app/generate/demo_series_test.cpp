@@ -1,5 +1,6 @@
 // The demo series as files: their contents, and that they are complete and always the same.
 #include "app/generate/demo_series.h"
+#include "index/readers/formats/open_series.h"
 
 #include "index/error.h"
 #include "index/scan/scan.h"

@@ -1,6 +1,7 @@
 // Files that other libraries wrote, compared with their own readings: scripts in this folder make
 // both.
 #include "index/readers/formats/foreign_file.h"
+#include "index/readers/formats/open_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 #include "tests/support/test_seed.h"

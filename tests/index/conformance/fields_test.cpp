@@ -1,5 +1,6 @@
 // Nothing that a file states is ignored: the guide says of every field of the standards whether it is read
 // or noted, and a file with the field set to something unusual shows it.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 

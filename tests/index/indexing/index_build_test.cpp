@@ -1,6 +1,7 @@
 // Building an index: it is complete under its name, or does not exist.
 #include "index/error.h"
 #include "index/indexing/index_build.h"
+#include "index/readers/formats/open_series.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -116,7 +117,7 @@ TEST_F(IndexBuildTest, AFullDiskIsToldAndLeavesNothingBehind) {
     const auto whole = static_cast<rlim_t>(std::filesystem::file_size(folder.path() / "whole"));
     std::filesystem::remove(folder.path() / "whole");
     // A limit on the size of files fails a write as a full disk does.
-    struct rlimit before{};
+    struct rlimit before {};
     ASSERT_EQ(0, getrlimit(RLIMIT_FSIZE, &before));
     const auto previous = std::signal(SIGXFSZ, SIG_IGN);
     for (const rlim_t limit : {rlim_t{0}, rlim_t{10'000}, whole / 2, whole - 1}) {
@@ -152,9 +153,13 @@ TEST_F(IndexBuildTest, SeriesBeyondTheLimitsAreRefused) {
         return build_error(changed, folder.path() / "a");
     };
     EXPECT_THAT(with([](auto& info) { info.grid.vertices = {1, 5, 5}; }), HasSubstr("vertices"));
-    EXPECT_THAT(with([](auto& info) { info.grid.vertices = {70'000, 2, 2}; }),
+    EXPECT_THAT(with([](auto& info) {
+                    info.grid.vertices = {70'000, 2, 2};
+                }),
                 HasSubstr("vertices"));
-    EXPECT_THAT(with([](auto& info) { info.grid.vertices = {65537, 65537, 2}; }),
+    EXPECT_THAT(with([](auto& info) {
+                    info.grid.vertices = {65537, 65537, 2};
+                }),
                 HasSubstr("cells"));
     EXPECT_THAT(with([](auto& info) { info.grid.spacing.y = 0; }), HasSubstr("spacing"));
     EXPECT_THAT(with([](auto& info) { info.grid.direction[2] = info.grid.direction[1]; }),

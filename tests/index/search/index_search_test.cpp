@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/extraction/extractor.h"
 #include "index/indexing/index_build.h"
+#include "index/readers/formats/open_series.h"
 #include "tests/support/indexed.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/paths.h"

@@ -1,6 +1,7 @@
 // The surface of a rectilinear grid has the places of VTK's contour of the same file.
 #include "index/extraction/extraction.h"
 #include "index/indexing/index_build.h"
+#include "index/readers/formats/open_series.h"
 #include "index/volume/volume_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/test_folder.h"

@@ -1,4 +1,5 @@
 // Files that change while they are read: one error line, and no mix of values from two times.
+#include "index/readers/formats/open_series.h"
 #include "tests/index/readers/formats/packed.h"
 #include "tests/support/reader_fixtures.h"
 

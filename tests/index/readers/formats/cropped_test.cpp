@@ -1,4 +1,5 @@
 // Parts of volumes: they lie where they lay, and have the values that they had.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gmock/gmock.h>

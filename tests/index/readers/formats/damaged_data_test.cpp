@@ -1,4 +1,5 @@
 // Data with a wrong checksum, with bytes behind their declared end, or with wrong counts.
+#include "index/readers/formats/open_series.h"
 #include "tests/index/readers/formats/packed.h"
 #include "tests/support/reader_fixtures.h"
 #include "tests/support/test_seed.h"

@@ -1,4 +1,5 @@
 // Folders as users have them: one series beside other files, or several, which are listed.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gmock/gmock.h>

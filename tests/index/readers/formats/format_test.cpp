@@ -1,5 +1,6 @@
 // The table of formats: what names and first bytes tell, and that each row can be used.
 #include "index/readers/formats/format.h"
+#include "index/readers/formats/open_series.h"
 
 #include "index/readers/formats/foreign_file.h"
 #include "tests/support/reader_fixtures.h"

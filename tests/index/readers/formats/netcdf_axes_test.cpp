@@ -1,4 +1,5 @@
 // The positions of the vertices of NetCDF files in space and time.
+#include "index/readers/formats/open_series.h"
 #include "tests/index/readers/formats/netcdf_writer.h"
 #include "tests/support/reader_fixtures.h"
 

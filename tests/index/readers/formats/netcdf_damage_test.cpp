@@ -1,4 +1,5 @@
 // NetCDF files that are cut short, inconsistent or without a volume: one clear error line each.
+#include "index/readers/formats/open_series.h"
 #include "tests/index/readers/formats/netcdf_writer.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,4 +1,5 @@
 // Values of NetCDF files: every type in every form, packed, missing, and those of real files.
+#include "index/readers/formats/open_series.h"
 #include "tests/index/readers/formats/netcdf_writer.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"

@@ -1,4 +1,5 @@
 // Numbers in names: one reading for files, folders of steps, groups and slices.
+#include "index/readers/formats/open_series.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,4 +1,5 @@
 // Left stays left: a landmark keeps its physical position, however the file stores it.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <glm/vec4.hpp>

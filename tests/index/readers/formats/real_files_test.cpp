@@ -1,4 +1,5 @@
 // Files from other people's tools: values and geometry, compared with independent readings.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,4 +1,5 @@
 // Grids that become regular ones: by how many vertices, and what the note says of the error.
+#include "index/readers/formats/open_series.h"
 #include "index/readers/formats/series/resampled_series.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,4 +1,5 @@
 // Series of raw files and .pvd files: order, times, and files that do not match.
+#include "index/readers/formats/open_series.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/series/series_writer.h"
 #include "tests/support/reader_fixtures.h"

@@ -1,5 +1,6 @@
 // Several arrays of one file: what its library decodes together is decoded once.
 
+#include "index/readers/formats/open_series.h"
 #include "index/volume/volume_series.h"
 #include "tests/support/reader_fixtures.h"
 

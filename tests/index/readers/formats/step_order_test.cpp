@@ -1,4 +1,5 @@
 // The order of steps by the times that files state, steps that a restart left twice, and some of the steps.
+#include "index/readers/formats/open_series.h"
 #include "index/readers/formats/series/step_order.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -1,4 +1,5 @@
 // Arrays of VTK's XML images: those that can be read, and what their text says.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 

@@ -2,7 +2,7 @@
 #include "index/readers/formats/series/vti_header_hash.h"
 
 #include "index/error.h"
-#include "index/readers/formats/series/opening.h"
+#include "index/readers/formats/open_series.h"
 #include "tests/support/test_folder.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // Files of VTK: every encoding of .vti, legacy .vtk, the choice of arrays, and damaged files.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 

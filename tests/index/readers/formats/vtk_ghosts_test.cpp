@@ -1,4 +1,5 @@
 // Ghosts and blanked points and cells of VTK's files are missing values; times from their fields.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gmock/gmock.h>

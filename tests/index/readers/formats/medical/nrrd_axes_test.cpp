@@ -1,4 +1,5 @@
 // Which axes of an NRRD file are space, time and components: their kinds decide.
+#include "index/readers/formats/open_series.h"
 #include "tests/support/reader_fixtures.h"
 
 #include <gmock/gmock.h>

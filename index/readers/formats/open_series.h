@@ -1,0 +1,26 @@
+// Opens the files of a series, whatever their format.
+#pragma once
+
+#include "index/progress.h"
+#include "index/volume/volume_series.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// Opens files, a glob's result or a .pvd as one series. Files are put in the order of the times that
+/// they, or a .pvd, state; without times in that of the numbers in their names (`t0.5` before `t2`
+/// before `t10`).
+/// @param progress reports `opening files`, where there are many; may be empty
+/// @throws Error: unreadable, unknown format, several arrays and none chosen (lists them), ...
+std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
+                                          const ReadOptions& options = {},
+                                          const Progress& progress = {});
+
+/// The file name extensions that `open_series` knows, as in ".pvd .vti .vtk".
+std::string known_extensions();
+
+} // namespace isochron::index

@@ -7,7 +7,7 @@
 #include "app/output/export_request.h"
 #include "app/text.h"
 #include "index/error.h"
-#include "index/export/mesh_parts.h"
+#include "index/export/mesh_crop.h"
 #include "index/volume/instant_text.h"
 
 #include <fmt/format.h>

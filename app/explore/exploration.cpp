@@ -15,7 +15,7 @@
 #include "app/loop/new_steps.h"
 #include "app/loop/panel_movies.h"
 #include "app/loop/surface_exports.h"
-#include "app/session/data_choice.h"
+#include "app/loop/data_window.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"

@@ -1,5 +1,5 @@
 // Chooses levels from the distinct values of a step, or from a sample of the values.
-#include "index/indexing/level_choice.h"
+#include "index/indexing/level_chooser.h"
 
 #include "index/volume/ordinal.h"
 

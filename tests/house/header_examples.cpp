@@ -93,7 +93,7 @@ namespace isochron::index {
 namespace {
 
 void level_choice_example(ValueType type, std::span<const std::byte> stored) {
-#include "index/indexing/level_choice.example"
+#include "index/indexing/level_chooser.example"
 }
 
 void mesh_clusters_example(const CellMesh& mesh, const std::stop_token& stop) {

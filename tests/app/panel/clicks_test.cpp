@@ -46,8 +46,8 @@ class Clicks : public LayerTest {
 
 TEST_F(Clicks, OneLeadsToTheNextStepASecondSurfaceAndAPicture) {
     frame();
-    const PanelPlaces places = layer_.places();
-    const float middle = (places.time.low.y + places.time.high.y) / 2;
+    const PanelLayout layout = layer_.layout();
+    const float middle = (layout.time.low.y + layout.time.high.y) / 2;
     EXPECT_TRUE(one_click({0, middle}, {300, middle}, [](const Commands& commands) {
         return commands.instant == index::Instant(1);
     }));
@@ -126,8 +126,8 @@ TEST_F(Clicks, BackFromBetweenTwoStepsLeadsToTheEarlierOne) {
     asked_.between = interaction::BetweenSteps::blend;
     asked_.instant = {7, index::Instant::kFractions / 2};
     frame();
-    const PanelPlaces places = layer_.places();
-    const float middle = (places.time.low.y + places.time.high.y) / 2;
+    const PanelLayout layout = layer_.layout();
+    const float middle = (layout.time.low.y + layout.time.high.y) / 2;
     EXPECT_TRUE(one_click({0, middle}, {300, middle}, [](const Commands& commands) {
         return commands.instant == index::Instant(7);
     }));

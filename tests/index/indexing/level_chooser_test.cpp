@@ -32,7 +32,7 @@ TEST(LevelChooser, EightBitTypesHaveALevelForEveryValue) {
         EXPECT_EQ(LevelChooser(type).choose(), LevelMap::of_type(type));
 }
 
-TEST(LevelChoice, AStepOfFewValuesIsLosslessForEveryType) {
+TEST(LevelChooser, AStepOfFewValuesIsLosslessForEveryType) {
     std::mt19937 random(test_seed());
     for (const ValueType type :
          {ValueType::i16, ValueType::u16, ValueType::i32, ValueType::f32, ValueType::f64}) {

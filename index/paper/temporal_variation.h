@@ -1,8 +1,8 @@
 // Finds the time nodes at which a cell is stored, by how much it varies over time.
 #pragma once
 
+#include "index/paper/time_tree.h"
 #include "index/volume/order_key.h"
-#include "index/volume/time_tree.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,9 +4,9 @@
 #include "index/error.h"
 #include "index/paper/lattice.h"
 #include "index/paper/temporal_variation.h"
+#include "index/paper/time_tree.h"
 #include "index/system/parallel.h"
 #include "index/volume/cell_extremes.h"
-#include "index/volume/time_tree.h"
 
 #include <fmt/format.h>
 

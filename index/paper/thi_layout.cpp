@@ -2,7 +2,7 @@
 #include "index/paper/thi_layout.h"
 
 #include "index/error.h"
-#include "index/volume/time_tree.h"
+#include "index/paper/time_tree.h"
 
 #include <fmt/format.h>
 

@@ -13,11 +13,11 @@
 
 #include "index/paper/thi_entries.h"
 #include "index/paper/thi_layout.h"
+#include "index/paper/time_tree.h"
 #include "index/progress.h"
 #include "index/volume/order_key.h"
 #include "index/volume/query.h"
 #include "index/volume/step_values.h"
-#include "index/volume/time_tree.h"
 
 #include <cstddef>
 #include <span>

@@ -1,9 +1,9 @@
 // The error of normals that are stored once for a time span.
 #include "tests/bench/rivals/span_normals.h"
 
+#include "index/paper/time_tree.h"
 #include "index/scan/scan.h"
 #include "index/surface/cell_set.h"
-#include "index/volume/time_tree.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

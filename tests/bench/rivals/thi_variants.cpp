@@ -3,8 +3,8 @@
 
 #include "index/paper/lattice.h"
 #include "index/paper/span_space.h"
+#include "index/paper/time_tree.h"
 #include "index/system/parallel.h"
-#include "index/volume/time_tree.h"
 #include "tests/bench/rivals/compact_span_space.h"
 #include "tests/bench/rivals/owned_lists.h"
 

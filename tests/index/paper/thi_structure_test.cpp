@@ -4,7 +4,7 @@
 #include "index/paper/interval_tree.h"
 #include "index/paper/lattice.h"
 #include "index/paper/temporal_variation.h"
-#include "index/volume/time_tree.h"
+#include "index/paper/time_tree.h"
 #include "tests/support/test_field.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // `isochron reproduce`: draws a picture again from the note inside it, and compares the two.
 #include "app/command_line/subcommands.h"
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 #include "app/explore/kept_session.h"
 #include "app/explore/replay_source.h"
 #include "app/indexing/open_index.h"

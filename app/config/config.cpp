@@ -2,7 +2,7 @@
 #include "app/config/config.h"
 
 #include "app/config/config_checks.h"
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 #include "app/config/shipped_configs.h"
 #include "app/text.h"
 #include "index/error.h"

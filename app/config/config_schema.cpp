@@ -1,5 +1,5 @@
 // The JSON schema of configurations, from the keys in config_fields.h.
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 
 #include <nlohmann/json.hpp>
 

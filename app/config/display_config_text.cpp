@@ -1,7 +1,7 @@
 // Writes an installation as TOML, by the keys in config_fields.h.
 #include "app/config/display_config_text.h"
 
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 
 #include <fmt/format.h>
 

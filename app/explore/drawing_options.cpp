@@ -1,7 +1,7 @@
 // Options on how cells are drawn.
 #include "app/explore/drawing_options.h"
 
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 
 namespace isochron::app {
 

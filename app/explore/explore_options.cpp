@@ -1,7 +1,7 @@
 // The command line options of `explore`.
 #include "app/explore/explore_options.h"
 
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 #include "app/config/shipped_configs.h"
 #include "app/explore/control_options.h"
 #include "app/explore/drawing_options.h"

@@ -2,7 +2,7 @@
 #include "app/explore/explore_start.h"
 
 #include "app/config/check_config.h"
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/explore/drawing_options.h"

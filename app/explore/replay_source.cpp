@@ -1,7 +1,7 @@
 // The options that all replaying commands share.
 #include "app/explore/replay_source.h"
 
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 #include "app/explore/drawing_options.h"
 #include "app/explore/kept_session.h"
 #include "app/indexing/open_index.h"

@@ -3,6 +3,7 @@
 //
 // A new example needs a few lines here; house_tests says which one is missing.
 #include "app/command_line/command_line.h"
+#include "app/config/config_fields.h"
 #include "app/explore/cluster_job.h"
 #include "app/explore/exploration.h"
 #include "app/frame/asker.h"

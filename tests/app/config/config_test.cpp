@@ -1,6 +1,6 @@
 // Configuration files: what is shipped is valid, and what is wrong is named with its place.
 #include "app/config/color_map_file.h"
-#include "app/config/config_fields.h"
+#include "app/config/config_words.h"
 #include "app/text.h"
 #include "tests/app/config/config_error.h"
 #include "tests/support/paths.h"

@@ -48,7 +48,7 @@ index::ExtractionPtr small_surface(const index::Grid& grid) {
     result->levels = levels.units;
     index::BlockGatherer gatherer(grid, held);
     gatherer.need(surface);
-    gatherer.gather(values, 0, levels, result->blocks);
+    gatherer.gather(values, index::Instant(0), levels, result->blocks);
     return result;
 }
 

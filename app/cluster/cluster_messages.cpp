@@ -111,6 +111,29 @@ DrawSample sample_from(const json& value) {
     return sample;
 }
 
+json state_json(const PictureState& state) {
+    json value{
+        {"shown", state.shown()}, {"beside", state.beside()}, {"whole", state.parts_are_whole()}};
+    if (const auto parts = state.in_parts())
+        value["in_parts"] = *parts;
+    return value;
+}
+
+PictureState state_from(const json& value) {
+    Members members(value, "state");
+    const auto shown = static_cast<Shown>(natural(members.at("shown"), "shown", kShown - 1));
+    const auto beside = static_cast<Beside>(natural(members.at("beside"), "beside", kBeside - 1));
+    const json* parts = members.find("in_parts");
+    const auto state =
+        PictureState::of(shown, beside, parts ? footprint_from(*parts) : render::Footprint{},
+                         boolean(members.at("whole"), "whole"));
+    if (!state || (parts != nullptr) != state->in_parts().has_value())
+        throw interaction::Error(fmt::format("state: expected one of the table, got {} beside {}",
+                                             name_of(beside), name_of(shown)));
+    members.done({"shown", "beside", "whole", "in_parts"});
+    return *state;
+}
+
 /// Levels are sent as numbers from 0.
 json detail_json(const index::DetailQuery& detail) {
     json levels = json::array();
@@ -159,50 +182,35 @@ std::optional<FrameOrder> decode_order(std::span<const std::byte> bytes) {
 }
 
 MessageBytes encoded(const FramePlan& plan) {
-    json value{{"footprint", plan.footprint},
-               {"reason", plan.reason},
-               {"final", plan.final},
-               {"measure", plan.measure},
-               {"mesh", plan.mesh},
-               {"detail", detail_json(plan.detail)},
-               {"shows_parts", plan.shows_parts},
-               {"holds_finer", plan.holds_finer},
-               {"all_at_rest", plan.all_at_rest},
-               {"moves_finest", plan.moves_finest},
-               {"resolution", plan.resolution},
-               {"mesh_level", plan.mesh_level},
-               {"moved", plan.moved},
-               {"ahead", plan.ahead}};
-    if (plan.in_parts)
-        value["in_parts"] = *plan.in_parts;
-    return bytes_of(value);
+    return bytes_of({{"footprint", plan.footprint},
+                     {"reason", plan.reason},
+                     {"state", state_json(plan.state)},
+                     {"mesh", plan.mesh},
+                     {"detail", detail_json(plan.detail)},
+                     {"finer_in_parts", plan.finer_in_parts},
+                     {"all_at_rest", plan.all_at_rest},
+                     {"moves_finest", plan.moves_finest},
+                     {"resolution", plan.resolution},
+                     {"mesh_level", plan.mesh_level}});
 }
 
 FramePlan decode_plan(std::span<const std::byte> bytes) {
     const json value = decoded(bytes);
     Members members(value, "plan");
-    FramePlan plan{
+    const FramePlan plan{
         footprint_from(members.at("footprint")),
         static_cast<QualityReason>(natural(members.at("reason"), "reason",
                                            static_cast<unsigned>(QualityReason::over_budget))),
-        boolean(members.at("final"), "final"),
-        boolean(members.at("measure"), "measure"),
+        state_from(members.at("state")),
         boolean(members.at("mesh"), "mesh"),
         detail_from(members.at("detail")),
-        std::nullopt,
-        boolean(members.at("shows_parts"), "shows_parts"),
-        boolean(members.at("holds_finer"), "holds_finer"),
+        boolean(members.at("finer_in_parts"), "finer_in_parts"),
         boolean(members.at("all_at_rest"), "all_at_rest"),
         boolean(members.at("moves_finest"), "moves_finest"),
-        resolution_from(members.at("resolution"))};
-    if (const json* in_parts = members.find("in_parts"))
-        plan.in_parts = footprint_from(*in_parts);
-    plan.ahead = boolean(members.at("ahead"), "ahead");
-    plan.mesh_level = natural(members.at("mesh_level"), "mesh_level", index::kMeshLevels - 1);
-    plan.moved = boolean(members.at("moved"), "moved");
-    members.done({"footprint", "reason", "final", "measure", "mesh", "detail", "in_parts",
-                  "shows_parts", "holds_finer", "all_at_rest", "moves_finest", "resolution",
-                  "ahead", "mesh_level", "moved"});
+        resolution_from(members.at("resolution")),
+        natural(members.at("mesh_level"), "mesh_level", index::kMeshLevels - 1)};
+    members.done({"footprint", "reason", "state", "mesh", "detail", "finer_in_parts", "all_at_rest",
+                  "moves_finest", "resolution", "mesh_level"});
     return plan;
 }
 

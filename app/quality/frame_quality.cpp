@@ -185,20 +185,21 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     with_mesh.available = possible;
     const QualityChoice with_all = controller.choose(with_mesh);
     const QualityChoice choice = controller.advance(input);
-    FramePlan plan{
-        .footprint = choice.footprint, .reason = choice.reason, .measure = choice.measure};
+    FramePlan plan{.footprint = choice.footprint, .reason = choice.reason, .state = {}};
     // A trial of the exact surface comes first where both are next.
     plan.mesh = with_all.footprint == render::Footprint::mesh &&
                 choice.footprint <= render::Footprint::mesh;
-    if (how == Choosing::with_parts && !still)
-        plan.ahead = steady_.surface_is_guessed(input);
     if (how == Choosing::with_parts && !still && input.mode == interaction::QualityMode::automatic)
-        choose_resolution(plan, choice, report);
+        plan.resolution = choose_resolution(choice, report);
     // What a mesh or parts may still change is not final.
-    plan.holds_finer = in_the_end && *in_the_end != choice.footprint;
-    const bool parts_come = plan.holds_finer && report.time - swayed_since_ < kNeverStill;
-    plan.final = plan.resolution == 0 && choice.final && with_all.final &&
-                 choice.footprint == with_all.footprint && !parts_come;
+    plan.finer_in_parts = in_the_end && *in_the_end != choice.footprint;
+    const bool parts_come = plan.finer_in_parts && report.time - swayed_since_ < kNeverStill;
+    const bool all_pixels = plan.resolution == 0;
+    plan.state = PictureState::drawn(all_pixels && choice.final && with_all.final &&
+                                         choice.footprint == with_all.footprint && !parts_come,
+                                     all_pixels && choice.measure);
+    plan.state.draw_ahead(how == Choosing::with_parts && !still &&
+                          steady_.surface_is_guessed(input));
     report.retries = choice.retries;
     report.budget = controller.budget();
     report.expected = choice.cost;
@@ -207,19 +208,17 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     const bool measured = choice.final || report.time - changed_at_ >= kStillAfter + kTrialsAtRest;
     if (parts && measured && choice.footprint != *input.in_parts) {
         resting_ = {resting_input, plan, choice.cost};
-        resting_->plan.in_parts = input.in_parts;
-        resting_->plan.measure = false;
+        resting_->plan.state.make_parts(*input.in_parts);
     }
     return plan;
 }
 
 /// Pixels are given up before cells are.
-void FrameQuality::choose_resolution(FramePlan& plan, const QualityChoice& choice,
-                                     const FrameReport& report) {
-    if (choice.footprint != render::Footprint::quad || report.cells == 0)
-        return;
-    plan.resolution = resolution_.choose(choice.cost, steady_.budget(), report.time);
-    plan.measure &= plan.resolution == 0;
+std::size_t FrameQuality::choose_resolution(const QualityChoice& choice,
+                                            const FrameReport& report) {
+    return choice.footprint == render::Footprint::quad && report.cells > 0
+               ? resolution_.choose(choice.cost, steady_.budget(), report.time)
+               : 0;
 }
 
 /// The share of the time in all pixels that a moving picture takes in as few as are drawn before

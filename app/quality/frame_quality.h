@@ -4,7 +4,7 @@
 //     quality.charge(quality.view());
 //     const Choosing how = Choosing::with_parts;
 //     const FramePlan plan = quality.choose(state, changed, how, footprints, possible, report);
-//     if (plan.measure || changed) {
+//     if (plan.state.is_trial() || changed) {
 //         quality.begin(log.next());
 //         draw(views, plan.footprint);
 //         quality.end(report, of_cell, processor_time);
@@ -66,9 +66,9 @@ class FrameQuality {
     /// Advances by one frame and plans how it is drawn, at its report's time and pace and with its
     /// cells; which cells come next is for others to plan. The report gets the budget and the
     /// expected costs.
-    /// With parts, `FramePlan::in_parts` says which footprint to make once nothing needs to be
-    /// measured any more; from then on the choice stays until something changes. `holds_finer` says
-    /// whether the picture ends at another footprint, made in parts.
+    /// With parts, the plan's state says which footprint to make once nothing needs to be measured
+    /// any more; from then on the choice stays until something changes. `finer_in_parts` says whether
+    /// the picture ends at another footprint, made in parts.
     /// @param changed what the eyes see has changed since the last frame, apart from the footprint
     /// @param available that the cells can be drawn with
     /// @param possible the same if the cells were asked for with a mesh
@@ -134,7 +134,7 @@ class FrameQuality {
     std::optional<render::Footprint> partial(const QualityInput& input, Choosing how) const;
     std::optional<MotionCosts> motion_costs() const;
     double least_share() const;
-    void choose_resolution(FramePlan& plan, const QualityChoice& choice, const FrameReport& report);
+    std::size_t choose_resolution(const QualityChoice& choice, const FrameReport& report);
     void keep_promise(FrameReport& report, Choosing how);
     MotionPromise promise_for(Milliseconds wanted, bool in_headset) const;
 

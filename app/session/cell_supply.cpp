@@ -57,8 +57,9 @@ void CellSupply::request(const Frame& frame) {
     index::Request request{frame.sharing.ask(query, frame.waiting), std::nullopt};
     // While the picture at rest is made, drawing has the processors, unless it may use the meshes.
     const auto finest = finest_in_motion(frame);
-    const bool whole = frame.plan.final || (frame.plan.in_parts && frame.drawn &&
-                                            frame.drawn->footprint == *frame.plan.in_parts);
+    const PictureState& state = frame.plan.state;
+    const bool whole =
+        state.is_final() || (frame.drawn && state.in_parts() == frame.drawn->footprint);
     const bool now = whole || frame.plan.mesh || frame.report.pace == interaction::Pace::moving;
     if (meshes && finest && now) {
         request.meshes_of = sets_.held(*finest);

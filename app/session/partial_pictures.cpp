@@ -20,7 +20,7 @@ bool are_opaque(const Picture& picture) {
 std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& now,
                                              const Outputs::Overlay& overlay) {
     Picture wanted = now;
-    wanted.footprint = *frame.plan.in_parts;
+    wanted.footprint = *frame.plan.state.in_parts();
     wanted.mesh_level = 0;
     wanted.moved = false;
     if (!parts_ || !same_cells(parts_->picture, wanted))
@@ -34,7 +34,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
         draw_pieces(*parts_);
     }
     whole_ = parts_->whole;
-    if (!whole_ || !frame.plan.shows_parts)
+    if (!whole_ || !frame.plan.state.parts_are_whole())
         return std::nullopt;
     quality_.learn_parts(wanted.footprint, frame.report.cells,
                          frame.sharing.parts_took(parts_->pace.whole()));
@@ -95,7 +95,7 @@ bool PartialPictures::draw_part(Parts& parts, std::span<const render::View> view
 
 void PartialPictures::draw_ahead(const Frame& frame, const Picture& now, const StopWatch& begun) {
     Milliseconds left{0};
-    if (frame.plan.ahead && frame.sharing.alone() && outputs_.want(now.audience) &&
+    if (frame.plan.state.draws_ahead() && frame.sharing.alone() && outputs_.want(now.audience) &&
         outputs_.viewports(now.audience) == 1 && now.audience.eyes.empty() && are_opaque(now)) {
         outputs_.gl().Finish(); // so that the frame's own time is known
         left = quality_.left_of_frame(begun.time());

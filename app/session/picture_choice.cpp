@@ -66,7 +66,7 @@ FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
                                      options.available, options.possible, frame.report);
     choose_mesh(frame, plan);
     // Pace says when work begins, not what is shown: what is there stays until something changes.
-    if (frame.is_live() && !options.changed && !plan.in_parts &&
+    if (frame.is_live() && !options.changed && !plan.state.in_parts() &&
         plan.reason == QualityReason::moving && frame.drawn->footprint > plan.footprint &&
         options.available.has(frame.drawn->footprint)) {
         plan.footprint = frame.drawn->footprint;
@@ -95,14 +95,14 @@ void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
             quality_.expected_quads(meshes.quads * static_cast<double>(sets_.held(*use)->cells()));
     }
     const auto level = quality_.choose_mesh(meshes);
-    const bool passes = frame.report.pace == interaction::Pace::moving || plan.holds_finer;
+    const bool passes = frame.report.pace == interaction::Pace::moving || plan.finer_in_parts;
     if (!level || !passes || plan.footprint >= render::Footprint::mesh ||
         sets_.shown() != sets_.held(*use))
         return;
     plan.footprint = render::Footprint::mesh;
     plan.mesh_level = *level;
     plan.resolution = 0;
-    plan.measure = plan.final = false;
+    plan.state.stand_in();
     frame.report.expected = quality_.expected_mesh(meshes.triangles[*level]);
 }
 
@@ -166,7 +166,7 @@ bool PictureChoice::only_awaits_cells(const Frame& frame, const Picture& now) co
 /// What is drawn stays, and the report says how it was drawn.
 void PictureChoice::show_last(const Frame& frame) const {
     FrameReport& report = frame.report;
-    frame.plan.holds_finer = true;
+    frame.plan.state.hold();
     report.footprint = frame.drawn->footprint;
     report.resolution = frame.drawn->resolution;
     report.mesh_level = frame.drawn->mesh_level;
@@ -182,20 +182,20 @@ void PictureChoice::agree(const Frame& frame, FramePlan plan) {
     const bool near = !frame.drawn || !frame.drawn->cells ||
                       report.cells <= kFarMore * frame.drawn->cells->cells();
     const bool fits = near && report.expected && *report.expected <= report.budget;
-    plan.shows_parts = frame.sharing.parts_are_whole();
-    plan.holds_finer &= !fits;
+    plan.state.share_parts(frame.sharing.parts_are_whole());
+    plan.finer_in_parts &= !fits;
     plan.all_at_rest = frame.plan.all_at_rest;
     frame.plan = frame.sharing.agree(plan);
-    report.in_parts = frame.plan.in_parts;
+    report.in_parts = frame.plan.state.in_parts();
     report.footprint = frame.plan.footprint;
     report.resolution = frame.plan.resolution;
     report.mesh_level = frame.plan.mesh_level;
-    report.moved = frame.plan.moved;
+    report.moved = frame.plan.state.is_moved();
     const auto use = supply_.finest_in_motion(frame);
     const bool is_mesh = report.footprint == render::Footprint::mesh && use;
     report.triangles = is_mesh ? sets_.triangles(*use)[report.mesh_level] : 0;
     report.reason = frame.plan.reason;
-    report.final = frame.plan.final;
+    report.final = frame.plan.state.is_final();
 }
 
 void PictureChoice::choose(const Frame& frame, Picture& now) {
@@ -214,13 +214,14 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     FramePlan plan = wanted(frame, options);
     plan.detail = supply_.wanted_detail(frame, quality_);
     plan.moves_finest = supply_.may_move_finest(frame, quality_);
-    plan.final &= supply_.is_finest(frame) && (!frame.is_live() || plan.detail == had_detail);
-    // What stands at rest stays until its exact picture is shown.
-    plan.moved = (changed || now.moved) && moves_exact(frame, now, plan);
-    if (plan.moved) // what it stands for is not measured before it is needed
-        plan.measure = plan.final = false;
-    plan.ahead = !supply_.rests() && report.shown == report.asked &&
-                 (plan.ahead || (plan.moved && grows_old(now)));
+    if (!supply_.is_finest(frame) || (frame.is_live() && plan.detail != had_detail))
+        plan.state.improve();
+    // What stands at rest stays until its exact picture is shown. What it stands for is not measured
+    // before it is needed.
+    if ((changed || now.moved) && moves_exact(frame, now, plan))
+        plan.state.move();
+    plan.state.draw_ahead(!supply_.rests() && report.shown == report.asked &&
+                          (plan.state.draws_ahead() || (plan.state.is_moved() && grows_old(now))));
     agree(frame, plan);
     // A replay's picture is as good as it gets at once.
     if (!frame.is_live() && ((frame.plan.mesh && !had_mesh) || frame.plan.detail != had_detail)) {
@@ -237,22 +238,25 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
     now.mesh_level = report.mesh_level;
     now.moved = report.moved;
     rest_in_parts(frame, now);
-    frame.plan.holds_finer &= finer;
+    if (finer && frame.plan.finer_in_parts)
+        frame.plan.state.hold();
     if (laid_out && report.in_parts && !report.moved)
         show_last(frame);
     if (only_awaits_cells(frame, now)) {
         show_last(frame);
-        frame.plan.in_parts.reset();
+        frame.plan.state.give_up_parts();
         report.in_parts.reset();
         report.final = false;
     }
     if (shows_layer_again(frame, now)) {
-        frame.plan.holds_finer = report.moved = true;
+        frame.plan.state.hold();
+        report.moved = true;
         report.final = false;
     }
     // While a headset wants no picture, there is nothing to draw or to measure.
-    report.redrawn = outputs_.want(now.audience) && (now != frame.drawn || frame.plan.measure) &&
-                     !frame.plan.holds_finer;
+    const PictureState& state = frame.plan.state;
+    report.redrawn =
+        outputs_.want(now.audience) && !state.is_held() && (now != frame.drawn || state.is_trial());
 }
 
 /// Shows the picture at rest that was made in parts for as long as nothing changes.

@@ -185,9 +185,10 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
             draw_aids();
             panel_.draw_over(size, state_, facts, frame.report.time);
         } : Outputs::Overlay();
-    const bool in_parts = plan_.in_parts && now.footprint == *plan_.in_parts;
+    const auto parts = plan_.state.in_parts();
+    const bool in_parts = parts == now.footprint;
     partial_.begin_frame(in_parts);
-    if (plan_.in_parts && !frame.report.redrawn && !in_parts && outputs_.want(now.audience)) {
+    if (parts && !frame.report.redrawn && !in_parts && outputs_.want(now.audience)) {
         if (auto whole = partial_.draw(frame, now, overlay)) {
             drawn_ = std::move(whole);
             frame.report.footprint = drawn_->footprint;
@@ -197,7 +198,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
             show_again(frame, now, overlay, facts);
         }
     } else {
-        if (!plan_.holds_finer)
+        if (!plan_.state.is_held())
             drawn_ = now;
         if (frame.report.redrawn)
             draw_anew(frame, now, overlay);
@@ -213,7 +214,7 @@ void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::O
     supply_.forget_views();
     outputs_.leave_free(now.layout.free);
     outputs_.show_aside(now.layout.aside);
-    if (plan_.measure)
+    if (plan_.state.is_trial())
         scene_.forget_cells();
     // What is only drawn over kept cells tells nothing of what cells take.
     const bool cells = !scene_.keeps_cells(*drawn_, outputs_.viewports(now.audience));

@@ -296,6 +296,11 @@ void table_schema_example(void (*read_placement)(TomlReader&, PlacementOptions&)
 #include "app/config/table_schema.example"
 }
 
+void picture_state_example(const QualityChoice& choice, bool moves_exact, bool sways,
+                           bool finer_cells_wait) {
+#include "app/quality/picture_state.example"
+}
+
 void quality_controller_example(DrawMeter& meter, const interaction::MotionGate& gate) {
 #include "app/quality/quality_controller.example"
 }

@@ -55,7 +55,8 @@ TEST(FramesAlone, NobodyIsAskedOrWaitedFor) {
                                           {.frame = 4, .load = {}, .gpu = {}}};
     EXPECT_EQ(frames.samples(samples), samples);
     EXPECT_EQ(frames.largest({2, 640}), (DrawLoad{2, 640}));
-    const FramePlan mine{render::Footprint::surface, QualityReason::moving, true, true};
+    const FramePlan mine{render::Footprint::surface, QualityReason::moving,
+                         PictureState::drawn(true, false)};
     EXPECT_EQ(frames.agree(mine), mine);
     EXPECT_FALSE(frames.close_wanted());
     EXPECT_EQ(frames.next(), std::nullopt);

@@ -31,6 +31,10 @@ constexpr double kBounded = 3;
 /// far above the multiples of any GPU, and close to what software GL takes.
 constexpr std::array<double, render::kFootprints> kAtMost{1, 8, 5, 12};
 
+constexpr std::size_t rung(Footprint footprint) {
+    return static_cast<std::size_t>(footprint);
+}
+
 /// The next better footprint that is available; `footprint` itself if there is none.
 constexpr Footprint next_better(Footprint footprint, const render::FootprintSet& available) {
     for (int i = static_cast<int>(footprint) + 1; i <= static_cast<int>(render::kBestFootprint);
@@ -53,28 +57,21 @@ class QualityController::Rule {
         : trials(controller.trials_), controller_(controller), budget_(controller.budget_),
           input_(input) {}
 
-    QualityChoice choose();
+    QualityChoice choice();
     bool surface_is_guessed() const;
 
     Trials trials;
 
   private:
-    Candidate& of(Footprint footprint) {
-        return trials.candidates[static_cast<std::size_t>(footprint)];
-    }
-    const Candidate& of(Footprint footprint) const {
-        return trials.candidates[static_cast<std::size_t>(footprint)];
-    }
-    /// Expected.
-    std::optional<Milliseconds> time_of(Footprint footprint, const DrawLoad& load) const {
+    Candidate& of(Footprint footprint) { return trials.candidates[rung(footprint)]; }
+    const Candidate& of(Footprint footprint) const { return trials.candidates[rung(footprint)]; }
+    /// Expected; empty before the first measurement.
+    auto time_of(Footprint footprint, const DrawLoad& load) const {
         return controller_.expected(footprint, load);
     }
-    std::optional<Milliseconds> time_of(Footprint footprint) const {
-        return time_of(footprint, input_.load);
-    }
+    auto time_of(Footprint footprint) const { return time_of(footprint, input_.load); }
     bool moves() const { return input_.pace == Pace::moving; }
 
-    QualityChoice choice();
     QualityChoice regardless(Footprint footprint, QualityReason reason);
     QualityChoice within_budget();
     QualityChoice describe() const;
@@ -151,13 +148,14 @@ bool QualityController::surface_is_guessed(const QualityInput& input) const {
 }
 
 QualityChoice QualityController::choose(const QualityInput& input) const {
-    return Rule(*this, input).choose();
+    return Rule(*this, input).choice();
 }
 
 QualityChoice QualityController::advance(const QualityInput& input) {
     Rule rule(*this, input);
-    const QualityChoice choice = rule.choose();
+    const QualityChoice choice = rule.choice();
     trials_ = rule.trials;
+    trials_.was_moving = input.pace == Pace::moving;
     return choice;
 }
 
@@ -185,14 +183,8 @@ std::optional<Milliseconds> QualityController::Rule::before(Footprint footprint)
     return cost;
 }
 
-QualityChoice QualityController::Rule::choose() {
-    trials.since_down = std::min(trials.since_down + 1, kShortestWait);
-    const QualityChoice chosen = choice();
-    trials.was_moving = moves();
-    return chosen;
-}
-
 QualityChoice QualityController::Rule::choice() {
+    trials.since_down = std::min(trials.since_down + 1, kShortestWait);
     if (input_.mode == QualityMode::fast)
         return regardless(Footprint::quad, QualityReason::fast_mode);
     const bool paper = input_.mode == QualityMode::paper;
@@ -290,7 +282,7 @@ bool QualityController::Rule::bearable(Footprint footprint) const {
     const auto quads = time_of(Footprint::quad);
     if (!quads)
         return false; // quads are measured first
-    Milliseconds most = kAtMost[static_cast<std::size_t>(footprint)] * *quads;
+    Milliseconds most = kAtMost[rung(footprint)] * *quads;
     if (const auto earlier = before(footprint))
         most = std::min(most, *earlier);
     if (moves())

@@ -298,6 +298,11 @@ void config_fields_example(Use use, Config& config) {
 #include "app/config/config_fields.example"
 }
 
+void picture_state_example(const QualityChoice& choice, bool moves_exact, bool sways,
+                           bool finer_cells_wait) {
+#include "app/quality/picture_state.example"
+}
+
 void quality_controller_example(DrawMeter& meter, const interaction::MotionGate& gate) {
 #include "app/quality/quality_controller.example"
 }

@@ -67,7 +67,7 @@ StepValues on(const TestField& field, const Grid& grid) {
 
 CellSet active(const StepValues& values, double isovalue) {
     CellSet set;
-    set.query = {0, isovalue};
+    set.query = {Instant(0), isovalue};
     scan(values, set.query, set.ids);
     EXPECT_TRUE(shade_cells(values, set));
     return set;

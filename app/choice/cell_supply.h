@@ -4,7 +4,7 @@
 //     supply.take_newest(frame);
 //     if (supply.choose_set(frame, picture))
 //         pictures.show_cells(picture, frame.state);
-//     plan.detail = supply.wanted_detail(frame, quality);   // of the sets that come next
+//     plan.detail = supply.wanted_detail(frame, quality);   // for the sets that come next
 #pragma once
 
 #include "app/choice/frame.h"

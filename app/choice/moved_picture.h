@@ -7,8 +7,8 @@
 namespace isochron::app {
 
 /// How far a viewer's head may have gone, relative to the data, before the picture is no longer
-/// moved [m in the room]. A moved picture lacks what was hidden from the old eyes, and lacks more
-/// of it the farther the eyes have gone.
+/// moved [m in the room]. A moved picture lacks what was hidden from the old eyes: the farther the
+/// eyes have gone, the more it lacks.
 constexpr double kMovedAtMost = 0.04;
 
 /// Whether an exact picture of the same cells, looks and viewers shows, once it is moved, what is to

@@ -17,13 +17,13 @@ struct FramePlan {
     QualityReason reason = QualityReason::moving; ///< for the footprint
     PictureState state;
     bool mesh = false;           ///< the sets asked for from now on come with a mesh
-    index::DetailQuery detail{}; ///< of the sets asked for from now on
+    index::DetailQuery detail{}; ///< detail of the sets asked for from now on
     bool finer_in_parts = false; ///< finer cells of the same picture come in parts alone
     bool all_at_rest = false;    ///< all cells are wanted for this picture at rest
     /// The set for pictures at rest is drawn while the picture moves, too: it fits.
     bool moves_finest = false;
-    std::size_t resolution = 0; ///< of the cells, by number: see `kCellResolutions`
-    std::size_t mesh_level = 0; ///< of the footprint `mesh` (index/extraction/simplified_meshes.h)
+    std::size_t resolution = 0; ///< number of the resolution of the cells: see `kCellResolutions`
+    std::size_t mesh_level = 0; ///< level of the footprint `mesh` (index/extraction/simplified_meshes.h)
     bool operator==(const FramePlan&) const = default;
 };
 

@@ -102,8 +102,8 @@ class FrameQuality {
     /// The number of cells below which no moving picture is recognized.
     std::uint64_t least_cells() const { return least_recognized(all_cells_); }
 
-    /// Cells that quads are expected to draw in every view within the budget, of moving pictures or
-    /// of those at rest, with room to spare; empty before the first measurement.
+    /// Cells that quads are expected to draw in every view within the budget with room to spare, of
+    /// moving pictures or of pictures at rest; empty before the first measurement.
     std::optional<double> cells_that_fit(interaction::Pace pace) const;
 
     /// Call before drawing the frame. @param frame its number in the log

@@ -25,7 +25,7 @@ struct MotionCosts {
 /// parts that are missing sooner than it sees 30 pictures a second.
 class MotionPromise {
   public:
-    static constexpr double kLeastShare = 1.0 / 8;      ///< of the cells: recognized
+    static constexpr double kLeastShare = 1.0 / 8;      ///< share of the cells that is recognized
     static constexpr double kRoom = 0.85;               ///< share of the promise that is planned
     static constexpr Milliseconds kAtEase{1000.0 / 30}; ///< for all cells
     static constexpr Milliseconds kLongest{100};        ///< for an eighth of them

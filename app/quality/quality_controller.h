@@ -92,7 +92,7 @@ class QualityController {
 
     /// The choice for a frame like this, if it came next.
     QualityChoice choose(const QualityInput& input) const;
-    /// The same choice, for the frame that does come next: goes on by one frame.
+    /// The choice for the frame that does come next: goes on by one frame.
     QualityChoice advance(const QualityInput& input);
 
     Milliseconds budget() const { return budget_; }

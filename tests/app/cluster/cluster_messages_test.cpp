@@ -4,6 +4,7 @@
 #include "tests/support/test_seed.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <limits>

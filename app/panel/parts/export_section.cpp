@@ -29,7 +29,7 @@ void steps_row(const PanelModel& model, interaction::SurfaceExport& exported) {
     const std::vector<std::string> words{
         "this time",
         fmt::format("steps {} to {}", first_of(range, steps) + 1, last_of(range, steps) + 1)};
-    const std::vector<std::string> notes{name_of(model.asked.shown_instant()),
+    const std::vector<std::string> notes{interaction::name_of(model.asked.shown_instant()),
                                          "the range that plays"};
     row("what");
     ImGui::SetNextItemWidth(kExportField);

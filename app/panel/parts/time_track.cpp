@@ -327,7 +327,8 @@ std::string held_text(const PanelModel& model) {
 
 void time_track(const PanelModel& model, Commands& commands) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
+    constexpr float kLeastWidth = 16.0f; // narrow windows have no room left; corners are round
+    const float width = std::max(ImGui::GetContentRegionAvail().x, kLeastWidth);
     const float top = corner.y + kLaneHeight;
     const Track track{
         {corner.x, top}, {corner.x + width, top + kTrackHeight}, last_step(model) + 1};

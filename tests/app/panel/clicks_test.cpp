@@ -44,6 +44,14 @@ class Clicks : public LayerTest {
     }
 };
 
+TEST_F(Clicks, OfAWindowWithoutRoomForThePanelEndInNoCrash) {
+    for (const glm::ivec2 size : {glm::ivec2(128, 96), glm::ivec2(16, 16), glm::ivec2(600, 40)}) {
+        size_ = size;
+        frame();
+        click(glm::vec2(size) / 2.0f);
+    }
+}
+
 TEST_F(Clicks, OneLeadsToTheNextStepASecondSurfaceAndAPicture) {
     frame();
     const PanelLayout layout = layer_.layout();

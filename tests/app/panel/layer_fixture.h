@@ -30,7 +30,7 @@ class LayerTest : public testing::Test {
     interaction::Commands frame(const std::vector<interaction::WindowEvent>& events = {}) {
         left_ = layer_.feed(events, true);
         time_ += interaction::Seconds(0.1);
-        return layer_.lay_out(kSize,
+        return layer_.lay_out(size_,
                               {.info = info_,
                                .stats = stats_,
                                .asked = asked_,
@@ -91,6 +91,7 @@ class LayerTest : public testing::Test {
     }
 
     static constexpr glm::ivec2 kSize{1280, 800};
+    glm::ivec2 size_ = kSize;
     std::unique_ptr<stereo::GlContext> context_ =
         stereo::make_context(stereo::ContextKind::egl, {.size = {64, 64}});
     render::Gl gl_{context_->loader()};

@@ -34,8 +34,8 @@ std::vector<ReaderRequest> every_request() {
     options.spacing = glm::dvec3(1, 2, 3);
     options.time_step = 0.25;
     options.value_unit = "K";
-    return {OpenFile{"netcdf", "a/b\xff.nc", options, 1 << 30, 3},
-            OpenFile{"vti", "", {}, 0, 0},
+    return {OpenFile{"netcdf", "a/b\xff.nc", options, 3},
+            OpenFile{"vti", "", {}, 0},
             UseMemory{4096},
             ReadSlab{7, {64, 32}, 1 << 20, 3},
             ReadCollection{"s.pvd"},

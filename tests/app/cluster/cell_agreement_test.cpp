@@ -53,7 +53,8 @@ class Members {
         for (std::size_t i = 0; i < members_.size(); ++i) {
             Member& member = members_[i];
             member.cells.obey(order);
-            member.extractor->request({member.cells.ask({wanted, {1.0}}), std::nullopt});
+            member.extractor->request(
+                {member.cells.ask({index::Instant(wanted), {1.0}}), std::nullopt});
             if (!late.contains(i)) {
                 member.extractor->wait();
                 member.cells.look_at(*member.extractor);

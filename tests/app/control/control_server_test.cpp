@@ -67,7 +67,7 @@ TEST_F(ControlServerTest, RefusesWhatTheDataDoNotHave) {
 
 TEST_F(ControlServerTest, CommandsOfAFrameGoTogetherUnlessTheirOrderMatters) {
     interaction::Commands step_two, pick, iso, undo;
-    step_two.step = 2;
+    step_two.instant.emplace(2u);
     iso.isovalue = 1.0;
     pick.picked = 0;
     undo.undo = true;
@@ -78,7 +78,7 @@ TEST_F(ControlServerTest, CommandsOfAFrameGoTogetherUnlessTheirOrderMatters) {
         frames.push_back(batch->commands);
     ASSERT_EQ(frames.size(), 4u);
     EXPECT_EQ(frames[0].isovalue, 1.0);
-    EXPECT_EQ(frames[0].step, 2u);
+    EXPECT_EQ(frames[0].instant, index::Instant(2));
     EXPECT_EQ(frames[1].picked, 0u) << "the isovalue before was of another surface";
     EXPECT_TRUE(frames[2].undo);
 }

@@ -64,7 +64,7 @@ class SimulatedSession {
         now.report.cells = static_cast<std::uint64_t>(cells_);
         if (counted_)
             now.report.volume_cells = static_cast<std::uint64_t>(2 * cells_);
-        now.report.asked = {step_, {isovalue_}};
+        now.report.asked = {index::Instant(step_), {isovalue_}};
         if (phase_ != Phase::drag || any(3) == 0)
             shown_ = now.report.asked;
         now.report.shown = shown_;

@@ -142,7 +142,7 @@ TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
     const auto all = sessions_of(path);
     ASSERT_EQ(all.size(), 2u);
     for (const EarlierSession& each : all)
-        EXPECT_EQ(back_from(each.path).step, each.path == path ? 3u : 0u);
+        EXPECT_EQ(back_from(each.path).instant.step, each.path == path ? 3u : 0u);
 }
 
 /// A session on its own, from the first look at the data.
@@ -161,7 +161,7 @@ TEST(SessionKeeper, LosesNoWorkByAnyNumberOfLooks) {
     explore_once(path, work);
     make_older(path, 0);
     for (std::size_t i = 0; i < kMostEarlierSessions + 5; ++i) {
-        look.step = 1 + i % 2;
+        look.instant = index::Instant(1 + i % 2);
         look.room_from_physical.translation.x += 0.1;
         explore_once(path, look);
         make_older(path, 100 + i);

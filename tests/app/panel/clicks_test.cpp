@@ -115,7 +115,7 @@ TEST_F(Clicks, AFlagLeadsToItsBookmark) {
     asked_.bookmarks = {{"early", index::Instant(3)}, {"late", index::Instant(1999)}};
     asked_.playback.playing = true;
     frame();
-    const Commands commands = click({1267, layer_.places().time.low.y + 8});
+    const Commands commands = click({1267, layer_.layout().time.low.y + 8});
     EXPECT_EQ(commands.instant, index::Instant(1999));
     ASSERT_TRUE(commands.playback);
     EXPECT_FALSE(commands.playback->playing);
@@ -126,7 +126,7 @@ TEST_F(Clicks, AFlagBetweenTwoStepsLeadsBetweenThem) {
     asked_.between = interaction::BetweenSteps::blend;
     asked_.bookmarks = {{"between", {1998, index::Instant::kFractions / 2}}};
     frame();
-    const Commands commands = click({1267, layer_.places().time.low.y + 8});
+    const Commands commands = click({1267, layer_.layout().time.low.y + 8});
     EXPECT_EQ(commands.instant, asked_.bookmarks.front().instant);
 }
 

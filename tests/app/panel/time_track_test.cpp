@@ -96,7 +96,7 @@ TEST_F(TimeTrack, AFlagBetweenTwoStepsSaysItsOwnTime) {
     const std::vector<float> all = ticks();
     ASSERT_EQ(all.size(), info_.times.size());
     asked_.bookmarks = {{"turn", {7, Instant::kFractions / 2}}};
-    point({(all[7] + all[8]) / 2 + 3, layer_.places().time.low.y + 8});
+    point({(all[7] + all[8]) / 2 + 3, layer_.layout().time.low.y + 8});
     EXPECT_TRUE(says("turn: 7.5 s"));
 }
 

@@ -71,7 +71,7 @@ TEST_F(TourTest, GoesOnWithTheSessionBeforeOnlyIfTheUserSaysSo) {
     earlier.front().commands.instant.emplace(7);
     layer_.pages().offer_earlier(earlier);
     EXPECT_TRUE(shows("Start anew"));
-    EXPECT_EQ(click_on("Continue where you left off").step, 7u);
+    EXPECT_EQ(click_on("Continue where you left off").instant, index::Instant(7));
     EXPECT_FALSE(shows("Start anew"));
     layer_.pages().offer_earlier(earlier);
     EXPECT_EQ(click_on("Start anew"), Commands());
@@ -83,7 +83,7 @@ TEST_F(TourTest, GoesOnWithAnySessionOfTheList) {
     earlier.back().commands.instant.emplace(3);
     layer_.pages().offer_earlier(earlier);
     click_on("on Friday");
-    EXPECT_EQ(click_on("on Thursday").step, 3u);
+    EXPECT_EQ(click_on("on Thursday").instant, index::Instant(3));
     EXPECT_FALSE(shows("Start anew"));
 }
 

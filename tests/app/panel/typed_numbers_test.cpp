@@ -54,7 +54,7 @@ TEST_F(TypedNumbers, ASingleClickBeginsThemAndTheyMayHaveADecimalCommaUnlessThey
     EXPECT_EQ(typed_at(*isovalue, "1.5").isovalue, 1.5);
     EXPECT_EQ(typed_at(*isovalue, "1,234.5").isovalue, 1.5) << "it stays";
     typed_at(*step, "7");
-    EXPECT_EQ(typed_at(*step, "1,500").step, 6u) << "it stays the seventh";
+    EXPECT_EQ(typed_at(*step, "1,500").instant, index::Instant(6)) << "it stays the seventh";
 }
 
 } // namespace

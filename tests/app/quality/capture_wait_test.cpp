@@ -10,7 +10,7 @@ namespace {
 
 using interaction::Seconds;
 
-const index::SurfacesQuery kBefore{index::Instant(0), {1.0}}, kAsked{0, {2.0}};
+const index::SurfacesQuery kBefore{index::Instant(0), {1.0}}, kAsked{index::Instant(0), {2.0}};
 
 CaptureView view(double time, const index::SurfacesQuery& asked,
                  const std::optional<index::SurfacesQuery>& shown, bool final) {
@@ -94,8 +94,8 @@ TEST(CaptureWait, MotionThatDoesNotEndIsWaitedForNoLongerThanThePatience) {
     const auto restless = [](double time) { return view(time, kAsked, kAsked, false); };
     const auto playing = [](double time) {
         const auto step = static_cast<std::uint32_t>(time * 4);
-        return view(time, {step + 1, {1.0}}, index::SurfacesQuery{index::Instant(step), {1.0}},
-                    false);
+        return view(time, {index::Instant(step + 1), {1.0}},
+                    index::SurfacesQuery{index::Instant(step), {1.0}}, false);
     };
     const auto playing_fast = [&](double time) {
         CaptureView now = playing(time);

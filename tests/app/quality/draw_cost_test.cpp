@@ -42,10 +42,10 @@ TEST_F(DrawCostTest, OneLoadAloneIsHalfCellsAndHalfPixels) {
     EXPECT_FALSE(cost.predict({1, 1}).has_value());
     for (int i = 0; i < 5; ++i)
         cost.add({1000, 1e6}, Milliseconds(8));
-    EXPECT_NEAR(cost.predict({index::Instant(1000), 1e6})->count(), 8, 0.02);
-    EXPECT_NEAR(cost.predict({index::Instant(2000), 1e6})->count(), 12, 0.02);
-    EXPECT_NEAR(cost.predict({index::Instant(1000), 2e6})->count(), 12, 0.02);
-    EXPECT_NEAR(cost.predict({index::Instant(0), 0})->count(), 0, 0.02);
+    EXPECT_NEAR(cost.predict({1000, 1e6})->count(), 8, 0.02);
+    EXPECT_NEAR(cost.predict({2000, 1e6})->count(), 12, 0.02);
+    EXPECT_NEAR(cost.predict({1000, 2e6})->count(), 12, 0.02);
+    EXPECT_NEAR(cost.predict({0, 0})->count(), 0, 0.02);
 }
 
 TEST_F(DrawCostTest, NeverFallsWithTheLoadNorBelowZero) {
@@ -65,14 +65,14 @@ TEST_F(DrawCostTest, NeverFallsWithTheLoadNorBelowZero) {
 TEST_F(DrawCostTest, APictureWithoutCellsTellsWhatPixelsCost) {
     DrawCost cost;
     cost.add({0, 1e6}, Milliseconds(2));
-    EXPECT_NEAR(cost.predict({index::Instant(0), 1e6})->count(), 2, 1e-9);
-    EXPECT_NEAR(cost.predict({index::Instant(0), 2e6})->count(), 4, 1e-9);
+    EXPECT_NEAR(cost.predict({0, 1e6})->count(), 2, 1e-9);
+    EXPECT_NEAR(cost.predict({0, 2e6})->count(), 4, 1e-9);
     EXPECT_FALSE(cost.predict({1000, 1e6}).has_value()) << "nothing is known of cells";
     cost.add({1000, 1e6}, Milliseconds(5));
-    EXPECT_NEAR(cost.predict({index::Instant(2000), 1e6})->count(), 8, 0.3);
+    EXPECT_NEAR(cost.predict({2000, 1e6})->count(), 8, 0.3);
     DrawCost nothing;
     nothing.add({0, 0}, Milliseconds(2));
-    EXPECT_EQ(nothing.predict({index::Instant(0), 0})->count(), 0);
+    EXPECT_EQ(nothing.predict({0, 0})->count(), 0);
     EXPECT_FALSE(nothing.predict({100, 100}).has_value());
 }
 
@@ -111,7 +111,7 @@ TEST_F(DrawCostTest, WhatIsOldCountsForLittle) {
         cost.add({1000, 1e6}, Milliseconds(80));
     for (int i = 0; i < 60; ++i)
         cost.add({1000, 1e6}, Milliseconds(8));
-    EXPECT_NEAR(cost.predict({index::Instant(1000), 1e6})->count(), 8, 0.5);
+    EXPECT_NEAR(cost.predict({1000, 1e6})->count(), 8, 0.5);
     cost.forget();
     EXPECT_FALSE(cost.predict({1000, 1e6}).has_value());
 }

@@ -71,7 +71,8 @@ class SteeredSession : public SessionQuality {
     static Commands at(double isovalue, std::optional<std::uint32_t> step = std::nullopt) {
         Commands commands;
         commands.isovalue = isovalue;
-        commands.instant = index::Instant(step);
+        if (step)
+            commands.instant.emplace(*step);
         return commands;
     }
     /// Frames of a head that moves, a quarter of a second from each other, until this holds.

@@ -251,7 +251,7 @@ TEST_P(SessionTime, NothingJumpsAtAStepAndAMomentThatIsAStepIsItsPicture) {
     // The last moment before a step shows what the step shows.
     const auto last =
         picture(interaction::BetweenSteps::blend, {1, index::Instant::kFractions - 1});
-    const auto step = picture(interaction::BetweenSteps::blend, {2});
+    const auto step = picture(interaction::BetweenSteps::blend, index::Instant(2));
     EXPECT_LE(static_cast<double>(change_between(last, step)), 0.1 * median);
 }
 

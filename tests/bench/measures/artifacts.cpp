@@ -107,7 +107,8 @@ ArtifactSets artifact_sets(const index::StepValues& values, const index::ThiTree
 
     auto kept = std::make_shared<CellSet>(*sets.exact);
     for (const SpanCells& span : span_cells(values, tree, query)) {
-        const auto stored = shaded(values, {span.middle, query.isovalue}, span.cells);
+        const auto stored =
+            shaded(values, {index::Instant(span.middle), query.isovalue}, span.cells);
         for (std::size_t i = 0; i < stored->ids.size(); ++i) {
             const auto at = std::lower_bound(kept->ids.begin(), kept->ids.end(), stored->ids[i]);
             std::uint32_t& plane =

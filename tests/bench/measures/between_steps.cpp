@@ -132,7 +132,7 @@ BetweenTimes time_between(const std::shared_ptr<const index::IndexFile>& file, d
     };
     for (int look = 0; look < 3; ++look) // what is decoded, and as a whole, is so from now on
         for (const std::uint32_t step : {0u, 1u}) {
-            draw(step);
+            draw(Instant(step));
             draw(Instant(0, 20'000 + step));
             find(index::step_in_chunks(*file, index::Instant(step)));
         }
@@ -147,7 +147,7 @@ BetweenTimes time_between(const std::shared_ptr<const index::IndexFile>& file, d
         const auto ended = std::chrono::steady_clock::now();
         elapsed.push_back(std::chrono::duration<double>(ended - begun).count());
         chunks.push_back(timed([&] { find(index::step_in_chunks(*file, index::Instant(i % 2))); }));
-        drawn_step.push_back(timed([&] { draw(i % 2); }));
+        drawn_step.push_back(timed([&] { draw(Instant(i % 2)); }));
         drawn_moment.push_back(timed([&] { draw(other); }));
         if (i >= 7)
             continue;

@@ -106,7 +106,7 @@ void time_searches(const StepValues& values, const Structure& structure,
     });
     operations.push_back([&](std::uint32_t step) {
         CellSet set;
-        set.query = {step, isovalue};
+        set.query = {index::Instant(step), isovalue};
         if (structure.full)
             structure.full(set.query, set);
         else
@@ -116,7 +116,7 @@ void time_searches(const StepValues& values, const Structure& structure,
     if (structure.follow && steps > 1) {
         follow = operations.size();
         operations.push_back([&](std::uint32_t step) { // there and back, so that it can be repeated
-            structure.follow({neighbor(step), isovalue});
+            structure.follow({index::Instant(neighbor(step)), isovalue});
             structure.follow({index::Instant(step), isovalue});
         });
     }

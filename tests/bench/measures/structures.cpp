@@ -63,8 +63,8 @@ Recipe bricks_of(const FilePtr& file) {
                 structure.build_seconds = seconds_for_bricks(*file);
                 structure.ids = [file](const Query& query, Ids& out) {
                     out.clear();
-                    const index::LoadedStep step = file->load(query.step);
-                    index::search_bricks(step.values, *file->chunks().levels(query.step),
+                    const index::LoadedStep step = file->load(query.instant.step);
+                    index::search_bricks(step.values, *file->chunks().levels(query.instant.step),
                                          step.bricks, query, out);
                 };
                 return structure;

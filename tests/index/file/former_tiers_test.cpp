@@ -87,10 +87,11 @@ class FormerTiers : public testing::TestWithParam<FormerFile> {
         for (const double isovalue : quantiles(sorted_values(values), 15))
             for (std::uint32_t step = 0; step < values.steps; ++step) {
                 const auto expected = BruteForce(values, step).active(isovalue);
-                ASSERT_EQ(search({step, isovalue}, {})->ids, expected) << step << ' ' << isovalue;
+                ASSERT_EQ(search({Instant(step), isovalue}, {})->ids, expected)
+                    << step << ' ' << isovalue;
                 const auto before = BruteForce(values, step > 0 ? step - 1 : 0).active(isovalue);
-                const CellChange change =
-                    changes({step > 0 ? step - 1 : 0, isovalue}, {step, isovalue});
+                const CellChange change = changes({Instant(step > 0 ? step - 1 : 0), isovalue},
+                                                  {Instant(step), isovalue});
                 std::vector<CellId> kept, after(change.added.begin(), change.added.end()),
                     gone(change.removed.begin(), change.removed.end());
                 std::ranges::sort(gone);

@@ -98,7 +98,7 @@ TEST_F(CellChangeTest, IsTheWholeSetWhereFewChunksStayAndNotWhereMostDo) {
         const auto file = indexed(field.view());
         const double isovalue = quantiles(sorted_values(field.view()), 3)[1];
         ChangeSearch search(file);
-        EXPECT_EQ(search({1, isovalue}, {2, isovalue}).whole, !stays);
+        EXPECT_EQ(search({Instant(1), isovalue}, {Instant(2), isovalue}).whole, !stays);
         walk(file, field.view(), 50);
     }
 }

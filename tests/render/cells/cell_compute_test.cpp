@@ -81,7 +81,7 @@ TEST_P(CellComputing, PlanesAreTheCpusForEveryTypeSpacingAndBorder) {
                 const double isovalue = index::quantiles(index::sorted_values(values), 1)[0];
                 ASSERT_TRUE(cells.upload(extractions.of_cells(1, {all}, isovalue), kEnough));
                 index::CellSet expected;
-                expected.query = {1, isovalue};
+                expected.query = {index::Instant(1), isovalue};
                 expected.ids = all;
                 ASSERT_TRUE(index::shade_cells(values, expected));
                 const auto points = read<index::CellPoint>(cells.texture(), cells.size());

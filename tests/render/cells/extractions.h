@@ -23,7 +23,7 @@ class Extractions {
         for (const double isovalue : isovalues)
             index::scan(values_, {index::Instant(step), isovalue},
                         made->surfaces.emplace_back().ids);
-        made->query = {step, std::move(isovalues)};
+        made->query = {index::Instant(step), std::move(isovalues)};
         return complete(std::move(made));
     }
     /// An extraction of any cells, one ascending list for each surface.
@@ -31,7 +31,7 @@ class Extractions {
                                   std::vector<std::vector<index::CellId>> surfaces,
                                   double isovalue = 0.0) {
         auto made = std::make_shared<index::Extraction>();
-        made->query = {step, std::vector<double>(surfaces.size(), isovalue)};
+        made->query = {index::Instant(step), std::vector<double>(surfaces.size(), isovalue)};
         for (auto& ids : surfaces)
             made->surfaces.emplace_back().ids = std::move(ids);
         return complete(std::move(made));

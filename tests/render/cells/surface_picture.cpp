@@ -62,7 +62,7 @@ SurfacePicture SurfaceTest::draw(CellPass& pass, const VertexField& field,
 
     CellBuffers cells(gl_, field.values().grid);
     const index::ExtractionPtr active =
-        Extractions(field.values()).active(field.query().step, {field.query().isovalue});
+        Extractions(field.values()).active(field.query().instant.step, {field.query().isovalue});
     while (cells.shown() != active) // a transfer goes as fast as the GPU takes it
         cells.upload(active, std::size_t{1} << 30);
     cells.compute_corners();

@@ -34,13 +34,13 @@ class MeshPassTest : public GlTest {
     /// Balls in a grid, with their planes, meshes and volume.
     index::ExtractionPtr extraction(std::vector<double> isovalues, bool colors = false) {
         auto set = std::make_shared<index::Extraction>();
-        set->query = {0, isovalues, index::CellColoring::none};
+        set->query = {index::Instant(0), isovalues, index::CellColoring::none};
         std::vector<index::MeshMaker> makers(2);
         index::BlockValues values(index::ValueType::u8, {}, 0, 255);
         index::BlockGatherer gatherer(field_.view().grid, values);
         for (const double isovalue : isovalues) {
             index::CellSet cells;
-            cells.query = {0, isovalue};
+            cells.query = {index::Instant(0), isovalue};
             index::scan(field_.view(), cells.query, cells.ids);
             EXPECT_TRUE(index::shade_cells(field_.view(), cells));
             index::CellMesh mesh;
@@ -52,7 +52,7 @@ class MeshPassTest : public GlTest {
         const index::BlockLevels levels = values.levels(isovalues);
         set->levels = levels.units;
         set->blocks = gatherer.none();
-        EXPECT_TRUE(gatherer.gather(field_.view(), 0, levels, set->blocks));
+        EXPECT_TRUE(gatherer.gather(field_.view(), index::Instant(0), levels, set->blocks));
         if (colors) // that grow with x
             for (index::CellSet& surface : set->surfaces) {
                 auto mesh = std::make_shared<index::CellMesh>(*surface.mesh);

@@ -78,7 +78,7 @@ TEST_P(SurfacePasses, EverySampleOfAPixelHasARayOfItsOwn) {
     ASSERT_GE(samples, 4) << "a GL 4.5 has as many";
     CellBuffers cells(gl_, field_.values().grid);
     const index::ExtractionPtr active =
-        Extractions(field_.values()).active(field_.query().step, {field_.query().isovalue});
+        Extractions(field_.values()).active(field_.query().instant.step, {field_.query().isovalue});
     while (cells.shown() != active)
         cells.upload(active, std::size_t{1} << 30);
     cells.compute_corners();

@@ -40,8 +40,8 @@ void write_pictures(const fs::path& folder, const std::string& data,
     ArtifactBench bench(gl, file, kSize);
     const index::StepValues& values = file->values();
     const auto bytes = index::build_thi_tree(values, options);
-    const index::Query query{static_cast<std::uint32_t>(values.steps / 2 - values.steps / 8),
-                             isovalue};
+    const index::Query query{
+        index::Instant(static_cast<std::uint32_t>(values.steps / 2 - values.steps / 8)), isovalue};
     const ArtifactSets sets = artifact_sets(values, index::ThiTree(bytes), query);
     const ArtifactPictures splats = bench.draw(sets, render::Footprint::gaussian);
     const auto write = [&](const char* what, const std::vector<render::Image>& pictures) {

@@ -68,7 +68,7 @@ class SmallSteps {
                                            .steps = 1,
                                            .first = values_.data(),
                                            .stride = values_.size()};
-            set.query = {0, kColdIsovalue};
+            set.query = {index::Instant(0), kColdIsovalue};
             index::scan(values, set.query, set.ids);
             index::shade_cells(values, set);
         });
@@ -136,7 +136,9 @@ void measure_cold_steps(const fs::path& folder, const index::Progress& progress,
                     const index::Search search = index::search_in(file, {}, index::Shading::cells);
                     forget(path);
                     index::CellSetPtr set;
-                    ours.push_back(seconds_of([&] { set = search({step, kColdIsovalue}, {}); }));
+                    ours.push_back(seconds_of([&] {
+                        set = search({index::Instant(step), kColdIsovalue}, {});
+                    }));
                     if (first)
                         plain.push_back(steps.read_and_scan(step, scanned));
                     if (scanned.ids != set->ids)

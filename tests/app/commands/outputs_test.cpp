@@ -332,13 +332,13 @@ TEST_F(Outputs, AreRecognizedByWhatIsInThem) {
     const auto ids = [](std::vector<std::uint32_t> all) {
         return std::string(reinterpret_cast<const char*>(all.data()), all.size() * 4);
     };
-    for (const std::string& known : {ids({}), ids({index::Instant(0), 5, 342})}) {
+    for (const std::string& known : {ids({}), ids({0, 5, 342})}) {
         folder_.write("ids.bin", known);
         expect_done(with(query, "ids.bin"));
     }
     // Not ascending, twice the same, no cell (7^3 are there), half an id.
-    for (const std::string& foreign : {ids({index::Instant(5), 4}), ids({index::Instant(5), 5}),
-                                       ids({343}), ids({index::Instant(1), 2}).substr(0, 6)}) {
+    for (const std::string& foreign :
+         {ids({5, 4}), ids({5, 5}), ids({343}), ids({1, 2}).substr(0, 6)}) {
         folder_.write("ids.bin", foreign);
         expect_refused(with(query, "ids.bin"), "ids.bin: exists and is not a file of ascending ids",
                        "but another file of");

@@ -127,7 +127,7 @@ bool Player::is_final() const {
 ShownPicture Player::shown(const interaction::InputState& input) const {
     ShownPicture shown{shown_by(session_), session_.state(), input, 0};
     if (const auto& cells = session_.log().frames().back().shown) {
-        shown.state.instant = index::Instant(cells->step);
+        shown.state.instant = cells->instant;
         for (std::size_t i = 0; i < cells->isovalues.size(); ++i)
             shown.state.isosurfaces[i].isovalue = cells->isovalues[i];
     }

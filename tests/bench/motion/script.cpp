@@ -62,7 +62,7 @@ interaction::Commands MotionScript::commands(double at) const {
         commands.isovalue = start_.isovalue() * (1 + kDragged * wave(1 / seconds_, at));
     } else if (motion_ == Motion::jump_on) {
         commands.instant = index::Instant(
-            static_cast<std::uint32_t>((start_.step + std::floor(kJumps * at)) + 0.5) %
+            static_cast<std::uint32_t>(start_.instant.step + std::floor(kJumps * at) + 0.5) %
             static_cast<std::uint32_t>(steps_));
     }
     return commands;

@@ -64,7 +64,7 @@ TEST(Artifacts, ComeFromTheNormalsOfTheMiddleOfTheSpanAndFromCandidates) {
     std::size_t kept = 0, cells = 0;
     for (const SpanCells& span : span_cells(values, tree, query)) {
         index::CellSet stored;
-        stored.query = {span.middle, query.isovalue};
+        stored.query = {index::Instant(span.middle), query.isovalue};
         stored.ids = span.cells;
         std::sort(stored.ids.begin(), stored.ids.end());
         index::shade_cells(values, stored);

@@ -140,7 +140,7 @@ TEST(Likeness, SpecksAreComparedInBlocks) {
 app::FrameReport report(double time, double asked, std::optional<double> shown) {
     app::FrameReport report;
     report.time = interaction::Seconds(time);
-    report.asked = {0, {asked}};
+    report.asked = {index::Instant(0), {asked}};
     if (shown)
         report.shown = index::SurfacesQuery{index::Instant(0), {*shown}};
     return report;

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     try {
         const auto file = IndexFile::open(argv[1]);
         const Search search = search_in(file, cheapest_method(*file));
-        const CellSetPtr found = search({.step = 0, .isovalue = std::atof(argv[2])}, {});
+        const CellSetPtr found = search({.instant = {}, .isovalue = std::atof(argv[2])}, {});
         for (const CellId id : found->ids)
             std::printf("%u\n", id);
     } catch (const Error& error) {

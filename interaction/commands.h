@@ -21,7 +21,7 @@ inline constexpr double kLongestPulse = 1.0; ///< [s]
 /// Changes of settings, and what happens once. Changes are absolute results, not increments:
 /// applying them again changes nothing.
 struct Commands : SettingChanges {
-    std::optional<double> isovalue; ///< of the picked surface
+    std::optional<double> isovalue; ///< isovalue of the picked surface
     /// Another fraction of the way from the step that is shown to the next one; not beside `instant`.
     std::optional<std::uint32_t> fraction;
     bool screenshot = false;

@@ -19,16 +19,16 @@ struct Field {
     std::size_t least = 0, most = kLongestText;  ///< items of a list, or bytes of a text
     const char* old_key = nullptr;               ///< the key in recordings of older versions
     bool undone = true;                          ///< changes of the setting can be undone
-    bool may_lack = false; ///< older recordings may lack it: then it has its default
-    bool dragged = false;  ///< changes in quick succession are undone as one
-    bool any_order = false; ///< of the two numbers of a range, which else ascend
+    bool may_lack = false;  ///< older recordings may lack it: then it has its default
+    bool dragged = false;   ///< changes in quick succession are undone as one
+    bool any_order = false; ///< whether the two numbers of a range may descend
 
     // In configuration files, where a key may be a path: `rendering.near`.
     const char* configured = nullptr; ///< a setting's key there; null: none says how it begins
     bool in_files = true;             ///< false: recordings alone have the field of a record
     double per = 1.0; ///< units of the file in one of the member's: 1000 where those are ms and s
     std::array<const char*, 2> words{}; ///< for false and true; null: `false` and `true`
-    const char* one = nullptr;          ///< of a list: the key of a table that is the one item
+    const char* one = nullptr;          ///< for a list: the key of a table that is the one item
     bool told = false;                  ///< written even where it is the default
 };
 

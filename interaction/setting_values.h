@@ -211,7 +211,7 @@ struct RoomPanel {
 struct MarkedPoint {
     glm::dvec3 position{0.0}; ///< physical space
     Instant instant;          ///< shown when it was picked
-    double value = 0;         ///< of the data there
+    double value = 0;         ///< value of the data there
     bool operator==(const MarkedPoint&) const = default;
 };
 /// The one place that is marked, or none.

@@ -12,7 +12,7 @@
 #include "index/file/index_states.h"
 #include "index/indexing/appended_series.h"
 #include "index/indexing/index_build.h"
-#include "index/readers/formats/open_series.h"
+#include "index/readers/formats/format.h"
 #include "index/system/growing_file.h"
 #include "index/system/team.h"
 #include "stereo/cluster.h"

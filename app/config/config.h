@@ -31,7 +31,7 @@ constexpr double kFirstQuantile = 0.95;
 /// An isosurface to start with, given as an isovalue or else as a quantile of the data's values.
 struct ConfiguredSurface {
     std::optional<double> isovalue;
-    double quantile = kFirstQuantile; ///< of all values, 0 to 1; used if there is no isovalue
+    double quantile = kFirstQuantile; ///< share of all values, 0 to 1; used if there is no isovalue
     glm::vec3 color{};                ///< sRGB
     float opacity = 1.0f;
 };
@@ -145,7 +145,7 @@ struct MemoryConfig {
 struct Config {
     std::string name;            ///< file name for messages; empty for the built-in defaults
     std::string text;            ///< the file's whole text, as recordings keep it
-    int version = 1;             ///< of its keys
+    int version = 1;             ///< version of its keys
     interaction::Settings start; ///< what the file says of settings, which can change later
     stereo::Installation installation;
     interaction::EmulationOptions emulation;

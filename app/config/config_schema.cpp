@@ -93,7 +93,8 @@ class Schema {
                    table);
     }
 
-    ordered_json definitions = ordered_json::object(); ///< of tables that may also be arrays
+    ordered_json definitions =
+        ordered_json::object(); ///< definitions of tables that may also be arrays
 
   private:
     template <class V>

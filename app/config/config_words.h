@@ -28,7 +28,7 @@ inline constexpr bool kIsOptional<std::optional<T>> = true;
 template <class T>
 inline constexpr bool kIsDuration = std::same_as<T, interaction::Seconds>;
 template <class T>
-inline constexpr glm::length_t kComponents = 0; ///< of a vector of glm
+inline constexpr glm::length_t kComponents = 0; ///< components of a vector of glm
 template <glm::length_t n, class T>
 inline constexpr glm::length_t kComponents<glm::vec<n, T>> = n;
 

@@ -133,7 +133,7 @@ void TomlTable::finish() const {
 }
 
 void TomlTable::finish(const toml::table& table, const std::string& prefix) const {
-    std::vector<std::string> known; // of this table, each once
+    std::vector<std::string> known; // keys of this table, each once
     for (const std::string& path : *known_) {
         if (!path.starts_with(prefix))
             continue;

@@ -28,7 +28,7 @@ class TomlTable {
     /// The value of a key, which is known from now on; null: absent.
     const toml::node* take(std::string_view key);
     bool is_there() const { return !!here(); }
-    int line() const; ///< of the table; 0: it is not there
+    int line() const; ///< line of the table; 0: it is not there
 
     /// @throws ConfigError with the place of `key`, or of the table around it if that is absent
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;

@@ -79,6 +79,8 @@ class PictureState {
     void stand_in() {
         if (shown_ == Shown::resting || shown_ == Shown::trial)
             shown_ = Shown::moving;
+        if (shown_ == Shown::stays)
+            shown_ = Shown::held;
     }
     /// The exact picture at rest is made in parts, beside what is drawn meanwhile.
     void make_parts(render::Footprint footprint) {

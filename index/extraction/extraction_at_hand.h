@@ -57,7 +57,7 @@ class ExtractionAtHand {
     KnownColors colors() const;
     /// The surroundings that are taken over where the volume stays; null: none.
     const SurroundingField* surroundings() const;
-    /// Of the extraction at hand, which must be there.
+    /// What is known of the extraction at hand, which must be there.
     std::uint32_t earlier_step() const { return from_->query.instant.step; }
     /// The blocks that are taken over. @param only_if_same_levels for other isovalues they differ
     KnownBlocks blocks(bool only_if_same_levels) const;

@@ -224,11 +224,11 @@ class ArrayBuild::Work {
     Metadata metadata_;
     std::uint64_t content_hash_ = 0;
     Section tree_;
-    std::uint32_t steps_;   ///< of the series
+    std::uint32_t steps_;   ///< number of steps of the series
     std::size_t fresh_ = 0; ///< the first step that is not held
     std::size_t levels_;    ///< number of levels of detail
     ValueCounts counts_;
-    std::uint64_t held_stay_ = 0; ///< of the held chunk-steps, are as in the step before
+    std::uint64_t held_stay_ = 0; ///< held chunk-steps that are as in the step before
     ArrayTables tables_;
     std::uint64_t end_ = 0; ///< end of what has been written
 };

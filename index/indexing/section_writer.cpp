@@ -33,7 +33,7 @@ SectionBlock block_at(std::uint64_t begin, std::vector<ArraySections>& arrays) {
         };
         set(SectionKind::tree, array.tree);
         set(SectionKind::steps, add(std::as_bytes(std::span(array.steps))));
-        set(SectionKind::directory, add({})); // of parts that no program writes any more
+        set(SectionKind::directory, add({})); // empty: no program writes such parts any more
         set(SectionKind::checksums, add(std::as_bytes(std::span(array.checksums))));
     };
     const auto add_metadata = [&](const Metadata& metadata) {

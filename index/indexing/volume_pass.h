@@ -39,8 +39,8 @@ struct ArrayPass {
 /// The results of the pass for an array, the same for every member of the team.
 struct VolumeFindings {
     ValueCounts counts;
-    std::vector<std::uint64_t> checksums; ///< of every step
-    std::vector<std::uint64_t> states;    ///< of every step's source: VolumeSeries::state
+    std::vector<std::uint64_t> checksums; ///< checksum of every step
+    std::vector<std::uint64_t> states;    ///< state of every step's source: VolumeSeries::state
     std::vector<StepEntry> steps;         ///< level after level
     std::uint64_t stayed = 0;             ///< chunk-steps that are as in the step before
     std::optional<ColorFindings> colors;

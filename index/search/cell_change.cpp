@@ -29,7 +29,7 @@ struct ChangeSearch::WorkSpace {
 
     Search search;
     LayerSearch layers;
-    CellSetPtr set; ///< of a full search
+    CellSetPtr set; ///< result of a full search
     std::vector<CellId> come, gone;
 };
 

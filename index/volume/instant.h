@@ -26,7 +26,7 @@ struct Instant {
     constexpr bool between() const { return fraction != 0; }
     /// In the order of time; in tables of instants.
     constexpr std::uint64_t number() const { return std::uint64_t{step} * kFractions + fraction; }
-    /// The same instant in a series of so many steps: the last step holds.
+    /// This instant in a series of so many steps: the last step holds.
     constexpr Instant within(std::size_t steps) const {
         return step + std::size_t{1} < steps ? *this : Instant(step);
     }

@@ -69,7 +69,7 @@ struct SurfacesQuery {
     std::uint32_t colors = 0; ///< array to color by (ColorSource), by number: for coloring `value`
 
     Query surface(std::size_t i) const { return {instant, isovalues[i]}; }
-    /// The same surfaces, however they are drawn and at any level of detail.
+    /// These surfaces, however they are drawn and at any level of detail.
     SurfacesQuery of_cells() const {
         SurfacesQuery query = *this;
         query.mesh_room = 0;

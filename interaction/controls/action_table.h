@@ -17,7 +17,7 @@ namespace isochron::interaction {
 /// The frame in which an action's key goes down.
 struct Press {
     const ControlContext& context;
-    Commands& commands;              ///< of the frame so far
+    Commands& commands;              ///< commands of the frame so far
     std::vector<std::string>& notes; ///< messages for people
 };
 

@@ -105,7 +105,7 @@ constexpr Action choice_of(ToolKind tool) {
 inline constexpr std::size_t kActions =
     static_cast<std::size_t>(Action::count) + kNames<ToolKind>.size();
 
-inline constexpr int kNoOldBit = -1; ///< of an action that recordings of version 1 do not know
+inline constexpr int kNoOldBit = -1; ///< for an action that recordings of version 1 do not know
 
 /// The actions of the keys that are down.
 using ActionSet = std::bitset<kActions>;

@@ -29,10 +29,10 @@ struct DeviceState {
     std::uint64_t buttons = 0;    ///< bit i: button i is down
     std::vector<float> valuators; ///< 0 at rest; meaning and range by device (actions.h)
     bool pose_lost = false;       ///< `pose` is not valid and too old to be used
-    std::optional<Velocity> velocity = std::nullopt;   ///< of the pose, if it is known
+    std::optional<Velocity> velocity = std::nullopt;   ///< velocity of the pose, if it is known
     std::optional<Seconds> measured = std::nullopt;    ///< session time when the pose was measured
-    std::optional<Seconds> device_time = std::nullopt; ///< the same moment by the device's clock
-    ActionSet actions = {};                            ///< of `keys`: those whose keys are down
+    std::optional<Seconds> device_time = std::nullopt; ///< this moment by the device's clock
+    ActionSet actions = {}; ///< device `keys`: actions whose keys are down
     Tracking tracking() const;
     bool operator==(const DeviceState&) const = default;
 };

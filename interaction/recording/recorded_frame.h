@@ -12,7 +12,7 @@ namespace isochron::interaction {
 inline constexpr int kRecordingVersion = 2; ///< that is written
 
 struct RecordingHeader {
-    int version = kRecordingVersion; ///< of the file that it was read from
+    int version = kRecordingVersion; ///< version of the file that it was read from
     std::string program;             ///< `isochron 0.1.0`
     std::string configuration;       ///< the whole text of the configuration file
     std::string data;                ///< path of the index as given

@@ -35,7 +35,7 @@ struct ToolRow {
     /// The rows of what these commands have made.
     std::vector<MarkedRow> (*rows)(const Commands&) = nullptr;
 
-    int old_bit = kNoOldBit; ///< of the action that chooses it, in recordings of version 1
+    int old_bit = kNoOldBit; ///< bit of the action that chooses it, in recordings of version 1
 };
 
 /// In the order of `ToolKind`.

@@ -27,7 +27,7 @@ struct DTrackOptions {
     std::vector<DTrackDevice> devices;
     DatagramAges ages = DatagramAges::measured;
     DeviceOptions common; ///< what its devices share: where the tracker is, and how late it sends
-    int line = 0;         ///< of the file that describes it; 0: none does
+    int line = 0;         ///< line of the file that describes it; 0: none does
 };
 
 /// A datagram whose frame counter is not newer than the newest so far is dropped. The time of a

@@ -29,7 +29,7 @@ struct OscOptions {
     std::vector<OscDevice> devices;
     DatagramAges ages = DatagramAges::measured;
     DeviceOptions common; ///< what its devices share: where the tracker is, and how late it sends
-    int line = 0;         ///< of the file that describes it; 0: none does
+    int line = 0;         ///< line of the file that describes it; 0: none does
 };
 
 class OscInput final : public TrackedInput {

@@ -17,7 +17,7 @@ struct VrpnDevice {
 struct VrpnOptions {
     std::vector<VrpnDevice> devices;
     DeviceOptions common; ///< what its devices share: where the tracker is, and how late it sends
-    int line = 0;         ///< of the file that describes it; 0: none does
+    int line = 0;         ///< line of the file that describes it; 0: none does
 };
 
 /// Connecting to a server may take long, and VRPN tries again forever. So all of VRPN runs on a

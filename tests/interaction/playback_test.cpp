@@ -225,9 +225,8 @@ TEST(Playback, GapsAreHeldAndSoAreStepsThatAreLeftOut) {
     PlaybackState every_second = playing();
     every_second.every = 2;
     for (int i = 0; i < 1000; ++i)
-        EXPECT_EQ(
-            playback.advance(times, Instant(0), every_second, Seconds(0.01), {}, &gaps).instant,
-            Instant(0));
+        EXPECT_FALSE(playback.advance(times, Instant(0), every_second, Seconds(0.01), {}, &gaps)
+                         .instant.between());
 }
 
 TEST(Playback, BlendedTimeGoesOnFromAMomentThatWasChosenElsewhere) {

@@ -24,7 +24,7 @@ struct Findings {
 struct PlacedViewport {
     const stereo::Window& window;
     const stereo::Viewport& viewport;
-    std::size_t number; ///< of the viewport in its window, from 1
+    std::size_t number; ///< number of the viewport in its window, from 1
     int line = viewport.screen.line.number;
 };
 std::vector<PlacedViewport> viewports_of(const Config& config);
@@ -36,7 +36,7 @@ struct ScreenGap {
     const stereo::Screen* a;
     const stereo::Screen* b;
     std::string name_a, name_b;
-    int line = 0;    ///< of b
+    int line = 0;    ///< line of b
     float width = 0; ///< [m]
 };
 

@@ -1,6 +1,5 @@
 // Tells formats by names and first bytes.
 #include "index/readers/formats/format.h"
-#include "index/readers/formats/open_series.h"
 
 #include "index/error.h"
 #include "index/lower_case.h"

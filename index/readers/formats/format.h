@@ -108,4 +108,7 @@ bool is_of_format(const Format& format, const KnownFile& file);
 /// Whether a file, or a folder that is one volume, can be read as far as its name tells.
 bool has_known_end(const std::string& name, bool folder);
 
+/// The file name extensions of all formats, as in ".pvd .vti .vtk".
+std::string known_extensions();
+
 } // namespace isochron::index

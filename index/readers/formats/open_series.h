@@ -20,7 +20,4 @@ std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::pat
                                           const ReadOptions& options = {},
                                           const Progress& progress = {});
 
-/// The file name extensions that `open_series` knows, as in ".pvd .vti .vtk".
-std::string known_extensions();
-
 } // namespace isochron::index

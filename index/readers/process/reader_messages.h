@@ -85,7 +85,7 @@ struct Described {
     SeriesInfo info;
     std::uint64_t steps = 0;
     std::uint32_t slices_at_once = 0; ///< best number for one request; the last may have fewer
-    std::uint64_t decoded_bytes = 0;  ///< of a step in the library's memory
+    std::uint64_t decoded_bytes = 0;  ///< bytes of a step in the library's memory
 };
 struct SlabRead {};
 struct Collected {

@@ -167,7 +167,7 @@ TEST_P(SessionTime, BlendsOnlyBetweenStepsThatAreThere) {
     more.steps = 7;
     at(more);
     EXPECT_TRUE(at({}).between());
-    EXPECT_EQ(session.state().instant, index::Instant(5));
+    EXPECT_EQ(session.state().shown_instant(), index::Instant(5));
     Commands asked;
     asked.instant = {5, 30'000};
     player.tap(Key::space, false);

@@ -92,7 +92,9 @@ TEST(FormatsPage, AxesOfVersion01AreStillRead) {
 
 TEST(FormatsPage, AnInstantIsAStepAndItsFraction) {
     using nlohmann::json;
-    const auto read = [](const json& text) { return commands_from(text, "commands"); };
+    const auto read = [](const json& text) {
+        return commands_from(json::parse(text.dump()), "commands");
+    };
     Commands expected;
     expected.instant = Instant(3, 77);
     EXPECT_EQ(read({{"step", 3}, {"fraction", 77}}), expected);

@@ -1,7 +1,7 @@
 // Every key of a configuration file, said once: its name, the values that it may have, and the member
 // that it sets.
 //
-// Reading (config.cpp), the JSON schema (config_schema.cpp) and writing (display_config_text.cpp)
+// Reading (config_reading.cpp), the JSON schema (config_schema.cpp) and writing (display_config_text.cpp)
 // follow from these lists; a key is further a row of docs/FORMATS.md. Settings have their own list: a setting
 // whose line in interaction/settings.h says `configured` is a key, too. What involves several keys is
 // in config_checks.h.

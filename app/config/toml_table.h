@@ -42,7 +42,7 @@ class TomlTable {
 
     const toml::table* table_;
     std::string file_, where_;
-    std::string prefix_; ///< of this table in `table_`, with a dot at its end
+    std::string prefix_; ///< prefix of this table in `table_`, with a dot at its end
     std::shared_ptr<std::vector<std::string>> known_; ///< paths in `table_`
 };
 

@@ -47,7 +47,7 @@ class ControlServer {
     /// A search, for whom it is, and what it is asked of.
     struct Search {
         std::uint64_t client = 0;
-        std::string id; ///< of the request, as JSON
+        std::string id; ///< id of the request, as JSON
         ControlRequest request;
         std::shared_ptr<const index::IndexFile> file;
         std::shared_ptr<const ExplorerState> shown;

@@ -44,10 +44,11 @@ struct FrameDrawing {
 
 /// The cells of the frame.
 struct FrameCells {
-    index::SurfacesQuery asked{{}, {0.0}};     ///< at least one isovalue
-    std::optional<index::SurfacesQuery> shown; ///< of the cells drawn; empty before the first set
-    std::uint64_t cells = 0;                   ///< drawn
-    unsigned finest = 0, coarsest = 0;         ///< levels of detail that they are of
+    index::SurfacesQuery asked{{}, {0.0}}; ///< at least one isovalue
+    std::optional<index::SurfacesQuery>
+        shown;                         ///< query of the cells drawn; empty before the first set
+    std::uint64_t cells = 0;           ///< drawn
+    unsigned finest = 0, coarsest = 0; ///< levels of detail that they are of
     std::optional<std::uint64_t> volume_cells; ///< active cells of level 0, if counted
     std::uint64_t candidates = 0; ///< cells that the search returned before the exact test
     std::uint64_t reused = 0; ///< cells that were taken over from an earlier set: index::FoundCells

@@ -17,7 +17,7 @@ namespace isochron::app {
 /// What the user wants to see next.
 struct NextData {
     std::filesystem::path data;
-    std::string array = {}; ///< of the same files, instead of `data`; empty: other data
+    std::string array = {}; ///< array of the present files, instead of `data`; empty: other data
 };
 
 class DataOpening {

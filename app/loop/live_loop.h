@@ -117,7 +117,7 @@ class LiveLoop {
     IdleWait idle_;
     bool waited_ = false; ///< before this frame
     std::map<CompanionPlace, std::shared_ptr<Companion>> companions_;
-    DataOpening opening_;                               ///< of data that the user has chosen
+    DataOpening opening_;                               ///< opens data that the user has chosen
     const std::function<interaction::Seconds()> clock_; ///< last: its time starts when all is ready
 };
 

@@ -98,7 +98,7 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
     if (found.marked)
         return std::nullopt;
     fs::path folder = index::described_folder(index::known_file(input).path);
-    // Of other folders, files of values are read.
+    // In other folders, files of values are read.
     if (folder.empty() && fs::is_directory(input, ignored) &&
         !(found.known && !index::known_file(found.path).format))
         folder = input;

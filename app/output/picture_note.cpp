@@ -84,7 +84,7 @@ PictureNote note_from_json(const json& value) {
     note.state = interaction::commands_from(members.at("state"), "state");
     const auto frame = interaction::frame_from_json(members.at("frame"), nullptr);
     note.input = frame.input;
-    interaction::take_old_bits(note.input); // of a picture from before the names of actions
+    interaction::take_old_bits(note.input); // for a picture from before the names of actions
     note.latched = frame.latched;
     if (const json* movie = members.find("movie"))
         note.movie = movie_from(*movie);

@@ -88,7 +88,7 @@ class RunArray {
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
     std::vector<std::byte> values(const AskedInstant& at, const Box& box) const;
-    /// The same between two steps, scaled.
+    /// Scaled values between two steps.
     std::vector<double> blended_values(const AskedInstant& at, const Box& box) const;
 
   private:

@@ -339,7 +339,7 @@ TEST_P(SessionQuality, WhileASearchHangsFramesAndQualityGoOnAndTheCaptureWaits) 
     EXPECT_EQ(frames.size() - first, 2 * kRate);
     const FrameReport report = rest_until(session, [](const FrameReport& frame) {
         return frame.footprint == render::kBestFootprint;
-    }); // of the cells that are there
+    }); // for the cells that are there
     EXPECT_EQ(report.shown->instant, index::Instant(0));
     EXPECT_FALSE(captured(session)) << "these are not the cells that were asked for";
     EXPECT_EQ(session.log().missed(), 0u);

@@ -142,7 +142,7 @@ TEST(TakenOver, TellsHowManyCellsWereReused) {
                 EXPECT_GE(found->candidates(), found->cells());
                 before = step;
             }
-            // Of another isovalue no cell is known.
+            // For another isovalue no cell is known.
             EXPECT_EQ(extract({Instant(before), {isovalue + 50}}, {})->reused(), 0u);
         }
 }

@@ -94,7 +94,8 @@ TEST_F(IndexStatesTest, WhatManyAppendsLeaveBehindIsAFewTimesTheSections) {
         ASSERT_NO_THROW(file->verify()) << steps;
         ASSERT_EQ(file->info().steps(), steps);
     }
-    EXPECT_LT(std::filesystem::file_size(path), anew + 6 * section_bytes()); // of the last state
+    EXPECT_LT(std::filesystem::file_size(path),
+              anew + 6 * section_bytes()); // sections of the last state
     const auto grown = IndexFile::open(path);
     build(kSteps);
     const auto whole = IndexFile::open(path);

@@ -16,15 +16,6 @@ namespace isochron::interaction {
 
 // Words of configuration files for values of the wings below, in their order.
 template <>
-inline constexpr std::array<std::string_view, 3> kNames<stereo::OpenXrSpace>{"auto", "stage",
-                                                                             "local"};
-template <>
-inline constexpr std::array<std::string_view, 3> kNames<stereo::OpenXrBinding>{"auto", "egl",
-                                                                               "xlib"};
-template <>
-inline constexpr std::array<std::string_view, 4> kNames<stereo::Mirror>{"left", "right", "both",
-                                                                        "none"};
-template <>
 inline constexpr std::array<std::string_view, 3> kNames<stereo::ContextKind>{"glfw", "egl",
                                                                              "osmesa"};
 template <>
@@ -37,9 +28,6 @@ inline constexpr std::array<std::string_view, 4> kNames<render::Footprint>{"quad
                                                                            "mesh", "surface"};
 template <>
 inline constexpr std::array<std::string_view, 3> kNames<app::Blending>{"auto", "linear", "display"};
-template <>
-inline constexpr std::array<std::string_view, 3> kNames<app::WithoutRuntime>{"none", "window",
-                                                                             "wait"};
 
 } // namespace isochron::interaction
 

@@ -1,7 +1,6 @@
 // Describes the `[openxr]` table, and opens the headset that it asks for.
 #include "app/config/openxr_config.h"
 
-#include "app/config/config_fields.h"
 #include "app/text.h"
 #include "stereo/openxr/openxr_headset.h"
 

@@ -1,12 +1,15 @@
 // The `[openxr]` table of a configuration: whether and how a headset is shown through OpenXR.
 #pragma once
 
+#include "interaction/enum_names.h"
 #include "stereo/headset_display.h"
 #include "stereo/openxr/openxr_options.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::app {
@@ -38,3 +41,21 @@ bool built_with_openxr();
 std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config);
 
 } // namespace isochron::app
+
+namespace isochron::interaction {
+
+// Words of configuration files, in the order of the values.
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<stereo::OpenXrSpace>{"auto", "stage",
+                                                                             "local"};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<stereo::OpenXrBinding>{"auto", "egl",
+                                                                               "xlib"};
+template <>
+inline constexpr std::array<std::string_view, 4> kNames<stereo::Mirror>{"left", "right", "both",
+                                                                        "none"};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<app::WithoutRuntime>{"none", "window",
+                                                                             "wait"};
+
+} // namespace isochron::interaction

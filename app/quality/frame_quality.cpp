@@ -162,8 +162,12 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     if (resting_ && still && report.shown == report.asked)
         input.pace = interaction::Pace::settled;
     const auto in_the_end = partial(input, how);
-    if (still || report.pace == interaction::Pace::moving)
-        swayed_since_ = report.time;
+    // An idle session draws no frames: a longer time was a wait, in which no head swayed.
+    constexpr interaction::Seconds kLongestFrame{0.5};
+    const interaction::Seconds frame = std::min(report.time - frame_before_, kLongestFrame);
+    swayed_for_ = still || report.pace == interaction::Pace::moving ? interaction::Seconds{0}
+                                                                    : swayed_for_ + frame;
+    frame_before_ = report.time;
     input.in_parts = in_the_end;
     const bool parts = still && in_the_end;
     QualityInput resting_input = input;
@@ -193,7 +197,7 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
         plan.resolution = choose_resolution(choice, report);
     // What a mesh or parts may still change is not final.
     plan.finer_in_parts = in_the_end && *in_the_end != choice.footprint;
-    const bool parts_come = plan.finer_in_parts && report.time - swayed_since_ < kNeverStill;
+    const bool parts_come = plan.finer_in_parts && swayed_for_ < kNeverStill;
     const bool all_pixels = plan.resolution == 0;
     plan.state = PictureState::drawn(all_pixels && choice.final && with_all.final &&
                                          choice.footprint == with_all.footprint && !parts_come,

@@ -153,8 +153,9 @@ class FrameQuality {
     Milliseconds beside_{0}; ///< that presenting takes
     QualityController steady_, still_;
     interaction::Seconds changed_at_{0};
-    interaction::Seconds swayed_since_{0}; ///< the picture was still or moved, last
-    std::optional<Resting> resting_;       ///< while parts are made or shown
+    interaction::Seconds swayed_for_{0}; ///< since the picture was still or moved, without waits
+    interaction::Seconds frame_before_{0};
+    std::optional<Resting> resting_; ///< while parts are made or shown
     DrawMeter meter_;
     DrawLoad view_; ///< load of one cell in all views of the frame drawn last
     DrawLoad charged_;

@@ -54,7 +54,7 @@ class SimulatedSession {
             begin_phase();
         Frame now;
         now.changed = number_ == 0 || moves();
-        now.report.time = interaction::Seconds(number_++ / kRate);
+        now.report.time = waited_ + interaction::Seconds(number_++ / kRate);
         if (now.changed)
             last_change_ = now.report.time;
         const bool settles = now.report.time - last_change_ > interaction::Seconds(0.15);
@@ -80,6 +80,17 @@ class SimulatedSession {
         now.part_budget = quality_.part_budget();
         draw(now);
         return now;
+    }
+
+    /// Nothing moves for a while, and no frame is drawn for as long as `wait`; then the head sways.
+    void rest_and_sway(interaction::Seconds wait) {
+        constexpr unsigned kFrames = 30;
+        phase_ = Phase::rest;
+        left_ = 2 * kFrames;
+        for (unsigned i = 0; i < kFrames; ++i)
+            frame();
+        waited_ += wait;
+        phase_ = Phase::sway;
     }
 
   private:
@@ -198,6 +209,7 @@ class SimulatedSession {
     unsigned left_ = 40;
     std::uint64_t number_ = 0, latency_ = 0;
     interaction::Seconds last_change_{0};
+    interaction::Seconds waited_{0};
     Milliseconds parts_took_{0};
     std::optional<render::Footprint> drawn_;
     std::deque<std::pair<std::uint64_t, DrawSample>> under_way_;

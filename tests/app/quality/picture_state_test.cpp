@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <set>
@@ -87,6 +88,19 @@ TEST(PictureState, HasTheRowsOfItsTableInArchitecture) {
 }
 
 /// What the states of a session's frames have in common, whatever happens in it.
+TEST(PictureState, IsNotFinalWhereABetterPictureComesHoweverLongTheSessionHasWaited) {
+    constexpr interaction::Seconds kAnHour{3600};
+    int come = 0;
+    for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+        SimulatedSession session(seed);
+        session.rest_and_sway(kAnHour);
+        const FramePlan plan = session.frame().plan;
+        come += plan.finer_in_parts;
+        EXPECT_FALSE(plan.finer_in_parts && plan.state.is_final()) << "seed " << seed;
+    }
+    EXPECT_GT(come, 5);
+}
+
 TEST(PictureState, OfSimulatedSessionsFollowFromWhatTheEyesSee) {
     std::set<std::string> seen;
     const std::uint32_t first = test_seed();
@@ -121,7 +135,7 @@ TEST(PictureState, OfSimulatedSessionsFollowFromWhatTheEyesSee) {
     }
     const std::set<std::string> all{"moving nothing", "moving ahead",    "moving parts",
                                     "trial nothing",  "resting nothing", "resting ahead"};
-    EXPECT_EQ(seen, all);
+    EXPECT_TRUE(std::ranges::includes(seen, all)) << "a trial beside a picture ahead is rare";
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
+#include <time.h>
 
 #include <sstream>
 #include <string>
@@ -18,6 +18,14 @@ std::string contents(pid_t process, const char* name) {
 }
 
 } // namespace
+
+std::chrono::nanoseconds processor_time_of(pid_t process) {
+    clockid_t clock{};
+    timespec time{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+        return std::chrono::nanoseconds{0};
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
 
 std::optional<ProcessSigns> signs_of(pid_t process) {
     ProcessSigns signs;
@@ -32,16 +40,15 @@ std::optional<ProcessSigns> signs_of(pid_t process) {
     std::istringstream fields(stat.substr(name_end + 1));
     char state = 0;
     std::int64_t skipped = 0;
-    std::uint64_t minor = 0, major = 0, user = 0, system = 0; // the last two in clock ticks
+    std::uint64_t minor = 0, major = 0;
     fields >> state;
     for (int field = 4; field < 10; ++field)
         fields >> skipped;
-    fields >> minor >> skipped >> major >> skipped >> user >> system;
+    fields >> minor >> skipped >> major;
     if (!fields)
         return std::nullopt;
     signs.touched = minor + major;
-    signs.worked = std::chrono::milliseconds((user + system) * 1000 /
-                                             static_cast<std::uint64_t>(::sysconf(_SC_CLK_TCK)));
+    signs.worked = processor_time_of(process);
     signs.waits_for_disk = state == 'D';
     signs.runs = state == 'R';
     return signs;

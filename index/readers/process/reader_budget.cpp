@@ -1,6 +1,7 @@
 // Limits by prlimit(2).
 #include "index/readers/process/reader_budget.h"
 
+#include "index/error.h"
 #include "index/readers/process/process_signs.h"
 #include "index/readers/process/process_text.h"
 #include "index/readers/process/reader_start.h"
@@ -11,6 +12,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -19,12 +22,14 @@ namespace isochron::index {
 namespace {
 
 /// Sets the limit that holds; the highest one that could be set stays, as only root may raise it
-/// again for the next file.
+/// again for the next file. A reader that has ended needs none.
 void limit(pid_t reader, decltype(RLIMIT_DATA) resource, std::uint64_t most) {
     struct rlimit limits {};
-    ::prlimit(reader, resource, nullptr, &limits);
+    bool good = ::prlimit(reader, resource, nullptr, &limits) == 0;
     limits.rlim_cur = std::min<rlim_t>(most, limits.rlim_max);
-    ::prlimit(reader, resource, &limits, nullptr);
+    good = good && ::prlimit(reader, resource, &limits, nullptr) == 0;
+    if (!good && errno != ESRCH)
+        throw Error(fmt::format("its reader cannot be limited: {}", std::strerror(errno)));
 }
 
 /// [bytes] of private writable memory of a process, which RLIMIT_DATA counts.
@@ -35,20 +40,6 @@ std::uint64_t taken_memory(pid_t process) {
     for (int field = 0; field < 6; ++field)
         statm >> pages;
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-/// Free memory [bytes] at the first call; read only once, as reading it takes as long as opening a
-/// small file.
-std::uint64_t free_memory() {
-    static const std::uint64_t found = [] {
-        std::istringstream info(process_text("/proc/meminfo"));
-        std::uint64_t kilobytes = 0;
-        for (std::string key, line; info >> key && std::getline(info, line);)
-            if (key == "MemAvailable:")
-                kilobytes = std::stoull(line);
-        return kilobytes > 0 ? kilobytes * 1024 : std::numeric_limits<std::int64_t>::max();
-    }();
-    return found;
 }
 
 /// [bytes] of the folder that a file stands for: of an OpenFOAM case, an AMReX plotfile;
@@ -79,9 +70,17 @@ std::uint64_t bytes_behind(const std::filesystem::path& file) {
 
 } // namespace
 
+std::uint64_t free_memory() {
+    std::istringstream info(process_text("/proc/meminfo"));
+    std::uint64_t kilobytes = 0;
+    for (std::string key, line; info >> key && std::getline(info, line);)
+        if (key == "MemAvailable:")
+            kilobytes = std::stoull(line);
+    return kilobytes > 0 ? kilobytes * 1024 : std::numeric_limits<std::int64_t>::max();
+}
+
 ReaderBudget::ReaderBudget(pid_t reader, const std::filesystem::path& file, std::uint64_t most)
-    : reader_(reader), file_bytes_(bytes_behind(file)), before_(taken_memory(reader)),
-      most_(most > 0 ? most : free_memory()) {
+    : reader_(reader), file_bytes_(bytes_behind(file)), before_(taken_memory(reader)), most_(most) {
     expect(0);
     renew_time();
 }
@@ -98,10 +97,9 @@ void ReaderBudget::expect(std::uint64_t decoded_bytes) {
 
 void ReaderBudget::renew_time() const {
     constexpr std::chrono::seconds kAny{61}; // more than any library needs for a small file
-    const auto signs = signs_of(reader_);
-    if (!kReaderIsWatched && signs)
+    if (!kReaderIsWatched)
         limit(reader_, RLIMIT_CPU,
-              static_cast<std::uint64_t>((signs->worked + kAny + time_of_bytes()) /
+              static_cast<std::uint64_t>((processor_time_of(reader_) + kAny + time_of_bytes()) /
                                          std::chrono::seconds(1)));
 }
 

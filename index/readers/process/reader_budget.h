@@ -9,11 +9,15 @@
 
 namespace isochron::index {
 
+/// [bytes] of memory that the machine has free. Asking takes as long as opening a small file.
+std::uint64_t free_memory();
+
 /// What a reader may take for a file, by the file's size. Beyond the limit of memory its allocations
 /// fail; beyond the limit of processor time the system ends it with SIGXCPU.
 class ReaderBudget {
   public:
-    /// @param most [bytes] of memory; 0: what is free when this process first asks
+    /// @param most [bytes] of memory
+    /// @throws Error where the system lets no limit be set, as all functions here
     ReaderBudget(pid_t reader, const std::filesystem::path& file, std::uint64_t most);
 
     /// Raises the limit of memory for values that take this much in the library.

@@ -137,16 +137,28 @@ void ReaderProcess::ask(const ReaderRequest& request) {
     send(request);
 }
 
-void ReaderProcess::limit(const ReaderRequest& request) {
+void ReaderProcess::limit(const ReaderRequest& request) try {
     constexpr std::uint64_t kLargestPicture = std::uint64_t{1} << 30; // [bytes] of its pixels
+    if (limits_.memory == 0)
+        limits_.memory = free_memory();
     if (const auto* open = std::get_if<OpenFile>(&request))
         budget_.emplace(process_, open->path, limits_.memory);
     else if (const auto* listed = std::get_if<ReadCollection>(&request))
         budget_.emplace(process_, listed->path, limits_.memory);
     else if (const auto* picture = std::get_if<ReadPicture>(&request))
         budget_.emplace(process_, picture->path, limits_.memory).expect(kLargestPicture);
-    else if (budget_)
-        budget_->renew_time();
+} catch (const Error& error) {
+    fail(error.what());
+}
+
+void ReaderProcess::limit_after(const ReaderReply& reply) try {
+    if (!budget_)
+        return;
+    budget_->renew_time(); // the next request may wait already
+    if (const auto* described = std::get_if<Described>(&reply))
+        budget_->expect(described->decoded_bytes);
+} catch (const Error& error) {
+    fail(error.what());
 }
 
 void ReaderProcess::send(const ReaderRequest& request, int attached) {
@@ -169,14 +181,10 @@ ReaderReply ReaderProcess::reply() {
 
 ReaderReply ReaderProcess::next_reply() {
     watch_.begin(limits_.patience, budget_ ? budget_->time_of_bytes() : std::chrono::seconds{0});
+    std::optional<ReaderReply> reply;
     try {
-        const auto message = socket_->receive([this] { look(); });
-        if (message) {
-            ReaderReply reply = reply_from(message->bytes);
-            if (const auto* described = std::get_if<Described>(&reply); described && budget_)
-                budget_->expect(described->decoded_bytes);
-            return reply;
-        }
+        if (const auto message = socket_->receive([this] { look(); }))
+            reply = reply_from(message->bytes);
     } catch (const ReaderEnded&) {
         throw;
     } catch (const Error& error) {
@@ -185,7 +193,10 @@ ReaderReply ReaderProcess::next_reply() {
         kill();
         throw;
     }
-    fail_as_it_ended();
+    if (!reply)
+        fail_as_it_ended();
+    limit_after(*reply);
+    return std::move(*reply);
 }
 
 void ReaderProcess::look() {

@@ -82,6 +82,7 @@ class ReaderProcess {
     void send(const ReaderRequest& request, int attached = -1);
     ReaderReply next_reply();
     void limit(const ReaderRequest& request);
+    void limit_after(const ReaderReply& reply);
     void look();
     void kill();
     [[noreturn]] void fail(const std::string& why);

@@ -60,7 +60,7 @@ class DeviceJudge {
         heads();
         sources();
         ports();
-        for (const MissingTracker& missing : missing_trackers(config_))
+        for (const ConfigProblem& missing : missing_trackers(config_))
             findings_.wrong(missing.line, missing.key, missing.text);
     }
 

@@ -8,13 +8,11 @@ namespace isochron::app {
 
 /// Each is called with the last item of a list before its table is read.
 /// @param owner the table or file that has the list
-inline void begin(const Config& owner, std::vector<interaction::DTrackOptions>& all) {
-    all.back().common = owner.devices.common;
+template <class Tracker>
+requires requires(Tracker tracker) {
+    tracker.common;
 }
-inline void begin(const Config& owner, std::vector<interaction::OscOptions>& all) {
-    all.back().common = owner.devices.common;
-}
-inline void begin(const Config& owner, std::vector<interaction::VrpnOptions>& all) {
+void begin(const Config& owner, std::vector<Tracker>& all) {
     all.back().common = owner.devices.common;
 }
 template <class Tracker, class Device>

@@ -234,12 +234,9 @@ class Reader {
     void take(const Given& given, T& into) {
         into = value_of<T>(given.word(words_of<T>(given.field)));
     }
-    /// Without a range of their own, they are meters or pixels.
     template <glm::length_t n, class T>
     void take(const Given& any, glm::vec<n, T>& into) {
-        Given given = any;
-        given.field.low = std::max(given.field.low, -kFar);
-        given.field.high = std::min(given.field.high, kFar);
+        const Given given{any.at, within_reach(any.field), any.node};
         const auto values = given.numbers<T>(n, n, "");
         for (glm::length_t i = 0; i < n; ++i)
             into[i] = values[static_cast<std::size_t>(i)];

@@ -73,8 +73,7 @@ ordered_json schema_of(Field field) {
     else if constexpr (std::same_as<T, std::array<double, 2>>)
         return array_of(limited("number", field), 2, 2);
     else if constexpr (kComponents<T> > 0) {
-        field.low = std::max(field.low, -kFar);
-        field.high = std::min(field.high, kFar);
+        field = within_reach(field);
         return array_of(
             limited(std::integral<typename T::value_type> ? "integer" : "number", field),
             kComponents<T>, kComponents<T>);
@@ -124,10 +123,7 @@ class Schema {
                              requires { requires Table<typename V::value_type>; }) {
             note(into, field, member.emplace());
         } else {
-            Field last = field;
-            if (const char* dot = std::strrchr(field.key, '.'))
-                last.key = dot + 1;
-            at(into, field.key) = schema_of<V>(last);
+            at(into, field.key) = schema_of<V>(field);
         }
     }
 

@@ -32,6 +32,13 @@ inline constexpr glm::length_t kComponents = 0; ///< components of a vector of g
 template <glm::length_t n, class T>
 inline constexpr glm::length_t kComponents<glm::vec<n, T>> = n;
 
+/// Vectors without a range of their own are meters or pixels.
+inline Field within_reach(Field field) {
+    field.low = std::max(field.low, -kFar);
+    field.high = std::min(field.high, kFar);
+    return field;
+}
+
 /// A list of tables.
 template <class T>
 concept Tables = kIsVector<T> && Table<typename T::value_type>;

@@ -140,8 +140,8 @@ std::vector<std::string> describe_devices(const Config& config) {
     return lines;
 }
 
-std::vector<MissingTracker> missing_trackers(const Config& config) {
-    std::vector<MissingTracker> lacking;
+std::vector<ConfigProblem> missing_trackers(const Config& config) {
+    std::vector<ConfigProblem> lacking;
     const auto add = [&](int line, const char* key, const char* library) {
         lacking.push_back({line, key, missing(key, library).what()});
     };

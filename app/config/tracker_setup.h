@@ -18,12 +18,8 @@ void open_trackers(const Config& config, interaction::CompositeInput& input);
 /// and when it counts as lost. Opens nothing.
 std::vector<std::string> describe_devices(const Config& config);
 
-/// A tracker that the configuration asks for and this program was built without.
-struct MissingTracker {
-    int line;
-    std::string key, text;
-};
-std::vector<MissingTracker> missing_trackers(const Config& config);
+/// The trackers that the configuration asks for and this program was built without.
+std::vector<ConfigProblem> missing_trackers(const Config& config);
 
 /// Warnings about the devices, one line each; empty if there are none.
 std::vector<std::string> device_warnings(const Config& config);

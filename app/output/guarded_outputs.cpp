@@ -104,8 +104,9 @@ std::optional<std::string> harm_to(const fs::path& input, const Found& found) {
         folder = input;
     if (!folder.empty() && lies_within(found.path, folder))
         return fmt::format("is an input, as {} is read", folder.string());
-    if (is_named_in(input, found.path.filename().string()) ||
-        is_named_in(input, whole(found.path).filename().string()))
+    const std::string name = found.path.filename().string(),
+                      real = whole(found.path).filename().string();
+    if (is_named_in(input, name) || (real != name && is_named_in(input, real)))
         return fmt::format("is an input, as {} names it", input.string());
     return std::nullopt;
 }

@@ -75,7 +75,7 @@ class RunArray {
 
     const index::IndexFile& file() const { return *file_; }
     /// Each of these throws index::Error: there is no such step, or the file is damaged.
-    /// A moment is a step and so many 65536ths of the way to the next one.
+    /// An instant is a step and so many 65536ths of the way to the next one.
     struct AskedInstant {
         std::int64_t step, fraction;
     };

@@ -9,12 +9,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <string_view>
-#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -188,7 +186,7 @@ class MeasureJudge {
             warn(line, tracker + ".orientation",
                  "its angles are round in radians, and are read as degrees");
         if (looks_like_radians(known.sensor_from_thing.orientation))
-            warn(line, tracker + ".devices.orientation",
+            warn(line, tracker + ".devices.rotation",
                  fmt::format("{}: its angles are round in radians, and are read as degrees",
                              device.name));
     }

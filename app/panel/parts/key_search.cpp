@@ -7,11 +7,9 @@
 #include "app/text.h"
 #include "interaction/controls/action_table.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -11,11 +11,11 @@
 #include "app/explore/pattern_exploration.h"
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
+#include "app/loop/data_window.h"
 #include "app/loop/live_recording.h"
 #include "app/loop/new_steps.h"
 #include "app/loop/panel_movies.h"
-#include "app/loop/surface_exports.h"
-#include "app/loop/data_window.h"
+#include "app/loop/surface_maker.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
@@ -329,7 +329,7 @@ void Exploration::lead(LiveLoop& live) {
     if (indexing_)
         session_->panel().offer_arrays(listed(indexing_->state().others));
     live.join(CompanionPlace::surfaces,
-              std::make_shared<SurfaceExports>(file_, options_.screenshots));
+              std::make_shared<SurfaceMaker>(file_, options_.screenshots));
     live.join(CompanionPlace::watch,
               std::make_shared<NewSteps>(*options_.data, file_, live.waker()));
     if (control_)

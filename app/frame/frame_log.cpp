@@ -72,6 +72,8 @@ void FrameLog::count(const FrameReport& frame) {
     }
     rests_.count += !resting_ && moved_;
     resting_ = true;
+    if (frame.after_wait) // the rest had ended as it was: what comes now comes of something else
+        moved_.reset();
     if (!moved_ || !frame.redrawn || frame.footprint != render::kBestFootprint)
         return;
     ++rests_.exact;

@@ -79,6 +79,14 @@ std::string not_written(const ExportTask&, const std::string& why, bool canceled
 SurfaceMaker::SurfaceMaker(std::shared_ptr<const index::IndexFile> file, fs::path folder)
     : file_(std::move(file)), folder_(std::move(folder)), exports_(write_surfaces, not_written) {}
 
+void SurfaceMaker::before_frame(Session& session, const interaction::Commands& by_user,
+                                interaction::Commands& asked) {
+    file_ = session.file(); // it may have more steps
+    const auto exported = update(session.state(), [&] { return session.scale(); });
+    if (!by_user.exporting && !asked.exporting) // what somebody asks for counts
+        asked.exporting = exported;
+}
+
 std::vector<std::string> SurfaceMaker::finish() {
     exports_.cancel();
     exports_.finish();

@@ -1,7 +1,6 @@
 // In how many pixels the cells of a moving picture are drawn.
 #include "app/quality/cell_resolution.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace isochron::app {

@@ -1,6 +1,8 @@
 // The states of quality: their names, and which of them there are.
 #include "app/quality/picture_state.h"
 
+#include <array>
+
 namespace isochron::app {
 
 const char* name_of(Shown shown) {

@@ -10,7 +10,6 @@
 
 #include "render/cells/footprints.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 

@@ -171,6 +171,23 @@ TEST(FrameLog, TimeInWhichNothingWasToBeDoneIsNoFramesTime) {
     EXPECT_NEAR(log.frames_per_second(5), 50, 1e-6);
 }
 
+TEST(FrameLog, ASurfaceThatComesAfterAWaitHasNotTakenSoLong) {
+    FrameLog log;
+    const auto add = [&](double time, Footprint footprint, QualityReason reason, bool after_wait) {
+        FrameReport frame = frame_with(footprint, reason);
+        frame.time = interaction::Seconds(time);
+        frame.redrawn = true;
+        frame.cells = 100;
+        frame.after_wait = after_wait;
+        log.add(frame);
+    };
+    add(1.0, Footprint::quad, QualityReason::moving, false);
+    add(1.1, Footprint::quad, QualityReason::trial, false); // and stays so
+    add(3600, Footprint::surface, QualityReason::trial, true);
+    EXPECT_EQ(log.rests().count, 1u);
+    EXPECT_EQ(log.rests().exact, 0u);
+}
+
 TEST(FrameLog, SaysHowOftenTheSurfaceItselfWasShownInMotionAndHowSoonAtRest) {
     FrameLog log;
     const auto add = [&](double time, Footprint footprint, QualityReason reason,

@@ -87,7 +87,6 @@ TEST(PictureState, HasTheRowsOfItsTableInArchitecture) {
     EXPECT_EQ(said, expected);
 }
 
-/// What the states of a session's frames have in common, whatever happens in it.
 TEST(PictureState, IsNotFinalWhereABetterPictureComesHoweverLongTheSessionHasWaited) {
     constexpr interaction::Seconds kAnHour{3600};
     int come = 0;
@@ -101,6 +100,7 @@ TEST(PictureState, IsNotFinalWhereABetterPictureComesHoweverLongTheSessionHasWai
     EXPECT_GT(come, 5);
 }
 
+/// What the states of a session's frames have in common, whatever happens in it.
 TEST(PictureState, OfSimulatedSessionsFollowFromWhatTheEyesSee) {
     std::set<std::string> seen;
     const std::uint32_t first = test_seed();

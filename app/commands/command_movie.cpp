@@ -217,18 +217,23 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     {
         const CancelOnSignal signals;
         ProgressBar bar;
-        replay_fixed_step(session, recording, replay,
-                          [&](std::size_t number, const interaction::RecordedFrame&) {
-                              signals.check();
-                              if (const std::size_t times = clock.frames_of(number))
-                                  movies.add(session.outputs(), session.note(), times);
-                              const double done = static_cast<double>(number + 1) /
-                                                  static_cast<double>(recording.frames.size());
-                              if (options.background)
-                                  tell(done);
-                              else
-                                  bar.show("making the movie", done);
-                          });
+        try {
+            replay_fixed_step(session, recording, replay,
+                              [&](std::size_t number, const interaction::RecordedFrame&) {
+                                  signals.check();
+                                  if (const std::size_t times = clock.frames_of(number))
+                                      movies.add(session.outputs(), session.note(), times);
+                                  const double done = static_cast<double>(number + 1) /
+                                                      static_cast<double>(recording.frames.size());
+                                  if (options.background)
+                                      tell(done);
+                                  else
+                                      bar.show("making the movie", done);
+                              });
+        } catch (const index::Error&) { // Ctrl-C ends a wait for cells, too
+            signals.check();
+            throw;
+        }
     }
     for (const std::string& line : movies.finish())
         print_safely(fmt::format("{}\n", line));

@@ -167,8 +167,8 @@ class IndexFile {
     std::optional<Referral> color_referral_;
     std::unique_ptr<StepSource> source_, color_source_; ///< if it refers to its sources
     std::vector<UnusedParts> unused_;
-    /// Guards the parts that are read when they are first asked for; after a failure the next
-    /// caller tries again.
+    /// Guards what `values` reads when it is first asked for; after a failure the next caller tries
+    /// again.
     mutable std::mutex reading_;
     mutable std::shared_ptr<std::byte> all_;
     mutable StepValues values_;

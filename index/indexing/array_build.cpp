@@ -9,7 +9,6 @@
 #include "index/system/mapped_file.h"
 #include "index/system/parallel.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-// Ranks of stored values among at most 256 levels, by which bricks and cells are indexed.
+// Ranks of stored values among at most 256 levels, by which bricks are indexed.
 //
 //     const auto levels = index::LevelMap::of_type(ValueType::u8);        // 256 levels: lossless
 //     levels.ranks(std::as_bytes(values.step<std::uint8_t>(t)), ranks);   // a byte for each vertex

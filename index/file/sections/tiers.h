@@ -49,8 +49,8 @@ class TierSet {
 /// Which tiers an index has, and why.
 struct TierPlan {
     TierSet tiers;
-    std::vector<std::string> reasons; ///< a sentence for each possible tier, for `info`
-    bool asked = false;               ///< chosen by the user, not by the planner
+    std::vector<std::string> reasons; ///< sentences for `info`
+    bool asked = false;               ///< chosen by the user
     std::uint32_t steps = 0;          ///< steps of the series when the tiers were chosen
 };
 

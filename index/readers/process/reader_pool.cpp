@@ -72,7 +72,7 @@ void ReaderPool::set_patience(std::chrono::milliseconds patience) {
 
 void ReaderPool::give_back(std::unique_ptr<ReaderProcess> reader) {
     const std::lock_guard lock(mutex_);
-    if (idle_.size() < kMostIdle)
+    if (reader->answers() && idle_.size() < kMostIdle)
         idle_.push_back(std::move(reader));
 }
 

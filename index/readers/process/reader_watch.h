@@ -1,6 +1,7 @@
 // Decides from the signs of a reader when it is waited for no longer.
 #pragma once
 
+#include "index/readers/process/message_socket.h"
 #include "index/readers/process/process_signs.h"
 
 #include <chrono>
@@ -14,7 +15,7 @@ namespace isochron::index {
 class ReaderWatch {
   public:
     using Duration = std::chrono::milliseconds;
-    static constexpr Duration kLook{100};
+    static constexpr Duration kLook = MessageSocket::kAwait;
 
     /// A request begins. @param patience how long the reader may make no progress
     /// @param of_bytes what is added for the size of the file

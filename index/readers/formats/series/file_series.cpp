@@ -50,7 +50,8 @@ void expect_unchanged(const Found& found) {
     }
 }
 
-/// Runs `work`; exceptions other than Error become errors that name the file.
+/// Runs `work`; exceptions other than Error and Interrupted become errors that name
+/// the file.
 template <class Work>
 auto named(const std::filesystem::path& file, Work&& work) {
     try {

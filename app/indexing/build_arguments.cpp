@@ -88,6 +88,7 @@ void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
     };
     take(read.allow_surplus, held.allow_surplus);
     take(read.extra_axis_is_time, held.extra_axis_is_time);
+    take(read.member, held.member);
     take(read.times_from_names, held.times_from_names);
     take(read.keep_first, held.keep_first);
     take(read.crop, held.crop);
@@ -282,6 +283,11 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .flag("--extra-axis-is-time", read.extra_axis_is_time,
               "Read the axis that is not x, y or z as time, even if the file says otherwise or "
               "leaves it open")
+        .group("Reading");
+    command
+        .option("--member", read.member,
+                "Which run of an ensemble to read, counted from 0, where files hold several")
+        .type_name("N")
         .group("Reading");
     command
         .option("--resample", arguments.resample,

@@ -49,9 +49,6 @@ std::string state_of_folder(const fs::path& folder) {
     return fmt::format("{} {} {}", files, bytes, newest.time_since_epoch().count());
 }
 
-/// Counted up when a change makes the program read the same files in another way.
-constexpr int kReading = 2;
-
 /// Up to this many bytes of values, an index is made as a whole in less than a second or two.
 constexpr std::uint64_t kSmall = 32 << 20;
 /// Most bytes of values that are added to an index at a time, but for a step that is larger.
@@ -79,13 +76,15 @@ std::string options_text(const BuildArguments& arguments) {
                        fmt::join(arguments.origin, ","));
     if (arguments.resample_by_cell)
         key += "by cell";
+    if (read.member)
+        key += fmt::format("member {};", *read.member);
     key += fmt::format("{};{};{}", arguments.crop, arguments.stride, arguments.steps);
     return key;
 }
 
 /// The name is equal for equal files and options.
 std::string name_of_kept(const std::vector<fs::path>& files, const BuildArguments& arguments) {
-    std::string key = fmt::format("{} {};", kProgram, kReading);
+    std::string key = fmt::format("{} {};", kProgram, index::kReading);
     for (const fs::path& file : files) {
         const fs::path whole = fs::weakly_canonical(file);
         const bool case_of_openfoam = whole.extension() == ".foam";

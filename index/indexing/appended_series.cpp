@@ -52,7 +52,7 @@ bool begins_with(const std::vector<T>& all, const std::vector<T>& first) {
 /// not show it.
 void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t held,
                       std::span<const std::uint64_t> checksums,
-                      std::span<const std::uint64_t> states) {
+                      std::span<const std::uint64_t> states, bool read_alike) {
     RunningChecksum checksum;
     for (std::size_t step = 0; step < held; ++step) {
         if (states[step] != 0 && all.state(step) == states[step])
@@ -62,11 +62,14 @@ void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t he
             continue;
         const std::vector<std::string>& sources = all.info().sources;
         throw Error(
-            fmt::format("{}: cannot be appended to: its source {} has changed under step {}", name,
+            fmt::format("{}: cannot be appended to: its source {} has changed under step {}{}", name,
                         sources.size() == all.info().steps() ? sources[step]
                         : sources.empty()                    ? "?"
                                                              : sources.back(),
-                        step));
+                        step,
+                        read_alike ? ""
+                                   : ", or is read otherwise than by the version that built it: "
+                                     "build it again without --append"));
     }
 }
 
@@ -76,8 +79,12 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
                                         const std::string& name,
                                         std::unique_ptr<VolumeSeries> all) {
     const SeriesInfo &held = index->info(), &given = all->info();
+    const bool read_alike = index->metadata().reading_number == kReading;
     const auto refuse = [&](const std::string& what) {
-        throw Error(fmt::format("{}: cannot be appended to: {}", name, what));
+        throw Error(fmt::format("{}: cannot be appended to: {}{}", name, what,
+                                read_alike ? ""
+                                           : "; it was built by a version that may have read the "
+                                             "files otherwise: build it again without --append"));
     };
     if (given.grid != held.grid || given.type != held.type || given.scaling != held.scaling ||
         given.array != held.array)
@@ -91,7 +98,7 @@ std::unique_ptr<VolumeSeries> append_to(std::shared_ptr<const IndexFile> index,
                            held.sources.empty() ? "?" : held.sources.back()));
     const std::vector<std::uint64_t> unknown(held.steps(), 0);
     expect_unchanged(name, *all, held.steps(), index->checksums(),
-                     named_alike ? index->source_states() : unknown);
+                     named_alike && read_alike ? index->source_states() : unknown, read_alike);
     if (given.steps() == held.steps())
         return nullptr;
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
@@ -114,7 +121,7 @@ std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> 
                                 "scaling",
                                 name, given));
     expect_unchanged(name, *all, index->info().steps(), index->color_checksums(),
-                     index->source_states());
+                     index->source_states(), true);
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
                                             static_cast<Load>(&IndexFile::load_color));
 }

@@ -57,6 +57,7 @@ struct ReadOptions {
     bool allow_surplus = false; ///< --allow-surplus: more values may follow than the header says
     bool extra_axis_is_time =
         false;                     ///< --extra-axis-is-time: an axis beside those of space is time
+    std::optional<std::uint32_t> member; ///< --member: the run of an ensemble, counted from 0
     bool times_from_names = false; ///< --times-from-names: the number in each file's name
     bool keep_first = false; ///< --keep-first: of steps with the same time not the last, the first
     /// --resample NX NY NZ: grids that are not regular become one of so many vertices.
@@ -83,6 +84,10 @@ struct ReadOptions {
 
     bool operator==(const ReadOptions&) const = default;
 };
+
+/// Counts the ways in which programs have understood the same files: raised when axes, places,
+/// times or missing values of some format are read otherwise than before.
+constexpr std::uint32_t kReading = 3;
 
 /// Receives the stored values of a step, piece by piece.
 using TakePiece = std::function<void(std::span<const std::byte>)>;

@@ -164,6 +164,7 @@ std::string to_json(const Metadata& metadata) {
         {"notes", info.notes},
         {"stats", {{"counts", json_of(stats.counts)}, {"staying", stats.staying}}},
         {"plan", json_of(metadata.plan)},
+        {"reading_number", metadata.reading_number},
         {"codec", kCodecNames[static_cast<std::size_t>(metadata.codec)]},
         {"tree",
          {{"lattice", metadata.tree.lattice}, {"max_variation", metadata.tree.max_variation}}},
@@ -220,6 +221,9 @@ Metadata metadata_from_json(std::string_view text) try {
     metadata.tree.max_variation = whole<std::uint32_t>(tree.at("max_variation"));
     if (j.contains("reading"))
         metadata.reading = read_options_of(j.at("reading"));
+    metadata.reading_number = j.contains("reading_number")
+                                  ? whole<std::uint32_t>(j.at("reading_number"))
+                                  : 2; // what programs before the number were
     if (j.contains("referral"))
         metadata.referral = referral_of(j.at("referral"));
     if (j.contains("color"))

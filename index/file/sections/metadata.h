@@ -43,6 +43,8 @@ struct Metadata {
     /// How the files were read, as far as the user said; without array and component. Indexes of
     /// older programs have none.
     std::optional<ReadOptions> reading = {};
+    /// The `kReading` of the program that read the files.
+    std::uint32_t reading_number = kReading;
     /// What blends between steps are worth; none where that was not measured.
     std::optional<BlendQuality> blends = {};
     /// The arrays of the index besides this one; only the first array lists them.

@@ -26,6 +26,8 @@ void put_decoding(json& j, const ReadOptions& options) {
         j["keep_first"] = true;
     if (options.extra_axis_is_time)
         j["extra_axis_is_time"] = true;
+    if (options.member)
+        j["member"] = *options.member;
     put_optional(j, "crop", options.crop);
     put_optional(j, "stride", options.stride);
     put_optional(j, "steps", options.steps);
@@ -40,6 +42,8 @@ void get_decoding(const json& j, ReadOptions& options) {
     options.times_from_names = j.value("times_from_names", false);
     options.keep_first = j.value("keep_first", false);
     options.extra_axis_is_time = j.value("extra_axis_is_time", false);
+    if (j.contains("member"))
+        options.member = whole<std::uint32_t>(j.at("member"));
     j.at("big_endian").get_to(options.big_endian);
     options.header_bytes = whole<std::uint64_t>(j.at("header_bytes"));
     if (j.contains("crop")) {

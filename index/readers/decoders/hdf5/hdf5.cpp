@@ -1,7 +1,7 @@
 // Opens HDF5 datasets by their path.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
-#include "index/readers/decoders/hdf5/hdf5_grid.h"
+#include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/decoders/hdf5/hdf5_volume.h"
 #include "index/readers/decoders/hdf5/vtkhdf.h"
 #include "index/readers/formats/stored_file.h"
@@ -62,12 +62,17 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     if (!first.type)
         throw Error(
             fmt::format("{}: {} does not hold numbers that can be read", file->name(), first.path));
+    std::vector<std::string> notes;
+    StatedArray record = stated(*file, first, true, notes);
+    record.name = array.name;
     std::string why;
-    const auto layout = layout_of(first, options, &why);
+    const auto layout = layout_of(record, options, &why);
     if (!layout)
-        throw Error(fmt::format("{}: {} ({}): {}", file->name(), array.name,
-                                shape_text(first.dimensions), why));
+        throw Error(
+            fmt::format("{}: {} ({}): {}", file->name(), array.name, shape_text(record), why));
     Hdf5Volume volume{{}, array.steps, *layout};
+    volume.member = member_of(record, *layout, options);
+    volume.info.notes = std::move(notes);
     if (layout->time && array.steps.size() > 1)
         throw Error(fmt::format("{}: {} ({}): each of {} groups holds several steps, choose one "
                                 "with --array {}",
@@ -79,11 +84,10 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     size_grid(*file, volume);
     const std::size_t steps = layout->time ? first.dimensions[*layout->time] : array.steps.size();
     expect_few_steps(steps, file->name());
-    if (layout->time && file->scales(first)[*layout->time].empty())
-        volume.info.notes.push_back(fmt::format("the first axis of {} ({}) is taken for time",
-                                                array.name, shape_text(first.dimensions)));
-    place_hdf5(*file, first, *layout, options, volume.info);
-    time_hdf5(*file, array, *layout, steps, volume.info);
+    if (auto note = note_on_time(record, *layout))
+        volume.info.notes.push_back(std::move(*note));
+    place_axes(record, *layout, options, volume.info);
+    time_hdf5(*file, array, record, *layout, steps, volume.info);
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }
 

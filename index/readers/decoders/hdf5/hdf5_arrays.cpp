@@ -2,7 +2,9 @@
 #include "index/readers/decoders/hdf5/hdf5_arrays.h"
 
 #include "index/error.h"
+#include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/formats/series/numbered_name.h"
+#include "index/readers/formats/stated/array_places.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +15,6 @@
 
 namespace isochron::index {
 namespace {
-
-/// Most components of a vector or tensor, and most that an axis without a name may be.
-constexpr std::uint64_t kMostComponents = 9, kMaybeComponents = 4;
 
 /// The path with its last numbered group replaced by `*`, and the end of that group in the path.
 std::optional<std::pair<std::string, std::size_t>> pattern_of(const std::string& path) {
@@ -139,47 +138,6 @@ Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& dataset
 
 } // namespace
 
-std::optional<Hdf5Layout> layout_of(const Hdf5Dataset& dataset, const ReadOptions& options,
-                                    std::string* why) {
-    std::vector<std::size_t> left; // slowest first
-    for (std::size_t i = 0; i < dataset.dimensions.size(); ++i)
-        if (dataset.dimensions[i] != 1)
-            left.push_back(i);
-    const auto length = [&](std::size_t i) { return dataset.dimensions[i]; };
-    const auto fail = [&](std::string reason) {
-        if (why)
-            *why = std::move(reason);
-        return std::nullopt;
-    };
-    Hdf5Layout layout;
-    if (options.component && left.size() > 3) {
-        // Components are the last axis, or the first one, or the second one after time.
-        const std::size_t first = left.size() - 4;
-        std::size_t at = left.size() - 1;
-        if (length(left[at]) > kMostComponents ||
-            (length(left[first]) < length(left[at]) && length(left[first]) <= kMaybeComponents))
-            at = first;
-        if (length(left[at]) > kMostComponents)
-            return fail(fmt::format("no axis of at most {} components", kMostComponents));
-        layout.component = left[at];
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
-    }
-    if (left.size() == 4) {
-        const bool open =
-            length(left.front()) <= kMaybeComponents || length(left.back()) <= kMaybeComponents;
-        if (open && !options.component && !options.extra_axis_is_time)
-            return fail("its first axis may be time (--extra-axis-is-time) or an axis components "
-                        "(--component 0, 1, ... or magnitude)");
-        layout.time = left.front();
-        left.erase(left.begin());
-    }
-    if (left.size() != 3)
-        return fail(left.size() > 3 ? "expected three axes, time, and components with --component"
-                                    : "expected three axes of more than one vertex");
-    layout.space = {left[2], left[1], left[0]};
-    return layout;
-}
-
 Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
     if (options.array && options.array->find('*') == std::string::npos) {
         // The path may go through a link, or name a single step of several.
@@ -210,7 +168,10 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         }
     if (options.any_array) // one that can be read before one that leaves something open
         std::ranges::stable_partition(offered, [&](const Hdf5Array& array) {
-            return layout_of(array.steps.front(), options).has_value();
+            ReadOptions strict = options;
+            strict.any_array = false;
+            std::vector<std::string> notes;
+            return layout_of(stated(file, array.steps.front(), false, notes), strict).has_value();
         });
     std::vector<StoredArray> listed;
     for (const Hdf5Array& array : offered) {

@@ -3,8 +3,6 @@
 
 #include "index/readers/decoders/hdf5/hdf5_file.h"
 
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,20 +18,6 @@ struct Hdf5Array {
     std::vector<std::string> offered = {}; ///< what it was chosen from, with types
     std::optional<std::string> note = {};  ///< how the numbers of the groups are read
 };
-
-/// Dimensions of a dataset, counted from the slowest.
-struct Hdf5Layout {
-    std::array<std::size_t, 3> space{}; ///< dimensions of the index axes, fastest first
-    std::optional<std::size_t> time, component;
-};
-
-/// The roles of a dataset's dimensions; dimensions of length 1 are ignored. If four are left, the
-/// first is time; but if the first or the last has at most four entries, it may be components, and
-/// the options must decide.
-/// @param options whether a component is asked for, or the extra axis is declared to be time
-/// @param why set to what is wrong, if the dataset has no layout
-std::optional<Hdf5Layout> layout_of(const Hdf5Dataset& dataset, const ReadOptions& options,
-                                    std::string* why = nullptr);
 
 /// Picks the array that `options` name: by a path, the end of one, or a path with `*`; without a
 /// name, the only volume. In openPMD's files of one iteration each, `*` stands for its number, so

@@ -227,6 +227,11 @@ std::vector<double> Hdf5File::numbers(const std::string& object,
     return numbers;
 }
 
+bool Hdf5File::is_real(const std::string& object, const std::string& attribute) const {
+    const auto found = attribute_of(file_.id(), object, attribute);
+    return found && H5Tget_class(found->type.id()) == H5T_FLOAT;
+}
+
 std::vector<std::string> Hdf5File::texts(const std::string& object,
                                          const std::string& attribute) const {
     const auto found = attribute_of(file_.id(), object, attribute);

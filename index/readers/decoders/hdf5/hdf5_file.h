@@ -69,6 +69,8 @@ class Hdf5File {
 
     /// Attributes of the object at a path; empty if it has none of that name and kind.
     std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
+    /// Whether an attribute is floating-point numbers.
+    bool is_real(const std::string& object, const std::string& attribute) const;
     std::string text(const std::string& object, const std::string& attribute) const;
     std::vector<std::string> texts(const std::string& object, const std::string& attribute) const;
 

@@ -3,6 +3,8 @@
 
 #include "index/error.h"
 #include "index/readers/formats/cropped_file.h"
+#include "index/readers/decoders/hdf5/hdf5_stated.h"
+#include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/unread_fields.h"
 
@@ -16,64 +18,33 @@
 namespace isochron::index {
 namespace {
 
-Scaling scaling_in(const Hdf5File& file, const std::string& path) {
-    const auto number = [&](std::initializer_list<const char*> names, double otherwise) {
-        for (const char* name : names)
-            if (const auto found = file.numbers(path, name); found.size() == 1)
-                return found.front();
-        return otherwise;
-    };
-    const Scaling scaling{number({"scale_factor", "unitSI"}, 1), number({"add_offset"}, 0)};
-    if (scaling.slope == 0 || !std::isfinite(scaling.slope) || !std::isfinite(scaling.intercept))
-        throw Error(fmt::format("{}: {}: factor {} and offset {}, expected finite numbers and a "
-                                "factor that is not 0",
-                                file.name(), path, scaling.slope, scaling.intercept));
-    return scaling;
-}
-
-std::vector<double> missing_in(const Hdf5File& file, const std::string& path) {
-    std::vector<double> missing;
-    for (const char* name : {"_FillValue", "missing_value"})
-        for (const double value : file.numbers(path, name))
-            if (!std::isnan(value))
-                missing.push_back(value);
-    return missing;
-}
-
-/// Rounds to f32: 1e35 in f64 differs from 1e35 in f32.
-double as_float(double value) {
-    return static_cast<double>(static_cast<float>(value));
-}
-
 class Hdf5Decoder final : public DecodedFile {
   public:
     Hdf5Decoder(std::unique_ptr<Hdf5File> file, const std::string& name, Hdf5Volume volume,
                 const ReadOptions& options)
-        : file_(std::move(file)), volume_(std::move(volume)),
-          missing_(missing_in(*file_, first().path)) {
+        : file_(std::move(file)), volume_(std::move(volume)) {
+        const StatedAttributes attributes = attributes_of(*file_, first().path);
+        const std::string where = fmt::format("{}: {}", file_->name(), first().path);
+        missing_ = MissingValues(attributes, *first().type, {}, where);
         const StoredArray array{.name = name,
                                 .type = first().type,
                                 .components = components(),
                                 .on_cells = volume_.on_cells,
-                                .gaps = !missing_.empty() && first().type != StoredType::f32 &&
-                                        first().type != StoredType::f64};
+                                .gaps = missing_.make_gaps(*first().type)};
         ReadOptions asked = options;
         asked.array.reset(); // already chosen
         chosen_ = choose_scalar(std::span(&array, 1), asked, file_->name());
         SeriesInfo& info = volume_.info;
         info.array = chosen_.label();
         info.type = chosen_.value_type();
-        info.scaling = scaling_in(*file_, first().path);
+        info.scaling = scaling_by(attributes, where);
         for (std::string& note : chosen_.notes())
             info.notes.push_back(std::move(note));
         note_unread();
         whole_ = info.grid;
         part_ = crop_description(info, options, file_->name());
-        for (const char* unit : {"units", "unit", "Units", "UNITS"})
-            if (info.value_unit.empty())
-                info.value_unit = file_->text(first().path, unit);
-        if (info.value_unit == "1")
-            info.value_unit.clear();
+        if (info.value_unit.empty())
+            info.value_unit = value_unit_by(attributes);
         open(0);
     }
 
@@ -130,22 +101,10 @@ class Hdf5Decoder final : public DecodedFile {
         slab.vertices[2] = slices.count;
         const bool whole = volume_.on_cells; // then the slab is the whole volume
         const std::uint32_t layers = whole ? slab.vertices[2] - 1 : slices.count;
-        if (chosen_.component != ChosenScalar::kMagnitude) {
-            ChosenScalar alone = chosen_;
-            alone.array.components = 1;
-            alone.component = 0;
-            return take(step, slices.first, layers, chosen_.component, alone, slab, out);
-        }
-        // Components may be separate planes: joins them to tuples.
-        const std::size_t size = size_of(*first().type), count = chosen_.array.components;
-        std::vector<std::byte> tuples(values_in(layers) * count * size),
-            plane(values_in(layers) * size);
-        for (std::uint32_t c = 0; c < count; ++c) {
-            load(step, slices.first, layers, c, plane);
-            for (std::size_t i = 0; i * size < plane.size(); ++i)
-                std::memcpy(&tuples[(i * count + c) * size], &plane[i * size], size);
-        }
-        convert(chosen_, tuples, slab, out, file_->name());
+        read_stored(chosen_, missing_, values_in(layers), slab, out, file_->name(),
+                    [&](std::size_t component, std::span<std::byte> plane) {
+                        load(step, slices.first, layers, component, plane);
+                    });
     }
 
     /// What openPMD and CF state of a mesh that changes neither values nor places here.
@@ -160,10 +119,9 @@ class Hdf5Decoder final : public DecodedFile {
             for (const char* name : {"geometryParameters", "grid_mapping", "cell_methods"})
                 if (const std::string text = file_->text(object, name); !text.empty())
                     unread.push_back(fmt::format("{} {}", name, text));
-            for (const char* name : {"timeOffset", "valid_min", "valid_max", "valid_range"})
-                if (const auto numbers = file_->numbers(object, name);
-                    std::ranges::any_of(numbers, [](double number) { return number != 0; }))
-                    unread.emplace_back(name);
+            const auto offset = file_->numbers(object, "timeOffset");
+            if (std::ranges::any_of(offset, [](double number) { return number != 0; }))
+                unread.emplace_back("timeOffset");
         }
         if (auto note = note_on_unread(unread))
             volume_.info.notes.push_back(std::move(*note));
@@ -195,8 +153,8 @@ class Hdf5Decoder final : public DecodedFile {
     }
 
     void load(std::size_t step, std::uint32_t first_layer, std::uint32_t layers,
-              std::uint32_t component, std::span<std::byte> out) const {
-        const Hdf5Layout& layout = volume_.layout;
+              std::size_t component, std::span<std::byte> out) const {
+        const ArrayLayout& layout = volume_.layout;
         std::vector<std::uint64_t> start(first().dimensions.size()),
             count(first().dimensions.size(), 1);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -208,47 +166,16 @@ class Hdf5Decoder final : public DecodedFile {
         count[layout.space[2]] = layers;
         if (layout.time)
             start[*layout.time] = volume_.places.empty() ? step : volume_.places[step];
+        if (layout.member)
+            start[*layout.member] = volume_.member;
         if (layout.component)
             start[*layout.component] = component;
         values_->read(start, count, out);
     }
 
-    void take(std::size_t step, std::uint32_t first_layer, std::uint32_t layers,
-              std::uint32_t component, const ChosenScalar& alone, const Grid& slab,
-              std::span<std::byte> out) const {
-        const StoredType stored = *first().type;
-        const bool converts = volume_.on_cells || stored_type_of(chosen_.value_type()) != stored;
-        std::vector<std::byte> read(converts ? values_in(layers) * size_of(stored) : 0);
-        const std::span<std::byte> to = converts ? std::span(read) : out;
-        load(step, first_layer, layers, component, to);
-        std::vector<std::uint8_t> gaps;
-        if (!missing_.empty())
-            visit_stored_type(stored, [&]<class T>(std::type_identity<T>) {
-                const std::span<T> values(reinterpret_cast<T*>(to.data()), to.size() / sizeof(T));
-                if (converts)
-                    gaps.resize(values.size());
-                for (std::size_t i = 0; i < values.size(); ++i) {
-                    const auto is = [value = static_cast<double>(values[i])](double missing) {
-                        return value == missing ||
-                               (std::is_same_v<T, float> && value == as_float(missing));
-                    };
-                    if (std::ranges::none_of(missing_, is))
-                        continue;
-                    if (converts)
-                        gaps[i] = 1;
-                    if constexpr (std::is_floating_point_v<T>)
-                        values[i] = std::numeric_limits<T>::quiet_NaN();
-                    else
-                        values[i] = 0; // since the number in a gap may have no exact f64
-                }
-            });
-        if (converts)
-            convert(alone, read, slab, out, file_->name(), gaps);
-    }
-
     std::unique_ptr<Hdf5File> file_;
     Hdf5Volume volume_;
-    std::vector<double> missing_;
+    MissingValues missing_;
     std::optional<VolumePart> part_; ///< if not all is wanted
     Grid whole_;
     ChosenScalar chosen_;

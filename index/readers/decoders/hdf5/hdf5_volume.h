@@ -4,6 +4,7 @@
 #include "index/readers/decoders/decoded_file.h"
 #include "index/readers/decoders/hdf5/hdf5_arrays.h"
 #include "index/readers/decoders/hdf5/hdf5_values.h"
+#include "index/readers/formats/stated/array_places.h"
 
 #include <memory>
 #include <optional>
@@ -15,8 +16,9 @@ namespace isochron::index {
 struct Hdf5Volume {
     SeriesInfo info;
     std::vector<Hdf5Dataset> datasets; ///< one, or one for each step
-    Hdf5Layout layout;
+    ArrayLayout layout;
     bool on_cells = false;
+    std::size_t member = 0; ///< the run of an ensemble that is read
     /// Indices of the steps along time; empty: 0, 1, 2, ...
     std::vector<std::uint64_t> places = {};
 };

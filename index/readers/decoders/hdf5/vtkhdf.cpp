@@ -56,7 +56,7 @@ std::array<std::uint64_t, 3> place_vtkhdf(const Hdf5File& file, SeriesInfo& info
 
 /// The layout of a dataset whose last dimensions, before components, match the vertices or cells;
 /// none if they do not.
-std::optional<Hdf5Layout> vtkhdf_layout(const Hdf5Dataset& dataset,
+std::optional<ArrayLayout> vtkhdf_layout(const Hdf5Dataset& dataset,
                                         std::array<std::uint64_t, 3> sizes, bool on_cells,
                                         bool in_steps) {
     for (std::uint64_t& size : sizes)
@@ -65,7 +65,8 @@ std::optional<Hdf5Layout> vtkhdf_layout(const Hdf5Dataset& dataset,
     const std::size_t before = in_steps ? 1 : 0, rank = dimensions.size();
     if (rank < 3 + before || rank > 4 + before)
         return std::nullopt;
-    Hdf5Layout layout{{before + 2, before + 1, before}, {}, {}};
+    ArrayLayout layout;
+    layout.space = {before + 2, before + 1, before};
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (dimensions[layout.space[axis]] != sizes[axis])
             return std::nullopt;

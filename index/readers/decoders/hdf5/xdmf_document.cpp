@@ -265,6 +265,7 @@ class XdmfParser {
         step.grid.vertices = checked_vertices({sizes[2], sizes[1], sizes[0]}, name_);
         glm::dmat3 steps(1.0);
         std::array<std::vector<double>, 3> at;
+        std::array<bool, 3> uneven{};
         for (std::size_t i = 0; i < items.size(); ++i) {
             at[i] = numbers_of_item(items[i]);
             const std::size_t expected = stretched ? step.grid.vertices[i] : 3;
@@ -282,12 +283,14 @@ class XdmfParser {
             const AxisSpread spread = spread_of(at[i], std::string(1, "xyz"[i]), "", name_);
             step.grid.origin[axis] = spread.first;
             steps[axis][axis] = spread.step;
-            if (spread.note) {
+            uneven[i] = spread.uneven;
+            if (spread.note)
                 step.notes.push_back(*spread.note);
-                set_positions(step.grid, i, at[i]);
-            }
         }
         set_axes(step.grid, steps, name_);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (uneven[axis])
+                set_positions(step.grid, axis, at[axis]);
     }
 
     XdmfItem item_of(const XMLElement& element) const {

@@ -1,7 +1,11 @@
 // Reads NetCDF (classic, 64-bit offset, CDF-5 and NetCDF-4) through Unidata's library.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
-#include "index/readers/decoders/netcdf/netcdf_values.h"
+#include "index/readers/decoders/netcdf/netcdf_stated.h"
+#include "index/readers/formats/cropped_file.h"
+#include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/axis_dates.h"
+#include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -43,12 +47,16 @@ std::vector<std::string> bounds_in(const NetcdfFile& file) {
                             file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
 }
 
+bool is_volume(const NetcdfFile& file, const NetcdfVariable& variable) {
+    return may_be_volume(stated(file, variable, false));
+}
+
 /// The file's variables with three dimensions.
 std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
     const std::vector<std::string> bounds = bounds_in(file);
     std::vector<StoredArray> offered;
     for (const NetcdfVariable& variable : file.variables())
-        if (layout_of(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
+        if (is_volume(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
             (variable.type || options.array == variable.name)) {
             std::vector<std::size_t> lengths;
             for (const NetcdfDimension& dimension : variable.dimensions)
@@ -66,7 +74,7 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
     const auto& variables = file.variables();
     if (options.array) {
         const auto named = std::ranges::find(variables, *options.array, &NetcdfVariable::name);
-        if (named != variables.end() && !layout_of(file, *named))
+        if (named != variables.end() && !is_volume(file, *named))
             throw Error(fmt::format("{}: array {}, expected three dimensions of more than one "
                                     "vertex besides time",
                                     file.name(), text(*named)));
@@ -74,7 +82,9 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
     const std::vector<StoredArray> offered = offered_in(file, options);
     if (offered.empty())
         fail_without_volume(file);
-    const ChosenScalar chosen = choose_scalar(offered, options, file.name());
+    ReadOptions which = options;
+    which.component.reset(); // components are an axis here
+    const ChosenScalar chosen = choose_scalar(offered, which, file.name());
     return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
 }
 
@@ -158,41 +168,59 @@ void expect_no_other_format(const NetcdfFile& file) {
         throw Error(fmt::format("{}: a trajectory of AMBER, expected volumes", file.name()));
 }
 
+/// Notes the sizes of cells that a weather model writes for the whole file (WRF: DX, DY). They say
+/// nothing about heights, so they are not used unless the user gives them.
+void offer_cell_sizes(const std::vector<StatedAttributes>& objects, const StatedArray& array,
+                      const ArrayLayout& layout, SeriesInfo& info) {
+    const auto number = [&](const char* name) {
+        for (const StatedAttributes& object : objects)
+            if (auto found = object.numbers(name); found.size() == 1)
+                return found;
+        return std::vector<double>();
+    };
+    const std::vector<double> dx = number("DX"), dy = number("DY");
+    for (const std::size_t space : layout.space)
+        if (!array.axes[space].at.empty() || array.axes[space].regular)
+            return;
+    if (dx.size() == 1 && dy.size() == 1)
+        info.notes.push_back(fmt::format("attributes say DX {:g} and DY {:g}: --spacing {:g} {:g} "
+                                         "DZ, with DZ as the distance between levels, takes them",
+                                         dx.front(), dy.front(), dx.front(), dy.front()));
+}
+
 class NetcdfVolume final : public DecodedFile {
   public:
     NetcdfVolume(const fs::path& path, const ReadOptions& options)
         : file_(path, options.crop.has_value()),
-          variable_((expect_no_other_format(file_), choose_variable(file_, options))),
-          layout_(*layout_of(file_, variable_)), missing_(file_, variable_) {
+          variable_((expect_no_other_format(file_), choose_variable(file_, options))) {
         const std::string& name = file_.name();
-        const StoredArray array{.name = variable_.name,
-                                .type = variable_.type,
-                                .gaps = missing_.possible() && *variable_.type != StoredType::f32 &&
-                                        *variable_.type != StoredType::f64};
-        chosen_ = choose_scalar(std::span(&array, 1), options, name);
-        steps_ = layout_.time ? variable_.dimensions[*layout_.time].length : 1;
+        const std::string where = fmt::format("{}: {}", name, variable_.name);
+        const std::vector<StatedAttributes> objects = objects_of(file_, variable_);
+        StatedArray array = stated(file_, variable_, true);
+        info_.notes = take_grid_attributes(objects, array);
+        std::string why;
+        const auto layout = layout_of(array, options, &why);
+        if (!layout)
+            throw Error(fmt::format("{}: {}: {}", name, text(variable_), why));
+        layout_ = *layout;
+        member_ = member_of(array, layout_, options);
+        steps_ = layout_.time ? array.axes[*layout_.time].length : 1;
         if (steps_ == 0)
             throw Error(
                 fmt::format("{}: {} has 0 steps, expected at least 1", name, text(variable_)));
-        std::array<std::int64_t, 3> sizes{};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            sizes[axis] = static_cast<std::int64_t>(
-                std::min<std::size_t>(length_along(axis), std::int64_t{1} << 62));
-        info_.grid.vertices = checked_vertices(sizes, name);
+        size_grid(array);
         file_.expect_room(variable_);
         if (layout_.time)
             file_.keep_chunks(variable_, *layout_.time);
-        ReadOptions any = options;
-        any.any_array = true;
-        info_.arrays = choose_scalar(offered_in(file_, options), any, name).offered;
-        info_.array = chosen_.label();
-        info_.type = chosen_.value_type();
-        info_.scaling = file_.scaling(variable_);
-        if (const std::string unit = file_.text(variable_, "units"); unit != "1")
-            info_.value_unit = unit;
-        info_.notes = chosen_.notes();
-        place_axes(file_, variable_, layout_, options, info_);
-        place_steps(file_, variable_, layout_, info_);
+        choose(options, objects, where);
+        info_.scaling = scaling_by(objects.front(), where);
+        info_.value_unit = value_unit_by(objects.front());
+        place_axes(array, layout_, options, info_);
+        if (!options.spacing)
+            offer_cell_sizes(objects, array, layout_, info_);
+        place_times(array);
+        if (auto note = note_on_time(array, layout_))
+            info_.notes.push_back(std::move(*note));
         if (auto note = note_on_attributes(file_, variable_))
             info_.notes.push_back(std::move(*note));
         part_ = crop_description(info_, options, name);
@@ -222,18 +250,77 @@ class NetcdfVolume final : public DecodedFile {
     }
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
-        read_netcdf_slab(file_, variable_, layout_, step, slices, chosen_, missing_, info_.grid,
-                         part_, out);
+        std::vector<std::size_t> start(variable_.dimensions.size()),
+            count(variable_.dimensions.size(), 1);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t dimension = layout_.space[axis];
+            start[dimension] = part_ ? part_->first[axis] : 0;
+            count[dimension] = part_ ? part_->count[axis] : variable_.dimensions[dimension].length;
+        }
+        start[layout_.space[2]] += slices.first;
+        count[layout_.space[2]] = slices.count;
+        if (layout_.time)
+            start[*layout_.time] = step;
+        if (layout_.member)
+            start[*layout_.member] = member_;
+        Grid slab = info_.grid;
+        slab.vertices[2] = slices.count;
+        read_stored(chosen_, missing_, slab.vertex_count(), slab, out, file_.name(),
+                    [&](std::size_t component, std::span<std::byte> plane) {
+                        if (layout_.component)
+                            start[*layout_.component] = component;
+                        file_.read(variable_, start, count, plane);
+                    });
     }
 
   private:
-    std::size_t length_along(std::size_t axis) const {
-        return variable_.dimensions[layout_.space[axis]].length;
+    void size_grid(const StatedArray& array) {
+        std::array<std::int64_t, 3> sizes{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sizes[axis] = static_cast<std::int64_t>(std::min<std::uint64_t>(
+                array.axes[layout_.space[axis]].length, std::int64_t{1} << 62));
+        info_.grid.vertices = checked_vertices(sizes, file_.name());
+    }
+
+    void choose(const ReadOptions& options, const std::vector<StatedAttributes>& objects,
+                const std::string& where) {
+        const auto fill = file_.fill(variable_);
+        missing_ = MissingValues(objects.front(), *variable_.type,
+                                 fill ? std::vector{*fill} : std::vector<double>{}, where);
+        const std::size_t components =
+            layout_.component ? variable_.dimensions[*layout_.component].length : 1;
+        const StoredArray array{.name = variable_.name,
+                                .type = variable_.type,
+                                .components = static_cast<std::uint32_t>(components),
+                                .gaps = missing_.make_gaps(*variable_.type)};
+        chosen_ = choose_scalar(std::span(&array, 1), options, file_.name());
+        ReadOptions any = options;
+        any.any_array = true;
+        any.component.reset();
+        info_.arrays = choose_scalar(offered_in(file_, options), any, file_.name()).offered;
+        info_.array = chosen_.label();
+        info_.type = chosen_.value_type();
+        for (std::string& note : chosen_.notes())
+            info_.notes.push_back(std::move(note));
+    }
+
+    void place_times(const StatedArray& array) {
+        if (!layout_.time) {
+            if (const auto time = time_alone(file_))
+                place_steps(*time, info_);
+            return;
+        }
+        place_steps(array.axes[*layout_.time], info_);
+        if (!info_.times.empty())
+            return;
+        const NetcdfDates found = dates_along(file_, variable_.dimensions[*layout_.time]);
+        place_text_dates(found.name, found.dates, info_);
     }
 
     NetcdfFile file_;
     NetcdfVariable variable_;
-    NetcdfLayout layout_;
+    ArrayLayout layout_;
+    std::size_t member_ = 0;
     MissingValues missing_;
     ChosenScalar chosen_;
     SeriesInfo info_;

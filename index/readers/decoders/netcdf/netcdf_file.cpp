@@ -119,18 +119,18 @@ void NetcdfFile::add_group(int group, const std::string& prefix) {
     }
 }
 
-const NetcdfVariable* NetcdfFile::coordinate(const NetcdfVariable& of,
-                                             const NetcdfDimension& dimension) const {
+std::vector<const NetcdfVariable*> NetcdfFile::along(const NetcdfVariable& of,
+                                                     const NetcdfDimension& dimension) const {
+    std::vector<const NetcdfVariable*> found;
     std::string prefix = of.name.substr(0, of.name.rfind('/') + 1);
     while (true) {
-        const auto found = std::ranges::find_if(variables_, [&](const NetcdfVariable& variable) {
-            return variable.name == prefix + dimension.name && variable.type &&
-                   variable.dimensions == std::vector{dimension};
-        });
-        if (found != variables_.end())
-            return &*found;
+        for (const NetcdfVariable& variable : variables_)
+            if (variable.type && variable.dimensions == std::vector{dimension} &&
+                variable.name.starts_with(prefix) &&
+                variable.name.find('/', prefix.size()) == std::string::npos)
+                found.push_back(&variable);
         if (prefix.empty())
-            return nullptr;
+            return found;
         prefix.pop_back();
         prefix.resize(prefix.rfind('/') + 1);
     }
@@ -172,6 +172,20 @@ std::string NetcdfFile::text(const NetcdfVariable& variable, const char* attribu
     return std::string(trimmed(found));
 }
 
+std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& variable,
+                                           const char* attribute) const {
+    const auto [type, count] = attribute_shape(variable, attribute);
+    if (type != NC_STRING || count == 0)
+        return {};
+    std::vector<char*> strings(count);
+    expect(nc_get_att_string(variable.group, variable.id, attribute, strings.data()), attribute);
+    std::vector<std::string> found;
+    for (const char* string : strings)
+        found.emplace_back(string ? string : "");
+    nc_free_string(count, strings.data());
+    return found;
+}
+
 std::vector<double> NetcdfFile::numbers(const NetcdfVariable& variable,
                                         const char* attribute) const {
     const auto [type, count] = attribute_shape(variable, attribute);
@@ -188,8 +202,8 @@ bool NetcdfFile::is_real(const NetcdfVariable& variable, const char* attribute) 
 }
 
 std::optional<double> NetcdfFile::fill(const NetcdfVariable& variable) const {
-    if (const std::vector<double> given = numbers(variable, "_FillValue"); !given.empty())
-        return given.front();
+    if (!numbers(variable, "_FillValue").empty())
+        return std::nullopt; // the file names it
     if (variable.type == StoredType::f32 || variable.type == StoredType::f64)
         return NC_FILL_FLOAT; // also the fill value of f64
     return std::nullopt;
@@ -202,24 +216,7 @@ std::vector<double> NetcdfFile::values(const NetcdfVariable& variable) const {
     std::vector<double> values(count);
     expect(nc_get_var_double(variable.group, variable.id, values.data()),
            fmt::format("{} cannot be read", variable.name));
-    const Scaling scaling = this->scaling(variable);
-    for (double& value : values)
-        value = scaling(value);
     return values;
-}
-
-Scaling NetcdfFile::scaling(const NetcdfVariable& variable) const {
-    const auto number = [&](const char* attribute, double otherwise) {
-        const std::vector<double> given = numbers(variable, attribute);
-        return given.empty() ? otherwise : given.front();
-    };
-    const Scaling scaling{number("scale_factor", 1), number("add_offset", 0)};
-    if (scaling.slope == 0 || !std::isfinite(scaling.slope) || !std::isfinite(scaling.intercept))
-        throw Error(
-            fmt::format("{}: {}: scale_factor {} and add_offset {}, expected finite numbers "
-                        "and a factor that is not 0",
-                        name_, variable.name, scaling.slope, scaling.intercept));
-    return scaling;
 }
 
 void NetcdfFile::read(const NetcdfVariable& variable, std::span<const std::size_t> start,

@@ -44,10 +44,10 @@ class NetcdfFile {
     /// The variables of all groups, in the file's order.
     const std::vector<NetcdfVariable>& variables() const { return variables_; }
 
-    /// The coordinate variable: the one-dimensional variable with the name of the dimension, in the
-    /// group of `of` or a group around it; null if there is none.
-    const NetcdfVariable* coordinate(const NetcdfVariable& of,
-                                     const NetcdfDimension& dimension) const;
+    /// The variables of numbers along this dimension alone, in the group of `of` and the groups
+    /// around it, the nearest first.
+    std::vector<const NetcdfVariable*> along(const NetcdfVariable& of,
+                                             const NetcdfDimension& dimension) const;
 
     /// Whether a variable is characters.
     bool is_text(const NetcdfVariable& variable) const;
@@ -56,15 +56,14 @@ class NetcdfFile {
     std::vector<std::string> attributes(const NetcdfVariable& variable) const;
     /// Attributes; empty if there is none of that name and kind.
     std::string text(const NetcdfVariable& variable, const char* attribute) const;
+    std::vector<std::string> texts(const NetcdfVariable& variable, const char* attribute) const;
     std::vector<double> numbers(const NetcdfVariable& variable, const char* attribute) const;
     /// Whether an attribute is f32 or f64.
     bool is_real(const NetcdfVariable& variable, const char* attribute) const;
-    /// The scaling by scale_factor and add_offset. @throws Error when they are invalid
-    Scaling scaling(const NetcdfVariable& variable) const;
-    /// The value at places that were never written; for integers none unless the file names it.
+    /// The value at places that were never written, where no attribute names it; integers have none.
     std::optional<double> fill(const NetcdfVariable& variable) const;
 
-    /// All values, scaled. Meant for coordinates.
+    /// All values, as stored. Meant for coordinates.
     std::vector<double> values(const NetcdfVariable& variable) const;
 
     /// Reads the box of values at `start` with `count` values along each dimension, as stored, in

@@ -3,15 +3,14 @@
 // J. Moore and others, "Next-generation file formats (NGFF)", versions 0.4 and 0.5,
 // https://ngff.openmicroscopy.org.
 #include "index/error.h"
-#include "index/lower_case.h"
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/zarr/zarr_array.h"
-#include "index/readers/decoders/zarr/zarr_cf.h"
 #include "index/readers/decoders/zarr/zarr_groups.h"
+#include "index/readers/decoders/zarr/zarr_stated.h"
 #include "index/readers/formats/cropped_file.h"
-#include "index/readers/formats/length_units.h"
+#include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
-#include "index/readers/formats/text_header.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,58 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// A dimension of an array.
-struct ZarrAxis {
-    std::string name, unit;
-    double scale = 1, first = 0;
-};
-
-/// Where time, channels and space are among the dimensions.
-struct ZarrLayout {
-    std::array<std::size_t, 3> space{}; ///< fastest first
-    std::optional<std::size_t> time, channel;
-};
-
-std::optional<ZarrLayout> layout_by_names(const ZarrArray& array, const std::vector<ZarrAxis>& axes,
-                                          const ReadOptions& options, std::string& why) {
-    ZarrLayout layout;
-    std::vector<std::size_t> left; // slowest first
-    for (std::size_t i = 0; i < array.shape().size(); ++i) {
-        const std::string name = i < axes.size() ? lower_case(axes[i].name) : "";
-        if (array.shape()[i] == 1)
-            continue;
-        if (!layout.time && (name == "t" || name == "time"))
-            layout.time = i;
-        else if (!layout.channel && (name == "c" || name == "channel" || name == "band"))
-            layout.channel = i;
-        else
-            left.push_back(i);
-    }
-    const auto length = [&](std::size_t i) { return array.shape()[i]; };
-    constexpr std::uint64_t kMaybeComponents = 4, kMostComponents = 9;
-    if (left.size() > 3 && !layout.channel && options.component &&
-        length(left.back()) <= kMostComponents) {
-        layout.channel = left.back();
-        left.pop_back();
-    }
-    if (left.size() == 4 && !layout.time) {
-        if (!options.any_array && !options.extra_axis_is_time && !options.component &&
-            (length(left.front()) <= kMaybeComponents || length(left.back()) <= kMaybeComponents)) {
-            why = "its first axis may be time (--extra-axis-is-time), its last one components "
-                  "(--component 0, 1, ... or magnitude)";
-            return std::nullopt;
-        }
-        layout.time = left.front();
-        left.erase(left.begin());
-    }
-    if (left.size() != 3) {
-        why = "expected three axes of more than one vertex besides time and channels";
-        return std::nullopt;
-    }
-    layout.space = {left[2], left[1], left[0]};
-    return layout;
-}
 
 /// `x.zarr/.zattrs` stands for the folder that it describes.
 fs::path zarr_folder_of(const fs::path& given) {
@@ -95,19 +42,23 @@ class ZarrVolume final : public DecodedFile {
         const json image = multiscale_of(attributes);
         try {
             open_array(image, asked);
-            place(image);
+            stated_ = {.file = name_,
+                       .name = array_name(),
+                       .axes = image.is_null() ? axes_of(*store_, *array_)
+                                               : axes_of(image, *array_)};
         } catch (const json::exception& error) {
             throw Error(fmt::format("{}: damaged description: {}", name_, error.what()));
         }
-        std::string why;
-        const auto layout = layout_by_names(*array_, axes_, asked, why);
-        if (!layout)
-            throw Error(fmt::format("{}: {} ({}): {}", name_, array_name(),
-                                    fmt::join(array_->shape(), " x "), why));
-        layout_ = *layout;
-        describe(attributes, asked);
+        const std::vector<StatedAttributes> objects = objects_of(*store_, *array_);
         if (image.is_null())
-            place_by_coordinates(*store_, *array_, layout_.space, layout_.time, asked, info_);
+            info_.notes = take_grid_attributes(objects, stated_);
+        std::string why;
+        const auto layout = layout_of(stated_, asked, &why);
+        if (!layout)
+            throw Error(fmt::format("{}: {} ({}): {}", name_, array_name(), shape_text(stated_), why));
+        layout_ = *layout;
+        member_ = member_of(stated_, layout_, asked);
+        describe(attributes, objects.front(), asked);
         part_ = crop_description(info_, options, name_);
     }
 
@@ -135,28 +86,13 @@ class ZarrVolume final : public DecodedFile {
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
         Grid slab = info_.grid;
         slab.vertices[2] = slices.count;
-        if (!missing_.empty())
-            return read_with_gaps(step, slices, slab, out);
-        convert_planes(chosen_, slab, out, name_,
-                       [&](std::size_t component, std::span<std::byte> plane) {
-                           load(step, slices, first_channel_ + component, plane);
-                       });
+        read_stored(chosen_, missing_, slab.vertex_count(), slab, out, name_,
+                    [&](std::size_t component, std::span<std::byte> plane) {
+                        load(step, slices, first_channel_ + component, plane);
+                    });
     }
 
   private:
-    /// Reads a slab of one component.
-    void read_with_gaps(std::size_t step, Slices slices, const Grid& slab,
-                        std::span<std::byte> out) {
-        ChosenScalar alone = chosen_;
-        alone.array.components = 1;
-        alone.component = 0;
-        std::vector<std::byte> values(slab.vertex_count() * size_of(*array_->type()));
-        load(step, slices, first_channel_ + chosen_.component, values);
-        const std::vector<std::uint8_t> gaps = take_out(missing_, *array_->type(), values);
-        convert(alone, values, slab, out, name_,
-                alone.array.gaps ? std::span(gaps) : std::span<const std::uint8_t>());
-    }
-
     std::string array_name() const { return array_->path().empty() ? "values" : array_->path(); }
 
     void open_array(const json& image, ReadOptions& options) {
@@ -205,42 +141,9 @@ class ZarrVolume final : public DecodedFile {
         options.array.reset();
     }
 
-    /// Names, scales and units of the dimensions.
-    void place(const json& image) {
-        axes_.resize(array_->shape().size());
-        for (std::size_t i = 0; i < std::min(axes_.size(), array_->names().size()); ++i)
-            axes_[i].name = array_->names()[i];
-        if (image.is_null())
-            return;
-        if (const auto axes = image.find("axes"); axes != image.end())
-            for (std::size_t i = 0; i < std::min(axes_.size(), axes->size()); ++i) {
-                const json& axis = axes->at(i);
-                axes_[i].name =
-                    axis.is_string() ? axis.get<std::string>() : axis.at("name").get<std::string>();
-                if (axis.is_object())
-                    axes_[i].unit = tidy_unit_of_ome(axis.value("unit", ""));
-            }
-        for (const json* object : {&image.at("datasets").at(0), &image})
-            if (const auto all = object->find("coordinateTransformations"); all != object->end())
-                for (const json& transformation : *all)
-                    transform(transformation);
-    }
-
-    void transform(const json& transformation) {
-        for (const bool scales : {true, false}) {
-            const auto found = transformation.find(scales ? "scale" : "translation");
-            if (found == transformation.end() || found->size() != axes_.size())
-                continue;
-            for (std::size_t i = 0; i < axes_.size(); ++i) {
-                const double number = found->at(i);
-                axes_[i].first = scales ? axes_[i].first * number : axes_[i].first + number;
-                axes_[i].scale *= scales ? number : 1;
-            }
-        }
-    }
-
-    void describe(const json& attributes, const ReadOptions& options) {
-        const std::uint64_t channels = layout_.channel ? array_->shape()[*layout_.channel] : 1;
+    void describe(const json& attributes, const StatedAttributes& of_array,
+                  const ReadOptions& options) {
+        const std::uint64_t channels = layout_.component ? array_->shape()[*layout_.component] : 1;
         std::vector<StoredArray> offered;
         const bool by_components = options.component.has_value();
         const std::vector<std::string> labels = labels_in(attributes, channels);
@@ -256,13 +159,13 @@ class ZarrVolume final : public DecodedFile {
                 fmt::format("{}: {} is of type {}, expected integers of up to 64 bits, bool, "
                             "float16, float32 or float64",
                             name_, array_name(), array_->type_name()));
-        if (options.component != "magnitude")
-            missing_ = missing_in(*array_);
-        const bool whole = *array_->type() != StoredType::f32 && *array_->type() != StoredType::f64;
+        const std::string where = fmt::format("{}: {}", name_, array_name());
+        missing_ = MissingValues(of_array, *array_->type(), fills_of(*array_), where);
         for (StoredArray& each : offered)
-            each.gaps = !missing_.empty() && whole;
+            each.gaps = missing_.make_gaps(*array_->type());
         chosen_ = choose_scalar(offered, options, name_);
-        info_.scaling = scaling_of(*array_, fmt::format("{}: {}", name_, array_name()));
+        info_.scaling = scaling_by(of_array, where);
+        info_.value_unit = value_unit_by(of_array);
         if (info_.arrays.empty())
             info_.arrays = chosen_.offered;
         if (!by_components) // each channel is offered as an array
@@ -270,22 +173,11 @@ class ZarrVolume final : public DecodedFile {
                 std::ranges::find(offered, chosen_.array.name, &StoredArray::name) -
                 offered.begin());
         std::array<std::int64_t, 3> sizes{};
-        glm::dmat3 spacing(0.0);
-        const OneLengthUnit one_unit =
-            one_length_unit({axes_[layout_.space[0]].unit, axes_[layout_.space[1]].unit,
-                             axes_[layout_.space[2]].unit});
-        for (std::size_t a = 0; a < 3; ++a) {
-            const ZarrAxis& axis = axes_[layout_.space[a]];
+        for (std::size_t a = 0; a < 3; ++a)
             sizes[a] = static_cast<std::int64_t>(
                 std::min(array_->shape()[layout_.space[a]], std::uint64_t{1} << 62));
-            const double factor = one_unit.factor[static_cast<int>(a)];
-            spacing[static_cast<int>(a)][static_cast<int>(a)] = axis.scale * factor;
-            info_.grid.origin[static_cast<int>(a)] = axis.first * factor;
-        }
-        info_.notes.insert(info_.notes.end(), one_unit.notes.begin(), one_unit.notes.end());
         info_.grid.vertices = checked_vertices(sizes, name_);
-        set_axes(info_.grid, spacing, name_);
-        info_.length_unit = one_unit.unit;
+        place_axes(stated_, layout_, options, info_);
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         for (std::string& note : chosen_.notes())
@@ -293,17 +185,12 @@ class ZarrVolume final : public DecodedFile {
         if (array_->half())
             info_.notes.push_back("float16 values converted to f32");
         expect_few_steps(steps(), name_);
-        if (!layout_.time)
-            return;
-        const ZarrAxis& time = axes_[*layout_.time];
-        if (time.name.empty())
-            info_.notes.push_back(fmt::format("the first axis of {} ({}) is taken for time",
-                                              array_name(), fmt::join(array_->shape(), " x ")));
-        if (time.scale == 1 && time.unit.empty())
-            return;
-        info_.time_unit = time.unit;
-        for (std::size_t i = 0; i < steps(); ++i)
-            info_.times.push_back(time.first + static_cast<double>(i) * time.scale);
+        if (auto note = note_on_time(stated_, layout_))
+            info_.notes.push_back(std::move(*note));
+        if (layout_.time)
+            place_steps(stated_.axes[*layout_.time], info_);
+        else if (const auto time = time_alone(*store_, *array_))
+            place_steps(*time, info_);
     }
 
     std::vector<std::string> labels_in(const json& attributes, std::uint64_t channels) const {
@@ -337,20 +224,23 @@ class ZarrVolume final : public DecodedFile {
         count[layout_.space[2]] = slices.count;
         if (layout_.time)
             start[*layout_.time] = step;
-        if (layout_.channel)
-            start[*layout_.channel] = channel;
+        if (layout_.member)
+            start[*layout_.member] = member_;
+        if (layout_.component)
+            start[*layout_.component] = channel;
         array_->read(start, count, out);
     }
 
     std::unique_ptr<ZarrStore> store_;
     std::string name_;
     std::optional<ZarrArray> array_;
-    std::vector<ZarrAxis> axes_;
-    ZarrLayout layout_;
+    StatedArray stated_;
+    ArrayLayout layout_;
+    std::size_t member_ = 0;
     ChosenScalar chosen_;
     SeriesInfo info_;
     std::optional<VolumePart> part_; ///< if not all is wanted
-    std::vector<double> missing_;    ///< values that stand for missing ones
+    MissingValues missing_;
     std::size_t first_channel_ = 0;  ///< number of the chosen array's first component
 };
 

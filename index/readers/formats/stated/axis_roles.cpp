@@ -1,8 +1,8 @@
-// How axes are recognized: by words of the CF conventions.
-#include "index/readers/decoders/netcdf/netcdf_roles.h"
+// Words of the CF conventions and of others by which axes are recognized.
+#include "index/readers/formats/stated/axis_roles.h"
 
 #include "index/lower_case.h"
-#include "index/readers/formats/text_header.h"
+#include "index/readers/formats/length_units.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ struct RoleName {
 };
 
 /// Standard names; a name that ends with _ is a prefix.
-constexpr std::array<RoleName, 15> kStandardNames{{
+constexpr std::array<RoleName, 16> kStandardNames{{
     {"longitude", AxisRole::x},
     {"grid_longitude", AxisRole::x},
     {"projection_x_coordinate", AxisRole::x},
@@ -46,9 +46,10 @@ constexpr std::array<RoleName, 15> kStandardNames{{
     {"ocean_", AxisRole::z},
     {"height_above_", AxisRole::z},
     {"time", AxisRole::time},
+    {"realization", AxisRole::member},
 }};
 
-constexpr std::array<RoleName, 38> kDimensionNames{{
+constexpr std::array<RoleName, 52> kDimensionNames{{
     {"x", AxisRole::x},
     {"nx", AxisRole::x},
     {"xc", AxisRole::x},
@@ -87,68 +88,42 @@ constexpr std::array<RoleName, 38> kDimensionNames{{
     {"time", AxisRole::time},
     {"times", AxisRole::time},
     {"ocean_time", AxisRole::time},
+    {"c", AxisRole::channel},
+    {"channel", AxisRole::channel},
+    {"channels", AxisRole::channel},
+    {"band", AxisRole::channel},
+    {"component", AxisRole::channel},
+    {"components", AxisRole::channel},
+    {"comp", AxisRole::channel},
+    {"member", AxisRole::member},
+    {"members", AxisRole::member},
+    {"ens", AxisRole::member},
+    {"ensemble", AxisRole::member},
+    {"ensemble_member", AxisRole::member},
+    {"realization", AxisRole::member},
+    {"number", AxisRole::member},
 }};
-
-struct LengthUnit {
-    std::string_view name; ///< in lower case
-    std::string_view tidy;
-    double meters;
-};
-constexpr std::array<LengthUnit, 26> kLengthUnits{{
-    {"m", "m", 1},
-    {"meter", "m", 1},
-    {"meters", "m", 1},
-    {"metre", "m", 1},
-    {"metres", "m", 1},
-    {"km", "km", 1e3},
-    {"kilometer", "km", 1e3},
-    {"kilometers", "km", 1e3},
-    {"kilometre", "km", 1e3},
-    {"kilometres", "km", 1e3},
-    {"cm", "cm", 1e-2},
-    {"centimeter", "cm", 1e-2},
-    {"centimeters", "cm", 1e-2},
-    {"centimetre", "cm", 1e-2},
-    {"centimetres", "cm", 1e-2},
-    {"mm", "mm", 1e-3},
-    {"millimeter", "mm", 1e-3},
-    {"millimeters", "mm", 1e-3},
-    {"millimetre", "mm", 1e-3},
-    {"millimetres", "mm", 1e-3},
-    {"um", "um", 1e-6},
-    {"micrometer", "um", 1e-6},
-    {"micrometers", "um", 1e-6},
-    {"micrometre", "um", 1e-6},
-    {"micrometres", "um", 1e-6},
-    {"nm", "nm", 1e-9},
-}};
-
-const LengthUnit* length_unit(std::string_view unit) {
-    const auto found = std::ranges::find(kLengthUnits, lower_case(unit), &LengthUnit::name);
-    return found == kLengthUnits.end() ? nullptr : &*found;
-}
 
 } // namespace
 
-std::optional<AxisRole> role_by_attributes(const NetcdfFile& file, const NetcdfVariable& variable) {
-    const std::string axis = lower_case(file.text(variable, "axis"));
+std::optional<AxisRole> role_by_attributes(const StatedAxis& stated) {
+    const std::string axis = lower_case(stated.axis), units = lower_case(stated.unit);
     constexpr std::string_view kAxes = "xyzt";
     if (axis.size() == 1 && kAxes.find(axis) != kAxes.npos)
         return static_cast<AxisRole>(kAxes.find(axis));
-    const std::string units = lower_case(file.text(variable, "units"));
-    if (units.find(" since ") != units.npos)
+    if (stated.kind == "time" || units.find(" since ") != units.npos)
         return AxisRole::time;
-    const std::string standard_name = file.text(variable, "standard_name");
+    if (stated.kind == "channel")
+        return AxisRole::channel;
     for (const RoleName& known : kStandardNames)
-        if (known.name.ends_with('_') ? standard_name.starts_with(known.name)
-                                      : standard_name == known.name)
+        if (known.name.ends_with('_') ? stated.standard_name.starts_with(known.name)
+                                      : stated.standard_name == known.name)
             return known.role;
     if (is_one_of(kEast, units))
         return AxisRole::x;
     if (is_one_of(kNorth, units))
         return AxisRole::y;
-    if (is_one_of(kPressure, units) || is_one_of(kLevels, units) ||
-        !file.text(variable, "positive").empty())
+    if (is_one_of(kPressure, units) || is_one_of(kLevels, units) || !stated.positive.empty())
         return AxisRole::z;
     return std::nullopt;
 }
@@ -158,25 +133,18 @@ std::optional<AxisRole> role_by_name(std::string_view dimension) {
     return found == kDimensionNames.end() ? std::nullopt : std::optional(found->role);
 }
 
-bool counts_downwards(const NetcdfFile& file, const NetcdfVariable& variable) {
-    const std::string positive = lower_case(file.text(variable, "positive"));
+bool counts_downwards(const StatedAxis& axis) {
+    const std::string positive = lower_case(axis.positive);
     if (!positive.empty())
         return positive == "down";
-    return is_one_of(kPressure, lower_case(file.text(variable, "units")));
+    return is_one_of(kPressure, lower_case(axis.unit));
 }
 
-std::string tidy_unit(std::string_view unit) {
+std::string tidy_unit(const std::string& unit) {
     const std::string lower = lower_case(unit);
     if (is_one_of(kEast, lower) || is_one_of(kNorth, lower) || lower == "degree")
         return "degrees";
-    if (const LengthUnit* length = length_unit(unit))
-        return std::string(length->tidy);
-    return lower == "1" ? "" : std::string(unit);
-}
-
-std::optional<double> meters(std::string_view unit) {
-    const LengthUnit* length = length_unit(unit);
-    return length ? std::optional(length->meters) : std::nullopt;
+    return lower == "1" ? "" : tidy_length_unit(unit);
 }
 
 } // namespace isochron::index

@@ -1,8 +1,7 @@
 // Reads dates that are text.
-#include "index/readers/decoders/netcdf/netcdf_dates.h"
+#include "index/readers/formats/stated/axis_dates.h"
 
 #include "index/lower_case.h"
-#include "index/readers/formats/text_header.h"
 #include "index/volume/calendar.h"
 #include "index/volume/time_unit.h"
 
@@ -20,20 +19,6 @@
 
 namespace isochron::index {
 namespace {
-
-constexpr std::size_t kLongest = 64; ///< characters of a date
-
-const NetcdfVariable* text_of_dates(const NetcdfFile& file, const NetcdfDimension& time) {
-    for (const NetcdfVariable& variable : file.variables()) {
-        const std::string name =
-            lower_case(variable.name.substr(variable.name.rfind('/') + 1)); // npos + 1 is 0
-        if (!variable.type && variable.dimensions.size() == 2 &&
-            variable.dimensions.front() == time && variable.dimensions.back().length <= kLongest &&
-            (name == "times" || name == "xtime") && file.is_text(variable))
-            return &variable;
-    }
-    return nullptr;
-}
 
 /// [s] since 1970; none where it is no date.
 std::optional<double> seconds_of(const std::string& text) {
@@ -130,30 +115,21 @@ void place_absolute_dates(std::vector<double> numbers, const std::string& unit,
         calendar);
 }
 
-void place_dates(const NetcdfFile& file, const NetcdfDimension& time, SeriesInfo& info) {
-    const NetcdfVariable* variable = text_of_dates(file, time);
-    if (!variable)
-        return;
-    const std::size_t length = variable->dimensions.back().length;
-    std::string all(time.length * length, '\0');
-    file.read(*variable, std::vector<std::size_t>(2), std::vector{time.length, length},
-              std::as_writable_bytes(std::span(all)));
+void place_text_dates(const std::string& name, const std::vector<std::string>& dates,
+                      SeriesInfo& info) {
     std::vector<double> times;
-    std::string first;
-    for (std::size_t step = 0; step < time.length; ++step) {
-        const std::string text(all.substr(step * length, length).c_str());
-        const auto seconds = seconds_of(text);
+    for (std::size_t step = 0; step < dates.size(); ++step) {
+        const auto seconds = seconds_of(dates[step]);
         if (!seconds) {
             info.notes.push_back(
-                fmt::format("{} of step {} is no date: steps have no times", variable->name, step));
+                fmt::format("{} of step {} is no date: steps have no times", name, step));
             return;
         }
-        if (first.empty())
-            first = text.substr(0, 19);
         times.push_back(*seconds);
     }
     if (times.empty())
         return;
+    std::string first = dates.front().substr(0, 19);
     const double begin = *seconds_of(first);
     for (double& at : times)
         at -= begin;

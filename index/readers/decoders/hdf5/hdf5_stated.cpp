@@ -1,0 +1,192 @@
+// Fills the record of an array by dimension scales, datasets beside it and attributes.
+#include "index/readers/decoders/hdf5/hdf5_stated.h"
+
+#include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// The paths of an object, its group, and the groups around that, up to the root.
+std::vector<std::string> with_groups_around(std::string path) {
+    std::vector<std::string> objects{path};
+    while (path != "/" && !path.empty()) {
+        path.resize(path.rfind('/'));
+        if (path.empty())
+            path = "/";
+        objects.push_back(path);
+    }
+    return objects;
+}
+
+std::string inside(const std::string& group, const std::string& name) {
+    return group == "/" ? "/" + name : fmt::format("{}/{}", group, name);
+}
+
+std::string last_name(const std::string& path) {
+    return path.substr(path.rfind('/') + 1);
+}
+
+/// The first attribute of these objects that has `count` numbers.
+std::vector<double> numbers_at(const Hdf5File& file, const std::vector<std::string>& objects,
+                               std::initializer_list<const char*> names, std::size_t count) {
+    for (const std::string& object : objects)
+        for (const char* name : names)
+            if (auto found = file.numbers(object, name); found.size() == count)
+                return found;
+    return {};
+}
+
+/// A one-dimensional dataset of numbers as coordinates; none: it is no such, or of another length.
+std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string& path,
+                                         std::uint64_t length, bool values) {
+    const auto found = file.dataset(path);
+    if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{length})
+        return std::nullopt;
+    StatedAxis axis;
+    axis.coordinate = last_name(path);
+    axis.length = length;
+    const StatedAttributes attributes = attributes_of(file, path);
+    take_cf_attributes(attributes, axis);
+    if (!values)
+        return axis;
+    axis.at = file.values(*found);
+    const Scaling scaling = scaling_by(attributes, fmt::format("{}: {}", file.name(), path));
+    for (double& value : axis.at)
+        value = scaling(value);
+    return axis;
+}
+
+/// The coordinates along a dimension without a scale, among the datasets that its label and the
+/// attribute `coordinates` name.
+std::optional<StatedAxis> named_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset,
+                                            const std::string& label, std::uint64_t length,
+                                            bool values) {
+    const std::string named = file.text(dataset.path, "coordinates");
+    const std::vector<std::string> around = with_groups_around(dataset.path);
+    std::vector<StatedAxis> candidates;
+    std::istringstream names(label + " " + named);
+    for (std::string name; names >> name;)
+        for (std::size_t i = 1; i < around.size(); ++i)
+            if (auto found = coordinates_in(file, inside(around[i], name), length, values)) {
+                candidates.push_back(std::move(*found));
+                break;
+            }
+    const auto chosen = coordinate_of(label, named, candidates);
+    return chosen ? std::optional(candidates[*chosen]) : std::nullopt;
+}
+
+/// Takes one-dimensional datasets with the names and lengths of the axes of space.
+void take_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset, StatedArray& array,
+                      std::vector<std::string>& notes) {
+    std::vector<std::size_t> space; // slowest first
+    for (std::size_t i = 0; i < array.axes.size(); ++i)
+        if (array.axes[i].length != 1)
+            space.push_back(i);
+    if (space.size() < 3)
+        return;
+    space.erase(space.begin(), space.end() - 3);
+    for (const std::size_t i : space)
+        if (array.axes[i].regular || !array.axes[i].at.empty() || !array.axes[i].name.empty())
+            return;
+    const std::vector<std::string> around = with_groups_around(dataset.path);
+    for (std::size_t i = 1; i < around.size(); ++i) {
+        std::vector<std::string> paths;
+        std::vector<StatedAxis> axes;
+        for (std::size_t a = 0; a < 3; ++a) // x, y, z
+            for (const char* name : {"xyz", "XYZ"}) {
+                const std::string path = inside(around[i], std::string(1, name[a]));
+                auto found = coordinates_in(file, path, array.axes[space[2 - a]].length, true);
+                if (!found || axes.size() > a)
+                    continue;
+                paths.push_back(path);
+                axes.push_back(std::move(*found));
+            }
+        if (axes.size() != 3)
+            continue;
+        for (std::size_t a = 0; a < 3; ++a)
+            array.axes[space[2 - a]] = std::move(axes[a]);
+        notes.push_back(fmt::format("coordinates taken from {}", fmt::join(paths, ", ")));
+        return;
+    }
+}
+
+} // namespace
+
+StatedAttributes attributes_of(const Hdf5File& file, const std::string& object) {
+    return {.text = [&file, object](const char* name) { return file.text(object, name); },
+            .texts = [&file, object](const char* name) { return file.texts(object, name); },
+            .numbers = [&file, object](const char* name) { return file.numbers(object, name); },
+            .is_real = [&file, object](const char* name) { return file.is_real(object, name); }};
+}
+
+std::vector<StatedAttributes> objects_of(const Hdf5File& file, const Hdf5Dataset& dataset) {
+    std::vector<StatedAttributes> objects;
+    for (const std::string& object : with_groups_around(dataset.path))
+        objects.push_back(attributes_of(file, object));
+    return objects;
+}
+
+StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values,
+                   std::vector<std::string>& notes) {
+    StatedArray array{.file = file.name(), .name = dataset.path, .axes = {}};
+    const std::vector<std::string> labels = file.texts(dataset.path, "DIMENSION_LABELS"),
+                                   scales = file.scales(dataset);
+    for (std::size_t i = 0; i < dataset.dimensions.size(); ++i) {
+        const std::string label = labels.size() == dataset.dimensions.size() ? labels[i] : "";
+        std::optional<StatedAxis> axis;
+        if (!scales[i].empty())
+            axis = coordinates_in(file, scales[i], dataset.dimensions[i], values);
+        if (!axis)
+            axis = named_coordinates(file, dataset, label, dataset.dimensions[i], values);
+        array.axes.push_back(axis.value_or(StatedAxis{}));
+        array.axes.back().name = !label.empty()        ? label
+                                 : !scales[i].empty() ? last_name(scales[i])
+                                                      : array.axes.back().coordinate;
+        array.axes.back().length = dataset.dimensions[i];
+    }
+    for (std::string& note : take_grid_attributes(objects_of(file, dataset), array))
+        notes.push_back(std::move(note));
+    if (values)
+        take_coordinates(file, dataset, array, notes);
+    return array;
+}
+
+void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& stated,
+               const ArrayLayout& layout, std::size_t steps, SeriesInfo& info) {
+    if (layout.time) {
+        place_steps(stated.axes[*layout.time], info);
+        const std::vector<std::string> around = with_groups_around(array.steps.front().path);
+        for (std::size_t i = 1; i < around.size(); ++i)
+            for (const char* name : {"time", "Time", "times", "t"})
+                if (info.times.empty())
+                    if (const auto axis = coordinates_in(file, inside(around[i], name), steps, true))
+                        place_steps(*axis, info);
+        return;
+    }
+    std::vector<double> times;
+    for (std::size_t i = 0; i < array.steps.size(); ++i) {
+        const std::vector<std::string> around = with_groups_around(array.steps[i].path);
+        const auto time = numbers_at(file, around, {"time", "Time", "TIME", "t"}, 1);
+        if (time.empty())
+            return;
+        const auto unit = numbers_at(file, around, {"timeUnitSI"}, 1);
+        times.push_back(time.front() * (unit.empty() ? 1 : unit.front()));
+        if (!unit.empty())
+            info.time_unit = "s";
+    }
+    // A number that is equal for all steps belongs to the group around them and is not their time.
+    if (times.size() == 1 || times.front() != times.back())
+        info.times = std::move(times);
+}
+
+} // namespace isochron::index

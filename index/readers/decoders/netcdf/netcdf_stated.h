@@ -1,0 +1,31 @@
+// What a NetCDF file states of a variable, as the record that all containers fill.
+#pragma once
+
+#include "index/readers/decoders/netcdf/netcdf_file.h"
+#include "index/readers/formats/stated/stated_array.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+StatedAttributes attributes_of(const NetcdfFile& file, const NetcdfVariable& variable);
+
+/// The variable with its group and the groups around that, as `take_grid_attributes` takes them.
+std::vector<StatedAttributes> objects_of(const NetcdfFile& file, const NetcdfVariable& variable);
+
+/// The record of a variable. @param values whether coordinates are read; roles need only names
+StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool values);
+
+/// The time of a file with one step, by a variable without dimensions; none.
+std::optional<StatedAxis> time_alone(const NetcdfFile& file);
+
+/// A date as text for each step, from a variable `Times` (WRF) or `xtime` (MPAS).
+struct NetcdfDates {
+    std::string name; ///< of the variable; empty: there is none
+    std::vector<std::string> dates = {};
+};
+NetcdfDates dates_along(const NetcdfFile& file, const NetcdfDimension& time);
+
+} // namespace isochron::index

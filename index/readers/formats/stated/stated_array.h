@@ -1,0 +1,73 @@
+// What a container states of an array, before any of it is understood: NetCDF, Zarr, HDF5 and
+// others fill the same record, and one piece of code makes grid, times, units and notes of it.
+//
+//     StatedArray array{.file = "run.nc", .name = "rho", .axes = {{.name = "z", .length = 64}, ...}};
+//     array.axes[0].at = heights;
+//     std::string why;
+//     const std::optional<ArrayLayout> layout = layout_of(array, options, &why);
+//     place_axes(array, *layout, options, info);
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// One axis of an array. What is empty is not stated.
+struct StatedAxis {
+    std::string name;         ///< of the dimension: `lev`
+    std::uint64_t length = 0; ///< number of vertices, or of steps, or of components
+    std::string kind;         ///< `space`, `time` or `channel`, as OME-Zarr's `type`
+
+    /// The variable that has the coordinates, `height`; empty: there is none.
+    std::string coordinate;
+    std::vector<double> at;     ///< the coordinates of all vertices, scaled
+    double first = 0, step = 1; ///< or the coordinate of the first vertex, and the distance
+    bool regular = false;       ///< whether `first` and `step` are stated
+    std::string unit;           ///< of the coordinates, as it is written
+
+    /// Attributes of the CF conventions that the variable of the coordinates has.
+    std::string axis, standard_name, positive, calendar;
+};
+
+/// One array with its axes.
+struct StatedArray {
+    std::string file, name;       ///< for messages
+    std::vector<StatedAxis> axes; ///< slowest first
+};
+
+/// The attributes of one object of a container: of an array, or of a group around it.
+struct StatedAttributes {
+    std::function<std::string(const char* name)> text;                ///< empty: there is none
+    std::function<std::vector<std::string>(const char* name)> texts;  ///< a list of texts
+    std::function<std::vector<double>(const char* name)> numbers;     ///< empty: there is none
+    std::function<bool(const char* name)> is_real; ///< whether the numbers are f32 or f64
+};
+
+/// Takes the attributes of the CF conventions from the variable that has an axis' coordinates.
+void take_cf_attributes(const StatedAttributes& variable, StatedAxis& axis);
+
+/// Finds the variable with the coordinates of a dimension among those that have this dimension
+/// alone: the one of the same name, else one that the array's attribute `coordinates` names, else
+/// one whose attributes say which axis it is (CF conventions, chapters 4 and 5). Where the name of
+/// the dimension says which axis it is, the variable must not say otherwise.
+/// @param dimension its name @param named the attribute `coordinates`: names between blanks
+/// @param variables candidates, the nearest group first; `coordinate` is the name of each
+/// @return number of the variable; none
+std::optional<std::size_t> coordinate_of(const std::string& dimension, const std::string& named,
+                                         const std::vector<StatedAxis>& variables);
+
+/// Takes names, spacing and origin of axes without coordinates from attributes that several
+/// programs write: openPMD's (`gridSpacing`, `gridGlobalOffset`, `gridUnitSI`, `axisLabels`,
+/// `dataOrder`, `position`), vigra's and ilastik's (`axistags`), `element_size_um`, `resolution`
+/// with `offset` and `axis_names`, and `dx`, `dy`, `dz`.
+/// @param objects the array, its group, and the groups around that
+/// @return notes on what was taken from where, and on attributes that may be the spacing
+std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes>& objects,
+                                              StatedArray& array);
+
+} // namespace isochron::index

@@ -62,18 +62,15 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     if (!first.type)
         throw Error(
             fmt::format("{}: {} does not hold numbers that can be read", file->name(), first.path));
-    std::vector<std::string> notes;
-    StatedArray record = stated(*file, first, true, notes);
+    StatedArray record = stated(*file, first, true);
     record.name = array.name;
-    std::string why;
-    const auto layout = layout_of(record, options, &why);
-    if (!layout)
-        throw Error(
-            fmt::format("{}: {} ({}): {}", file->name(), array.name, shape_text(record), why));
-    Hdf5Volume volume{{}, array.steps, *layout};
-    volume.member = member_of(record, *layout, options);
+    std::vector<std::string> notes;
+    const ArrayLayout layout = lay_out(record, objects_of(*file, first), options, notes);
+    take_coordinates(*file, first, layout, record, notes);
+    Hdf5Volume volume{{}, array.steps, layout};
+    volume.member = member_of(record, layout, options);
     volume.info.notes = std::move(notes);
-    if (layout->time && array.steps.size() > 1)
+    if (layout.time && array.steps.size() > 1)
         throw Error(fmt::format("{}: {} ({}): each of {} groups holds several steps, choose one "
                                 "with --array {}",
                                 file->name(), array.name, shape_text(first.dimensions),
@@ -82,12 +79,10 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     if (array.note)
         volume.info.notes.push_back(*array.note);
     size_grid(*file, volume);
-    const std::size_t steps = layout->time ? first.dimensions[*layout->time] : array.steps.size();
+    const std::size_t steps = layout.time ? first.dimensions[*layout.time] : array.steps.size();
     expect_few_steps(steps, file->name());
-    if (auto note = note_on_time(record, *layout))
-        volume.info.notes.push_back(std::move(*note));
-    place_axes(record, *layout, options, volume.info);
-    time_hdf5(*file, array, record, *layout, steps, volume.info);
+    place_axes(record, layout, options, volume.info);
+    time_hdf5(*file, array, record, layout, steps, volume.info);
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }
 

@@ -170,8 +170,9 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         std::ranges::stable_partition(offered, [&](const Hdf5Array& array) {
             ReadOptions strict = options;
             strict.any_array = false;
-            std::vector<std::string> notes;
-            return layout_of(stated(file, array.steps.front(), false, notes), strict).has_value();
+            StatedArray record = stated(file, array.steps.front(), false);
+            take_axis_names(objects_of(file, array.steps.front()), record);
+            return layout_of(record, strict).has_value();
         });
     std::vector<StoredArray> listed;
     for (const Hdf5Array& array : offered) {

@@ -85,48 +85,14 @@ std::optional<StatedAxis> named_coordinates(const Hdf5File& file, const Hdf5Data
     return chosen ? std::optional(candidates[*chosen]) : std::nullopt;
 }
 
-/// Takes one-dimensional datasets with the names and lengths of the axes of space.
-void take_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset, StatedArray& array,
-                      std::vector<std::string>& notes) {
-    std::vector<std::size_t> space; // slowest first
-    for (std::size_t i = 0; i < array.axes.size(); ++i)
-        if (array.axes[i].length != 1)
-            space.push_back(i);
-    if (space.size() < 3)
-        return;
-    space.erase(space.begin(), space.end() - 3);
-    for (const std::size_t i : space)
-        if (array.axes[i].regular || !array.axes[i].at.empty() || !array.axes[i].name.empty())
-            return;
-    const std::vector<std::string> around = with_groups_around(dataset.path);
-    for (std::size_t i = 1; i < around.size(); ++i) {
-        std::vector<std::string> paths;
-        std::vector<StatedAxis> axes;
-        for (std::size_t a = 0; a < 3; ++a) // x, y, z
-            for (const char* name : {"xyz", "XYZ"}) {
-                const std::string path = inside(around[i], std::string(1, name[a]));
-                auto found = coordinates_in(file, path, array.axes[space[2 - a]].length, true);
-                if (!found || axes.size() > a)
-                    continue;
-                paths.push_back(path);
-                axes.push_back(std::move(*found));
-            }
-        if (axes.size() != 3)
-            continue;
-        for (std::size_t a = 0; a < 3; ++a)
-            array.axes[space[2 - a]] = std::move(axes[a]);
-        notes.push_back(fmt::format("coordinates taken from {}", fmt::join(paths, ", ")));
-        return;
-    }
-}
-
 } // namespace
 
 StatedAttributes attributes_of(const Hdf5File& file, const std::string& object) {
     return {.text = [&file, object](const char* name) { return file.text(object, name); },
             .texts = [&file, object](const char* name) { return file.texts(object, name); },
             .numbers = [&file, object](const char* name) { return file.numbers(object, name); },
-            .is_real = [&file, object](const char* name) { return file.is_real(object, name); }};
+            .is_real = [&file, object](const char* name) { return file.is_real(object, name); },
+            .names = [&file, object] { return file.attributes(object); }};
 }
 
 std::vector<StatedAttributes> objects_of(const Hdf5File& file, const Hdf5Dataset& dataset) {
@@ -136,8 +102,7 @@ std::vector<StatedAttributes> objects_of(const Hdf5File& file, const Hdf5Dataset
     return objects;
 }
 
-StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values,
-                   std::vector<std::string>& notes) {
+StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values) {
     StatedArray array{.file = file.name(), .name = dataset.path, .axes = {}};
     const std::vector<std::string> labels = file.texts(dataset.path, "DIMENSION_LABELS"),
                                    scales = file.scales(dataset);
@@ -149,16 +114,40 @@ StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values
         if (!axis)
             axis = named_coordinates(file, dataset, label, dataset.dimensions[i], values);
         array.axes.push_back(axis.value_or(StatedAxis{}));
-        array.axes.back().name = !label.empty()        ? label
+        array.axes.back().name = !label.empty()       ? label
                                  : !scales[i].empty() ? last_name(scales[i])
                                                       : array.axes.back().coordinate;
         array.axes.back().length = dataset.dimensions[i];
     }
-    for (std::string& note : take_grid_attributes(objects_of(file, dataset), array))
-        notes.push_back(std::move(note));
-    if (values)
-        take_coordinates(file, dataset, array, notes);
     return array;
+}
+
+void take_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset, const ArrayLayout& layout,
+                      StatedArray& array, std::vector<std::string>& notes) {
+    const auto& space = layout.space; // fastest first
+    for (const std::size_t i : space)
+        if (array.axes[i].regular || !array.axes[i].at.empty())
+            return;
+    const std::vector<std::string> around = with_groups_around(dataset.path);
+    for (std::size_t i = 1; i < around.size(); ++i) {
+        std::vector<std::string> paths;
+        std::vector<StatedAxis> axes;
+        for (std::size_t a = 0; a < 3; ++a) // x, y, z
+            for (const char* name : {"xyz", "XYZ"}) {
+                const std::string path = inside(around[i], std::string(1, name[a]));
+                auto found = coordinates_in(file, path, array.axes[space[a]].length, true);
+                if (!found || axes.size() > a)
+                    continue;
+                paths.push_back(path);
+                axes.push_back(std::move(*found));
+            }
+        if (axes.size() != 3)
+            continue;
+        for (std::size_t a = 0; a < 3; ++a)
+            array.axes[space[a]] = std::move(axes[a]);
+        notes.push_back(fmt::format("coordinates taken from {}", fmt::join(paths, ", ")));
+        return;
+    }
 }
 
 void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& stated,
@@ -169,7 +158,8 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& 
         for (std::size_t i = 1; i < around.size(); ++i)
             for (const char* name : {"time", "Time", "times", "t"})
                 if (info.times.empty())
-                    if (const auto axis = coordinates_in(file, inside(around[i], name), steps, true))
+                    if (const auto axis =
+                            coordinates_in(file, inside(around[i], name), steps, true))
                         place_steps(*axis, info);
         return;
     }

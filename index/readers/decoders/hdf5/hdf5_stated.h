@@ -15,13 +15,15 @@ StatedAttributes attributes_of(const Hdf5File& file, const std::string& object);
 /// The dataset with the groups around it, as `take_grid_attributes` takes them.
 std::vector<StatedAttributes> objects_of(const Hdf5File& file, const Hdf5Dataset& dataset);
 
-/// The record of a dataset. Coordinates come from dimension scales, else from one-dimensional
-/// datasets beside it that the labels of its dimensions or its attribute `coordinates` name, else
-/// from attributes (`take_grid_attributes`), else from datasets `x`, `y` and `z` beside it or above.
+/// The record of a dataset, with coordinates from dimension scales, else from one-dimensional
+/// datasets beside it that the labels of its dimensions or its attribute `coordinates` name.
 /// @param values whether coordinates are read; roles need only names
+StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values);
+
+/// Where nothing else places the axes of space: takes datasets `x`, `y` and `z` beside it or above.
 /// @param notes what was taken from where
-StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values,
-                   std::vector<std::string>& notes);
+void take_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset, const ArrayLayout& layout,
+                      StatedArray& array, std::vector<std::string>& notes);
 
 /// Sets times and their unit, if the file has them: from `time` and `timeUnitSI` of the groups of
 /// the steps, or from the axis of time, or a dataset `time` with one value for each step.

@@ -2,11 +2,10 @@
 #include "index/readers/decoders/hdf5/hdf5_volume.h"
 
 #include "index/error.h"
-#include "index/readers/formats/cropped_file.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
+#include "index/readers/formats/cropped_file.h"
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
-#include "index/readers/formats/unread_fields.h"
 
 #include <fmt/format.h>
 
@@ -116,14 +115,13 @@ class Hdf5Decoder final : public DecodedFile {
             if (const std::string geometry = file_->text(object, "geometry");
                 !geometry.empty() && geometry != "cartesian")
                 unread.push_back(fmt::format("geometry {} (shown as cartesian)", geometry));
-            for (const char* name : {"geometryParameters", "grid_mapping", "cell_methods"})
-                if (const std::string text = file_->text(object, name); !text.empty())
-                    unread.push_back(fmt::format("{} {}", name, text));
+            if (const std::string text = file_->text(object, "geometryParameters"); !text.empty())
+                unread.push_back(fmt::format("geometryParameters {}", text));
             const auto offset = file_->numbers(object, "timeOffset");
             if (std::ranges::any_of(offset, [](double number) { return number != 0; }))
                 unread.emplace_back("timeOffset");
         }
-        if (auto note = note_on_unread(unread))
+        if (auto note = note_on_attributes(attributes_of(*file_, path), unread))
             volume_.info.notes.push_back(std::move(*note));
     }
 

@@ -8,7 +8,6 @@
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
-#include "index/readers/formats/unread_fields.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +15,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -102,59 +100,6 @@ bool names_curved_axes(const NetcdfFile& file, const NetcdfVariable& variable) {
     return false;
 }
 
-/// Attributes of the CF conventions and others that change neither values nor places here; texts that
-/// only describe are left out.
-std::optional<std::string> note_on_attributes(const NetcdfFile& file,
-                                              const NetcdfVariable& variable) {
-    static const std::set<std::string_view> kReadOrText{"units",
-                                                        "scale_factor",
-                                                        "add_offset",
-                                                        "_FillValue",
-                                                        "missing_value",
-                                                        "valid_min",
-                                                        "valid_max",
-                                                        "valid_range",
-                                                        "_Unsigned",
-                                                        "unitSI",
-                                                        "gridSpacing",
-                                                        "gridUnitSI",
-                                                        "gridGlobalOffset",
-                                                        "axisLabels",
-                                                        "dataOrder",
-                                                        "position",
-                                                        "long_name",
-                                                        "standard_name",
-                                                        "description",
-                                                        "comment",
-                                                        "history",
-                                                        "title",
-                                                        "references",
-                                                        "institution",
-                                                        "source",
-                                                        "DIMENSION_LIST",
-                                                        "_Netcdf4Dimid",
-                                                        "_Netcdf4Coordinates",
-                                                        "FieldType",
-                                                        "MemoryOrder",
-                                                        "_DeflateLevel",
-                                                        "_ChunkSizes",
-                                                        "_Storage",
-                                                        "_Endianness",
-                                                        "name",
-                                                        "param",
-                                                        "coordinates",
-                                                        "stagger",
-                                                        "axis"};
-    std::vector<std::string> unread;
-    for (const std::string& name : file.attributes(variable))
-        if (!kReadOrText.contains(name))
-            unread.push_back(name);
-    if (names_curved_axes(file, variable))
-        unread.push_back(fmt::format("coordinates {} (a curved grid is shown straight)",
-                                     excerpt(file.text(variable, "coordinates"))));
-    return note_on_unread(unread);
-}
-
 /// Formats within NetCDF whose values would be wrong if they were read as they are stored.
 void expect_no_other_format(const NetcdfFile& file) {
     for (const NetcdfVariable& variable : file.variables())
@@ -197,12 +142,7 @@ class NetcdfVolume final : public DecodedFile {
         const std::string where = fmt::format("{}: {}", name, variable_.name);
         const std::vector<StatedAttributes> objects = objects_of(file_, variable_);
         StatedArray array = stated(file_, variable_, true);
-        info_.notes = take_grid_attributes(objects, array);
-        std::string why;
-        const auto layout = layout_of(array, options, &why);
-        if (!layout)
-            throw Error(fmt::format("{}: {}: {}", name, text(variable_), why));
-        layout_ = *layout;
+        layout_ = lay_out(array, objects, options, info_.notes);
         member_ = member_of(array, layout_, options);
         steps_ = layout_.time ? array.axes[*layout_.time].length : 1;
         if (steps_ == 0)
@@ -219,9 +159,11 @@ class NetcdfVolume final : public DecodedFile {
         if (!options.spacing)
             offer_cell_sizes(objects, array, layout_, info_);
         place_times(array);
-        if (auto note = note_on_time(array, layout_))
-            info_.notes.push_back(std::move(*note));
-        if (auto note = note_on_attributes(file_, variable_))
+        std::vector<std::string> curved;
+        if (names_curved_axes(file_, variable_))
+            curved.push_back(fmt::format("coordinates {} (a curved grid is shown straight)",
+                                         excerpt(file_.text(variable_, "coordinates"))));
+        if (auto note = note_on_attributes(objects.front(), curved))
             info_.notes.push_back(std::move(*note));
         part_ = crop_description(info_, options, name);
     }

@@ -40,7 +40,8 @@ StatedAttributes attributes_of(const NetcdfFile& file, const NetcdfVariable& var
     return {.text = [&file, variable](const char* name) { return file.text(variable, name); },
             .texts = [&file, variable](const char* name) { return file.texts(variable, name); },
             .numbers = [&file, variable](const char* name) { return file.numbers(variable, name); },
-            .is_real = [&file, variable](const char* name) { return file.is_real(variable, name); }};
+            .is_real = [&file, variable](const char* name) { return file.is_real(variable, name); },
+            .names = [&file, variable] { return file.attributes(variable); }};
 }
 
 std::vector<StatedAttributes> objects_of(const NetcdfFile& file, const NetcdfVariable& variable) {

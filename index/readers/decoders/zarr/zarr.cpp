@@ -44,19 +44,13 @@ class ZarrVolume final : public DecodedFile {
             open_array(image, asked);
             stated_ = {.file = name_,
                        .name = array_name(),
-                       .axes = image.is_null() ? axes_of(*store_, *array_)
-                                               : axes_of(image, *array_)};
+                       .axes =
+                           image.is_null() ? axes_of(*store_, *array_) : axes_of(image, *array_)};
         } catch (const json::exception& error) {
             throw Error(fmt::format("{}: damaged description: {}", name_, error.what()));
         }
         const std::vector<StatedAttributes> objects = objects_of(*store_, *array_);
-        if (image.is_null())
-            info_.notes = take_grid_attributes(objects, stated_);
-        std::string why;
-        const auto layout = layout_of(stated_, asked, &why);
-        if (!layout)
-            throw Error(fmt::format("{}: {} ({}): {}", name_, array_name(), shape_text(stated_), why));
-        layout_ = *layout;
+        layout_ = lay_out(stated_, objects, asked, info_.notes);
         member_ = member_of(stated_, layout_, asked);
         describe(attributes, objects.front(), asked);
         part_ = crop_description(info_, options, name_);
@@ -185,7 +179,7 @@ class ZarrVolume final : public DecodedFile {
         if (array_->half())
             info_.notes.push_back("float16 values converted to f32");
         expect_few_steps(steps(), name_);
-        if (auto note = note_on_time(stated_, layout_))
+        if (auto note = note_on_attributes(of_array))
             info_.notes.push_back(std::move(*note));
         if (layout_.time)
             place_steps(stated_.axes[*layout_.time], info_);
@@ -241,7 +235,7 @@ class ZarrVolume final : public DecodedFile {
     SeriesInfo info_;
     std::optional<VolumePart> part_; ///< if not all is wanted
     MissingValues missing_;
-    std::size_t first_channel_ = 0;  ///< number of the chosen array's first component
+    std::size_t first_channel_ = 0; ///< number of the chosen array's first component
 };
 
 } // namespace

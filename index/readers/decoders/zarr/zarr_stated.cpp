@@ -79,9 +79,8 @@ std::vector<Coordinates> coordinates_along(const ZarrStore& store, const ZarrArr
     const auto take = [&](const std::string& group, const std::string& of) {
         const std::string path = zarr_key(group, of);
         if (path == array.path() || of.empty() || of.find('/') != std::string::npos ||
-            std::ranges::any_of(found, [&](const Coordinates& each) {
-                return each.array.path() == path;
-            }))
+            std::ranges::any_of(found,
+                                [&](const Coordinates& each) { return each.array.path() == path; }))
             return;
         if (auto beside = coordinates_in(store, path, shape);
             beside && (of == name || beside->array.names() == std::vector{name}))
@@ -180,6 +179,13 @@ StatedAttributes attributes_of(const json& attributes) {
                     const json value = at(name);
                     return value.is_number_float() ||
                            (value.is_array() && !value.empty() && value.front().is_number_float());
+                },
+            .names =
+                [attributes] {
+                    std::vector<std::string> names;
+                    for (const auto& [name, value] : attributes.items())
+                        names.push_back(name);
+                    return names;
                 }};
 }
 

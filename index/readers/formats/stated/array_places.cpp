@@ -15,15 +15,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace isochron::index {
 namespace {
 
 /// The positions of the vertices along an axis, in its own unit.
 struct Positions {
-    std::string name, label;     ///< `lev`, `z (lev)`
-    double first = 0, step = 1;  ///< the step may be negative
-    std::string unit;            ///< tidy; empty: none
+    std::string name, label;    ///< `lev`, `z (lev)`
+    double first = 0, step = 1; ///< the step may be negative
+    std::string unit;           ///< tidy; empty: none
     bool downwards = false;
     bool stated = false;
     std::vector<double> at = {}; ///< positions of all vertices, where they are not even
@@ -145,9 +146,8 @@ std::string scaled_by(double factor) {
 /// A distance that is stated without a unit is in that of the others.
 void share_units(const StatedArray& array, const ArrayLayout& layout,
                  std::array<Positions, 3>& axes) {
-    const auto with_unit = std::ranges::find_if(axes, [](const Positions& axis) {
-        return meters_in(axis.unit).has_value();
-    });
+    const auto with_unit = std::ranges::find_if(
+        axes, [](const Positions& axis) { return meters_in(axis.unit).has_value(); });
     if (with_unit == axes.end())
         return;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -165,8 +165,7 @@ bool in_one_unit(const std::array<Positions, 3>& axes) {
 }
 
 /// Names and units of axes, as they are shown.
-void name_axes(const std::array<Positions, 3>& axes, const ReadOptions& options,
-               SeriesInfo& info) {
+void name_axes(const std::array<Positions, 3>& axes, const ReadOptions& options, SeriesInfo& info) {
     const bool one_unit = in_one_unit(axes);
     std::vector<std::string> units;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -264,6 +263,23 @@ std::optional<ArrayLayout> layout_of(const StatedArray& array, const ReadOptions
     return layout;
 }
 
+ArrayLayout lay_out(StatedArray& array, const std::vector<StatedAttributes>& objects,
+                    const ReadOptions& options, std::vector<std::string>& notes) {
+    take_axis_names(objects, array);
+    std::string why;
+    const auto layout = layout_of(array, options, &why);
+    if (!layout)
+        throw Error(fmt::format("{}: {} ({}): {}", array.file, array.name, shape_text(array), why));
+    std::array<std::size_t, 3> space = layout->space;
+    std::ranges::reverse(space);
+    for (std::string& note : take_grid_attributes(objects, space, array))
+        notes.push_back(std::move(note));
+    if (layout->time_is_guessed)
+        notes.push_back(fmt::format("the first axis of {} ({}) is taken for time", array.name,
+                                    shape_text(array)));
+    return *layout;
+}
+
 bool may_be_volume(const StatedArray& array) {
     ReadOptions as_time, components;
     as_time.extra_axis_is_time = true;
@@ -276,8 +292,8 @@ void place_axes(const StatedArray& array, const ArrayLayout& layout, const ReadO
     std::array<Positions, 3> axes; // axes of physical space
     for (std::size_t a = 0; a < 3; ++a) {
         const int physical = layout.physical[a];
-        axes[static_cast<std::size_t>(physical)] = positions_along(
-            array, array.axes[layout.space[a]], physical, options, info.notes);
+        axes[static_cast<std::size_t>(physical)] =
+            positions_along(array, array.axes[layout.space[a]], physical, options, info.notes);
     }
     share_units(array, layout, axes);
     glm::dmat3 steps(0.0);
@@ -318,13 +334,6 @@ void place_steps(const StatedAxis& time, SeriesInfo& info) {
     info.time_unit = time.unit == "1" ? "" : with_calendar(time.unit, time.calendar);
 }
 
-std::optional<std::string> note_on_time(const StatedArray& array, const ArrayLayout& layout) {
-    if (!layout.time_is_guessed)
-        return std::nullopt;
-    return fmt::format("the first axis of {} ({}) is taken for time", array.name,
-                       shape_text(array));
-}
-
 std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,
                       const ReadOptions& options) {
     if (!layout.member) {
@@ -337,10 +346,10 @@ std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,
     if (!options.member && options.any_array)
         return 0;
     if (!options.member || *options.member >= axis.length)
-        throw Error(fmt::format("{}: {} has {} members along {}{}, choose one with --member 0 to {}",
-                                array.file, array.name, axis.length, axis.name,
-                                options.member ? fmt::format(", not {}", *options.member) : "",
-                                axis.length - 1));
+        throw Error(fmt::format(
+            "{}: {} has {} members along {}{}, choose one with --member 0 to {}", array.file,
+            array.name, axis.length, axis.name,
+            options.member ? fmt::format(", not {}", *options.member) : "", axis.length - 1));
     return *options.member;
 }
 

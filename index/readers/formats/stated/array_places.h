@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::index {
 
@@ -32,6 +33,12 @@ struct ArrayLayout {
 std::optional<ArrayLayout> layout_of(const StatedArray& array, const ReadOptions& options,
                                      std::string* why = nullptr);
 
+/// Completes the record by the attributes of the array and the groups around it, and finds its
+/// layout. @param notes what was taken from where, and which axis is taken for time
+/// @throws Error naming file and array: as `layout_of` says
+ArrayLayout lay_out(StatedArray& array, const std::vector<StatedAttributes>& objects,
+                    const ReadOptions& options, std::vector<std::string>& notes);
+
 /// As `layout_of`, for a list: whether some options would give a layout.
 bool may_be_volume(const StatedArray& array);
 
@@ -44,9 +51,6 @@ void place_axes(const StatedArray& array, const ArrayLayout& layout, const ReadO
 /// Sets times and their unit, if the axis states them. The unit includes its reference date and,
 /// if it is not the usual one, its calendar.
 void place_steps(const StatedAxis& time, SeriesInfo& info);
-
-/// The note on a dimension that is taken for time though nothing says so; none where something does.
-std::optional<std::string> note_on_time(const StatedArray& array, const ArrayLayout& layout);
 
 /// The run of an ensemble that is read. @throws Error naming the file: no such member
 std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,

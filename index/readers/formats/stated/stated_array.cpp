@@ -5,6 +5,7 @@
 #include "index/readers/formats/stated/stated_array.h"
 
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/unread_fields.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +13,10 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace isochron::index {
 namespace {
@@ -82,34 +86,57 @@ void take_axistags(const std::string& text, StatedArray& array) {
     }
 }
 
-/// Reads openPMD's attributes, which are of all axes of the mesh, in the order of the dimensions or
-/// in reverse.
+/// Puts lists of openPMD, which are in the order of the dimensions or in reverse, into their order.
+template <class T>
+std::vector<T> slowest_first(const Nearest& nearest, std::vector<T> of_axes) {
+    if (nearest.text({"dataOrder"}) == "F")
+        std::ranges::reverse(of_axes);
+    return of_axes;
+}
+
 void take_open_pmd(const Nearest& nearest, const std::vector<StatedAttributes>& objects,
                    const std::vector<std::size_t>& space, StatedArray& array) {
-    const std::size_t count = space.size();
-    std::vector<double> spacing = nearest.numbers({"gridSpacing"}, count),
-                        offset = nearest.numbers({"gridGlobalOffset"}, count),
-                        inside = objects.front().numbers("position");
+    std::vector<double> spacing = slowest_first(nearest, nearest.numbers({"gridSpacing"}, 3)),
+                        first = slowest_first(nearest, nearest.numbers({"gridGlobalOffset"}, 3)),
+                        inside = slowest_first(nearest, objects.front().numbers("position"));
     if (spacing.empty())
         return;
-    std::vector<std::string> labels = nearest.texts({"axisLabels"}, count);
-    if (nearest.text({"dataOrder"}) == "F") {
-        std::ranges::reverse(spacing);
-        std::ranges::reverse(offset);
-        std::ranges::reverse(inside);
-        std::ranges::reverse(labels);
-    }
     const std::vector<double> unit = nearest.numbers({"gridUnitSI"}, 1);
-    offset.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double meters = unit.empty() ? 1 : unit.front();
-        offset[i] = (offset[i] + (inside.size() == count ? inside[i] * spacing[i] : 0)) * meters;
+    const double meters = unit.empty() ? 1 : unit.front();
+    first.resize(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        first[i] = (first[i] + (inside.size() == 3 ? inside[i] * spacing[i] : 0)) * meters;
         spacing[i] *= meters;
-        if (!labels.empty() && array.axes[space[i]].coordinate.empty())
-            array.axes[space[i]].name = labels[i];
     }
-    set_regular(array, space, spacing, offset,
-                std::vector<std::string>(count, unit.empty() ? "" : "m"));
+    set_regular(array, space, spacing, first, std::vector<std::string>(3, unit.empty() ? "" : "m"));
+}
+
+/// `resolution` has a number for each dimension, or for each that is no channel and longer than 1,
+/// or for those of space alone.
+bool take_resolution(const StatedAttributes& object, const std::vector<std::size_t>& space,
+                     StatedArray& array) {
+    const std::vector<double> spacing = object.numbers("resolution"),
+                              first = object.numbers("offset");
+    std::vector<std::string> units = object.texts("units");
+    std::vector<std::size_t> all, measured, longer;
+    for (std::size_t i = 0; i < array.axes.size(); ++i) {
+        all.push_back(i);
+        if (role_by_name(array.axes[i].name) == AxisRole::channel)
+            continue;
+        measured.push_back(i);
+        if (array.axes[i].length > 1)
+            longer.push_back(i);
+    }
+    std::vector<std::size_t> axes;
+    for (const std::vector<std::size_t>& some : {all, measured, longer, space})
+        if (axes.empty() && some.size() == spacing.size())
+            axes = some;
+    if (axes.empty())
+        return false;
+    if (units.size() != axes.size())
+        units.clear(); // the unit of the values, if it is one text
+    set_regular(array, axes, spacing, first, units);
+    return true;
 }
 
 } // namespace
@@ -159,35 +186,37 @@ std::size_t axis_along(const StatedArray& array, const std::vector<std::size_t>&
     return 2 - static_cast<std::size_t>(role);
 }
 
-std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes>& objects,
-                                              StatedArray& array) {
-    std::vector<std::string> notes;
-    const Nearest nearest(objects);
+void take_axis_names(const std::vector<StatedAttributes>& objects, StatedArray& array) {
     if (const std::string tags = objects.front().text("axistags"); !tags.empty())
         take_axistags(tags, array);
-    const std::size_t rank = array.axes.size();
-    for (const char* attribute : {"axis_names", "axes"})
-        if (const auto names = objects.front().texts(attribute); names.size() == rank)
-            for (std::size_t i = 0; i < rank; ++i)
-                if (array.axes[i].name.empty())
-                    array.axes[i].name = names[i];
-    std::vector<std::size_t> space; // slowest first
-    for (std::size_t i = 0; i < rank; ++i) {
-        const auto role = role_by_name(array.axes[i].name);
-        if (!role || *role <= AxisRole::z)
-            space.push_back(i);
-        if (!array.axes[i].at.empty() && (!role || *role <= AxisRole::z))
-            return notes; // there are coordinates
-    }
-    if (space.size() > 3)
-        space.erase(space.begin(), space.end() - 3);
-    if (space.size() < 3)
-        return notes;
-    // Names that are taken last count first: openPMD's labels are of the axes of space alone.
-    take_open_pmd(nearest, objects, space, array);
-    const auto placed = [&] {
-        return std::ranges::any_of(space, [&](std::size_t i) { return array.axes[i].regular; });
+    const auto take = [&](const std::vector<std::string>& names) {
+        for (std::size_t i = 0; names.size() == array.axes.size() && i < names.size(); ++i)
+            if (array.axes[i].name.empty())
+                array.axes[i].name = names[i];
     };
+    std::vector<std::string> names = objects.front().texts("axis_names");
+    for (std::string& name : names)
+        if (name.ends_with('^')) // funlib's mark of a dimension that is no place
+            name.pop_back();
+    take(names);
+    const Nearest nearest(objects);
+    if (!nearest.numbers({"gridSpacing"}, array.axes.size()).empty())
+        take(slowest_first(nearest, nearest.texts({"axisLabels"}, array.axes.size())));
+}
+
+std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes>& objects,
+                                              const std::array<std::size_t, 3>& slowest_first,
+                                              StatedArray& array) {
+    std::vector<std::string> notes;
+    const std::vector<std::size_t> space(slowest_first.begin(), slowest_first.end());
+    const auto placed = [&] {
+        return std::ranges::any_of(space, [&](std::size_t i) {
+            return array.axes[i].regular || !array.axes[i].at.empty();
+        });
+    };
+    const Nearest nearest(objects);
+    if (!placed())
+        take_open_pmd(nearest, objects, space, array);
     if (placed())
         return notes;
     const auto said = [&](const char* from, std::vector<double> spacing) {
@@ -199,12 +228,8 @@ std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes
         said("element_size_um", um);
         return notes;
     }
-    if (auto spacing = objects.front().numbers("resolution"); spacing.size() == space.size()) {
-        std::vector<std::string> units = objects.front().texts("units");
-        if (units.size() != space.size())
-            units.assign(space.size(), ""); // the unit of the values, if it is one text
-        set_regular(array, space, spacing, objects.front().numbers("offset"), units);
-        said("resolution", spacing);
+    if (take_resolution(objects.front(), space, array)) {
+        notes.emplace_back("spacing taken from resolution");
         return notes;
     }
     const auto x = nearest.numbers({"dx", "DX"}, 1), y = nearest.numbers({"dy", "DY"}, 1),
@@ -225,6 +250,90 @@ std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes
             "an attribute may be the spacing, in either order: {:g} {:g} {:g} (--spacing)",
             other[0], other[1], other[2]));
     return notes;
+}
+
+std::optional<std::string> note_on_attributes(const StatedAttributes& array,
+                                              const std::vector<std::string>& others) {
+    static const std::set<std::string_view> kReadOrText{"geometry",
+                                                        "geometryParameters",
+                                                        "timeOffset",
+                                                        "_ARRAY_DIMENSIONS",
+                                                        "_ChunkSizes",
+                                                        "_DeflateLevel",
+                                                        "_Endianness",
+                                                        "_FillValue",
+                                                        "_NCProperties",
+                                                        "_Netcdf4Coordinates",
+                                                        "_Netcdf4Dimid",
+                                                        "_Storage",
+                                                        "_Unsigned",
+                                                        "add_offset",
+                                                        "axes",
+                                                        "axis",
+                                                        "axis_names",
+                                                        "axisLabels",
+                                                        "axistags",
+                                                        "calendar",
+                                                        "CLASS",
+                                                        "comment",
+                                                        "coordinates",
+                                                        "dataOrder",
+                                                        "description",
+                                                        "DIMENSION_LABELS",
+                                                        "DIMENSION_LIST",
+                                                        "DX",
+                                                        "dx",
+                                                        "DY",
+                                                        "dy",
+                                                        "DZ",
+                                                        "dz",
+                                                        "element_size_um",
+                                                        "FieldType",
+                                                        "gridGlobalOffset",
+                                                        "gridSpacing",
+                                                        "gridUnitSI",
+                                                        "history",
+                                                        "institution",
+                                                        "long_name",
+                                                        "MemoryOrder",
+                                                        "missing_value",
+                                                        "NAME",
+                                                        "name",
+                                                        "offset",
+                                                        "param",
+                                                        "pixel_size",
+                                                        "position",
+                                                        "positive",
+                                                        "REFERENCE_LIST",
+                                                        "references",
+                                                        "resolution",
+                                                        "scale_factor",
+                                                        "source",
+                                                        "Spacing",
+                                                        "spacing",
+                                                        "stagger",
+                                                        "standard_name",
+                                                        "Time",
+                                                        "time",
+                                                        "timeUnitSI",
+                                                        "title",
+                                                        "unit",
+                                                        "unitDimension",
+                                                        "UNITS",
+                                                        "Units",
+                                                        "units",
+                                                        "unitSI",
+                                                        "valid_max",
+                                                        "valid_min",
+                                                        "valid_range",
+                                                        "voxel_size",
+                                                        "voxelSize"};
+    std::vector<std::string> unread;
+    for (const std::string& name : array.names())
+        if (!kReadOrText.contains(name))
+            unread.push_back(name);
+    unread.insert(unread.end(), others.begin(), others.end());
+    return note_on_unread(unread);
 }
 
 } // namespace isochron::index

@@ -8,6 +8,7 @@
 //     place_axes(array, *layout, options, info);
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,10 +43,11 @@ struct StatedArray {
 
 /// The attributes of one object of a container: of an array, or of a group around it.
 struct StatedAttributes {
-    std::function<std::string(const char* name)> text;                ///< empty: there is none
-    std::function<std::vector<std::string>(const char* name)> texts;  ///< a list of texts
-    std::function<std::vector<double>(const char* name)> numbers;     ///< empty: there is none
-    std::function<bool(const char* name)> is_real; ///< whether the numbers are f32 or f64
+    std::function<std::string(const char* name)> text;               ///< empty: there is none
+    std::function<std::vector<std::string>(const char* name)> texts; ///< a list of texts
+    std::function<std::vector<double>(const char* name)> numbers;    ///< empty: there is none
+    std::function<bool(const char* name)> is_real;   ///< whether the numbers are f32 or f64
+    std::function<std::vector<std::string>()> names; ///< of all attributes
 };
 
 /// Takes the attributes of the CF conventions from the variable that has an axis' coordinates.
@@ -61,13 +63,23 @@ void take_cf_attributes(const StatedAttributes& variable, StatedAxis& axis);
 std::optional<std::size_t> coordinate_of(const std::string& dimension, const std::string& named,
                                          const std::vector<StatedAxis>& variables);
 
-/// Takes names, spacing and origin of axes without coordinates from attributes that several
-/// programs write: openPMD's (`gridSpacing`, `gridGlobalOffset`, `gridUnitSI`, `axisLabels`,
-/// `dataOrder`, `position`), vigra's and ilastik's (`axistags`), `element_size_um`, `resolution`
-/// with `offset` and `axis_names`, and `dx`, `dy`, `dz`.
+/// Takes names of axes from attributes that several programs write: openPMD's `axisLabels`, vigra's
+/// and ilastik's `axistags`, `axis_names`.
 /// @param objects the array, its group, and the groups around that
+void take_axis_names(const std::vector<StatedAttributes>& objects, StatedArray& array);
+
+/// Takes spacing and origin of axes without coordinates from such attributes: openPMD's
+/// (`gridSpacing`, `gridGlobalOffset`, `gridUnitSI`, `dataOrder`, `position`), the resolution in
+/// `axistags`, `element_size_um`, `resolution` with `offset` and `units`, and `dx`, `dy`, `dz`.
+/// @param space the dimensions of space, slowest first
 /// @return notes on what was taken from where, and on attributes that may be the spacing
 std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes>& objects,
+                                              const std::array<std::size_t, 3>& space,
                                               StatedArray& array);
+
+/// A note on the attributes of an array that change neither values nor places here; texts that only
+/// describe are left out. @param others further ones, with their values where short
+std::optional<std::string> note_on_attributes(const StatedAttributes& array,
+                                              const std::vector<std::string>& others = {});
 
 } // namespace isochron::index

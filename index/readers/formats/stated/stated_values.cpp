@@ -93,8 +93,8 @@ MissingValues::MissingValues(const StatedAttributes& array, StoredType type,
     };
     low_ = limit("valid_min", 0, low_);
     high_ = limit("valid_max", 1, high_);
-    const bool real = array.is_real("valid_range") || array.is_real("valid_min") ||
-                      array.is_real("valid_max");
+    const bool real =
+        array.is_real("valid_range") || array.is_real("valid_min") || array.is_real("valid_max");
     if (!is_integer(type) || !real) {
         low_ = as_stored(low_, type);
         high_ = as_stored(high_, type);
@@ -118,7 +118,8 @@ void read_stored(
     const StoredType type = *chosen.array.type;
     const std::size_t size = size_of(type);
     const bool all = chosen.component == ChosenScalar::kMagnitude;
-    const bool converts = all || chosen.array.on_cells || stored_type_of(chosen.value_type()) != type;
+    const bool converts =
+        all || chosen.array.on_cells || stored_type_of(chosen.value_type()) != type;
     const std::size_t components = all ? chosen.array.components : 1;
     std::vector<std::byte> plane(converts ? count * size : 0),
         tuples(components > 1 ? count * size * components : 0);

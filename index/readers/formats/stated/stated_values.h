@@ -54,8 +54,9 @@ class MissingValues {
 /// does; missing values become NaN.
 /// @param count number of stored values of one component that `slab` is made of
 /// @param load writes those of a component, as stored, native byte order
-void read_stored(const ChosenScalar& chosen, const MissingValues& missing, std::size_t count,
-                 const Grid& slab, std::span<std::byte> out, const std::string& file,
-                 const std::function<void(std::size_t component, std::span<std::byte> plane)>& load);
+void read_stored(
+    const ChosenScalar& chosen, const MissingValues& missing, std::size_t count, const Grid& slab,
+    std::span<std::byte> out, const std::string& file,
+    const std::function<void(std::size_t component, std::span<std::byte> plane)>& load);
 
 } // namespace isochron::index

@@ -40,8 +40,17 @@ def attributes_of(axis):
     return dict({"units": axis.unit} if axis.unit else {}, **axis.attributes)
 
 
+def coordinates(axis):
+    """As they are stored: packed, if the attributes say so."""
+    if "scale_factor" not in axis.attributes:
+        return np.asarray(axis.at, "f8")
+    return np.round((axis.at - axis.attributes["add_offset"]) / axis.attributes["scale_factor"]).astype("i2")
+
+
 def attributes_of_values(record):
     said = dict(record.attributes)
+    if record.valid:
+        said["valid_range"] = np.array(record.valid, record.values.dtype)
     if record.unit:
         said["units"] = record.unit
     if record.slope != 1:
@@ -74,9 +83,11 @@ def netcdf(kind):
         with netCDF4.Dataset(path, "w", format=kind) as file:
             for axis in record.axes:
                 file.createDimension(axis.name, len(axis.at))
-                coordinates = file.createVariable(axis.variable or axis.name, "f8", (axis.name,))
-                coordinates[:] = axis.at
-                coordinates.setncatts(attributes_of(axis))
+                stored = coordinates(axis)
+                variable = file.createVariable(axis.variable or axis.name, stored.dtype, (axis.name,))
+                variable.set_auto_maskandscale(False)
+                variable[:] = stored
+                variable.setncatts(attributes_of(axis))
             for name, values in arrays_of(record).items():
                 variable = file.createVariable(name, values.dtype, [axis.name for axis in record.axes],
                                                fill_value=record.fill.get("_FillValue"))
@@ -99,7 +110,7 @@ def hdf5_scales(record, folder):
     with h5py.File(path, "w") as file:
         for axis in record.axes:
             if axis.role != "c":
-                file[axis.variable or axis.name] = np.asarray(axis.at, "f8")
+                file[axis.variable or axis.name] = coordinates(axis)
                 file[axis.variable or axis.name].make_scale(axis.variable or axis.name)
                 file[axis.variable or axis.name].attrs.update(attributes_of(axis))
         for name, values in arrays_of(record).items():
@@ -123,7 +134,7 @@ def hdf5_bare(record, folder):
     with h5py.File(path, "w") as file:
         for axis in record.axes:
             if axis.role != "c":
-                file[axis.name] = np.asarray(axis.at, "f8")
+                file[axis.name] = coordinates(axis)
                 file[axis.name].attrs.update(attributes_of(axis))
         for name, values in arrays_of(record).items():
             file[name] = values
@@ -138,7 +149,8 @@ OPENPMD = "openPMD 1.1.0, Mesh Based Records: "
            (OPENPMD + "gridUnitSI is one number, to meters", "unit by axis", "unit degrees", "unit pressure"),
            (OPENPMD + "axisLabels are x, y, z in geometry cartesian", "names", "frame"),
            ("openPMD 1.1.0, iterations: time is a group for each, a number in seconds", "time axis", "time dates"),
-           ("openPMD 1.1.0, records: unitSI alone", "values offset", "values unit", "values fill", "values missing"),
+           ("openPMD 1.1.0, records: unitSI alone", "values offset", "values unit", "values fill", "values missing",
+            "values valid", "unit words"),
            ("openPMD 1.1.0, vector records: a dataset for each component", "components last"))
 def hdf5_openpmd(record, folder):
     path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
@@ -184,8 +196,8 @@ def hdf5_axistags(record, folder):
 
 @container("HDF5 element_size_um", (BARE, "order", "names", "time axis", "extra axis", "components first"),
            ("ilastik, Fiji: element_size_um is three numbers", "origin", "interval", "time unit", "uneven", "descending",
-            "direction", "frame", "unit by axis", "unit degrees", "unit pressure", "time dates", "first time", "values", "arrays",
-            "remark"), may=["is taken for time", "taken from element_size_um"])
+            "direction", "frame", "unit by axis", "unit words", "unit degrees", "unit pressure", "time dates", "first time",
+            "values", "arrays", "remark"), may=["is taken for time", "taken from element_size_um"])
 def hdf5_element_size(record, folder):
     path = f"{folder}/v.h5"
     with h5py.File(path, "w") as file:
@@ -203,8 +215,8 @@ def zarr_2(path, values, attributes, fill=None):
     array.attrs.update(attributes)
 
 
-def plain_number(value):
-    return value.item() if isinstance(value, np.generic) else value
+def plain_numbers(attributes):
+    return {name: value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value for name, value in attributes.items()}
 
 
 def save_json(path, content):
@@ -227,10 +239,9 @@ def with_coordinates(record, path, save):
     """As xarray writes it."""
     for axis in record.axes:
         if axis.role != "c":
-            save(f"{path}/{axis.variable or axis.name}", np.asarray(axis.at, "f8"), attributes_of(axis), [axis.name])
-    fills = {name: plain_number(value) for name, value in record.fill.items()}
+            save(f"{path}/{axis.variable or axis.name}", coordinates(axis), attributes_of(axis), [axis.name])
     for name, values in arrays_of(record).items():
-        save(f"{path}/{name}", values, attributes_of_values(record) | fills, [axis.name for axis in record.axes])
+        save(f"{path}/{name}", values, plain_numbers(attributes_of_values(record) | record.fill), [axis.name for axis in record.axes])
     return asked(record, path)
 
 
@@ -287,7 +298,7 @@ OME_UNITS = {"mm": "millimeter", "um": "micrometer", "m": "meter", "s": "second"
 NO_OME = [("NGFF 0.5, coordinateTransformations: scale and translation alone", "uneven", "uneven times", "direction", "frame",
            "unit pressure"),
           ("NGFF 0.5, axes: time comes first, then channels, then space", "time axis", "components last"),
-          ("NGFF 0.5, axes: name, type, unit of UDUNITS", "names by attributes", "names of variables", "unit degrees",
+          ("NGFF 0.5, axes: name, type, unit of a list", "unit words", "names by attributes", "names of variables", "unit degrees",
            "time dates"),
           ("NGFF 0.5, omero: none", "values", "arrays", "remark")]
 
@@ -365,7 +376,7 @@ NO_VTK = [(VTK + "no units of length, of no body", "unit", "frame"),
           (VTK + "a file for each entry of .pvd, timestep is a number", "time axis", "time unit", "time dates"),
           (VTK + "axes are x, y, z", "names", "extra axis"),
           (VTK + "DataArray: values as they are", "values slope", "values offset", "values fill", "values missing",
-           "components first")]
+           "values valid", "components first")]
 NO_UNEVEN = (VTK + "ImageData: Origin, Spacing, Direction", "uneven")
 
 
@@ -430,7 +441,7 @@ NRRD = "NRRD 5, section 5, per-axis fields: "
 @container("NRRD", (NRRD + "one number an axis", "uneven", "uneven times"), (NRRD + "units are words of no calendar", "time dates"),
            (NRRD + "labels are for people", "names", "unit degrees", "unit pressure", "extra axis"),
            ("NRRD 5, section 4, basic fields: one array, as it is", "values slope", "values offset", "values fill",
-            "values missing", "arrays"))
+            "values missing", "values valid", "arrays"))
 def nrrd(record, folder):
     path, fastest, (steps, first) = f"{folder}/v.nrrd", record.axes[::-1], record.steps()
     vectors = iter(f"({','.join(map(repr, map(float, step)))})" for step in steps)
@@ -459,10 +470,10 @@ def nrrd(record, folder):
 
 @container("NIfTI-1", ("nifti1.h, pixdim and srow: one number an axis", "uneven", "uneven times"),
            ("nifti1.h, dim: x, y, z, t, then components", "time axis", "components last", "extra axis"),
-           ("nifti1.h, xyzt_units: one unit of length, seconds and their parts", "unit by axis", "unit degrees", "unit pressure",
-            "time dates"),
+           ("nifti1.h, xyzt_units: one unit of length, seconds and their parts", "unit by axis", "unit words", "unit degrees",
+            "unit pressure", "time dates"),
            ("nifti1.h, qform and sform: places are RAS, axes have no names", "names"),
-           ("nifti1.h: one array of numbers", "values fill", "values missing", "values unit", "arrays"))
+           ("nifti1.h: one array of numbers", "values fill", "values missing", "values valid", "values unit", "arrays"))
 def nifti(record, folder):
     path, (steps, first) = f"{folder}/v.nii", record.steps("ras")
     affine = np.eye(4)
@@ -491,8 +502,8 @@ META = "MetaIO, tags: "
 
 
 @container("MetaImage", (META + "ElementSpacing is one number an axis", "uneven", "uneven times"),
-           (META + "DistanceUnits is one word, mm, um or cm", "unit by axis", "unit degrees", "unit pressure", "time unit",
-            "time dates"),
+           (META + "DistanceUnits is one word, mm, um or cm", "unit by axis", "unit words", "unit degrees",
+            "unit pressure", "time unit", "time dates"),
            (META + "axes have no names, time is the fourth", "names", "time axis", "components first", "extra axis"),
            (META + "ElementToIntensityFunctionSlope is for display; one array", "values", "arrays"))
 def metaimage(record, folder):
@@ -515,10 +526,11 @@ def metaimage(record, folder):
 PATIENT = "DICOM PS3.3 C.7.6.2, Image Plane: "
 
 
-@container("DICOM", (PATIENT + "PixelSpacing in mm, of rows and columns", "uneven all", "unit by axis", "unit degrees", "unit pressure"),
+@container("DICOM", (PATIENT + "PixelSpacing in mm, of rows and columns", "uneven all", "unit by axis", "unit words",
+            "unit degrees", "unit pressure"),
            (PATIENT + "places in the patient, axes have no names", "names", "extra axis"),
            ("DICOM PS3.3 C.7.6.18, Cardiac Synchronization: TriggerTime in ms from the R-peak", "time axis", "time dates"),
-           ("DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image", "values missing", "components", "arrays", "remark"))
+           ("DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image", "values missing", "values valid", "components", "arrays", "remark"))
 def dicom(record, folder):
     steps, first = record.steps("lps", "mm")
     columns, rows = [np.linalg.norm(step) for step in steps[:2]]
@@ -565,7 +577,8 @@ IMAGEJ = "ImageJ, TiffDecoder: "
            (IMAGEJ + "planes of x and y in order czt", "order", "names", "time axis", "components last", "extra axis"),
            (IMAGEJ + "finterval is one number, from 0", "first time", "uneven times", "time dates"),
            (IMAGEJ + "units are lengths", "unit degrees", "unit pressure"),
-           (IMAGEJ + "one array, no value for none", "arrays", "values fill", "values missing", "remark"))
+           (IMAGEJ + "one array, no value for none", "arrays", "values fill", "values missing", "values valid",
+            "remark"))
 def imagej(record, folder):
     x, y, z = (record.axis(role) for role in "xyz")
     units = dict(unit=x.unit) if x.unit == y.unit == z.unit else dict(unit=x.unit, yunit=y.unit, zunit=z.unit)
@@ -588,7 +601,7 @@ OME = "OME-XML 2016-06, Pixels: "
 
 @container("OME-TIFF", (OME + "PhysicalSize is a positive number an axis", "uneven", "descending", "direction", "frame"),
            (OME + "DimensionOrder begins with XY", "order", "names", "time axis last", "components last", "extra axis"),
-           (OME + "PhysicalSizeUnit is a length", "unit degrees", "unit pressure"),
+           (OME + "PhysicalSizeUnit is one of UnitsLength", "unit words", "unit degrees", "unit pressure"),
            ("OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time", "origin", "time dates"),
            (OME + "numbers as they are", "values", "arrays", "remark"))
 def ome_tiff(record, folder):

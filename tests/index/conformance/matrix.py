@@ -8,6 +8,7 @@ the plain record of record.py; a container is a function that writes a record. W
 numpy.
 """
 import argparse
+import copy
 import glob
 import json
 import os
@@ -20,7 +21,7 @@ import unittest
 import numpy as np
 
 from containers import CONTAINERS
-from record import METERS, SECONDS, Axis, copied, crossings, meaning, plain
+from record import METERS, SECONDS, Axis, crossings, meaning, plain
 
 ISOVALUES = (6.5, 14.25)
 STATEMENTS = {}
@@ -73,6 +74,12 @@ def origin(record):
 def unit_of_length(record):
     for axis in record.axes[1:]:
         axis.unit = "um"
+
+
+@statement("units in words", "unit words", "time unit")
+def units_in_words(record):
+    for axis in record.axes:
+        axis.unit = "hours" if axis.role == "t" else "micrometers"
 
 
 @statement("units by axis", "spacing", "unit", "unit by axis")
@@ -154,6 +161,12 @@ def coordinates_of_other_names(record):
         record.axis(role).attributes["axis"] = role.upper()
 
 
+@statement("packed coordinates", "names by attributes")
+def packed_coordinates(record):
+    for axis in record.axes[1:]:
+        axis.attributes.update(scale_factor=0.25, add_offset=5.0)
+
+
 @statement("longer names", "names")
 def longer_names(record):
     renamed(record, dict(x="west_east", y="south_north", z="bottom_top"))
@@ -168,6 +181,20 @@ def degrees_and_meters(record):
     record.axis("z").unit, record.axis("z").attributes = "m", dict(standard_name="height", positive="up")
     record.axis("z").at = record.axis("z").at * 100
     record.notes, record.upright = ["units differ"], True
+
+
+@statement("roles by units", "order", "unit degrees", "names by attributes")
+def roles_by_units(record):
+    degrees_and_meters(record)
+    renamed(record, dict(x="i", y="j", z="k"))
+    for role in "xyz":
+        record.axis(role).attributes.pop("standard_name")
+
+
+@statement("across Greenwich", "unit degrees")
+def across_greenwich(record):
+    degrees_and_meters(record)
+    record.axis("x").at = (356 + np.arange(8.0)) % 360
 
 
 @statement("pressure levels", "spacing", "uneven all", "unit pressure")
@@ -230,8 +257,23 @@ def noons(*days, of=""):
 
 
 dated("dates", "", noons("02-28", "02-29", "03-01", "03-02", "03-03"))
+dated("dates THIRTY_DAY_MONTHS", "THIRTY_DAY_MONTHS", noons("02-29", "02-30", "03-01", "03-02", "03-03", of=" (360_day)"))
 dated("dates noleap", "noleap", noons("02-28", "03-01", "03-02", "03-03", "03-04", of=" (noleap)"))
 dated("dates 360_day", "360_day", noons("02-29", "02-30", "03-01", "03-02", "03-03", of=" (360_day)"))
+
+
+@statement("months since", "time dates")
+def months_since(record):
+    time = record.axis("t")
+    time.at, time.unit, time.attributes = np.arange(5.0), "months since 2000-01-01", dict(calendar="standard")
+    record.dates = [f"2000-0{month}-01" for month in range(1, 6)]
+
+
+@statement("dates as numbers", "time dates")
+def dates_as_numbers(record):
+    time = record.axis("t")
+    time.at, time.unit = 20000228.5 + np.array([0, 1, 73, 74, 75]), "day as %Y%m%d.%f"
+    record.times, record.dates = 0.5 + np.arange(5), noons("02-28", "02-29", "03-01", "03-02", "03-03")
 
 
 # ---- Values
@@ -276,6 +318,11 @@ def gap(record, name, value):
 def fill_packed(record):
     packed(record)
     gap(record, "_FillValue", -999)
+
+
+@statement("valid_range", "values valid")
+def valid_range(record):
+    record.valid = (2, 40)
 
 
 @statement("one of two arrays", "arrays")
@@ -333,11 +380,6 @@ def vertices_in(ply):
     return [places[points["surface"] == number] for number in range(len(ISOVALUES))]
 
 
-def seconds(unit):
-    words = {"second": "s", "seconds": "s", "sec": "s", "millisecond": "ms", "milliseconds": "ms", "msec": "ms"}
-    return SECONDS.get(words.get(unit, unit))
-
-
 def of(numbers):
     return " ".join(f"{number:.5g}" for number in np.ravel(numbers))
 
@@ -374,13 +416,13 @@ def compare(record, said, surfaces):
         break
     got, expected = np.array(said["times"]), meant.times
     if said["time_unit"] != meant.time_unit:
-        if seconds(said["time_unit"]) and seconds(meant.time_unit):
-            got = got * seconds(said["time_unit"]) / seconds(meant.time_unit)
+        if said["time_unit"] in SECONDS and meant.time_unit in SECONDS:
+            got = got * SECONDS[said["time_unit"]] / SECONDS[meant.time_unit]
         elif not record.dates:
             wrong.append(f"time unit {said['time_unit']!r}, expected {meant.time_unit!r}")
     if len(got) != len(expected) or not np.allclose(got, expected, rtol=1e-6, atol=1e-9):
         wrong.append(f"times {of(got)}, expected {of(expected)}")
-    if record.dates and said["dates"] != record.dates:
+    if record.dates and [date.replace(" 00:00", "") for date in said["dates"] or []] != record.dates:
         wrong.append(f"dates {said['dates']}, expected {record.dates}")
     if said["value_unit"] != record.unit:
         wrong.append(f"unit {said['value_unit']!r}, expected {record.unit!r}")
@@ -438,7 +480,7 @@ def check(program, name, container, folder):
     os.makedirs(where)
     index, out = os.path.join(where, "out.isochron"), os.path.join(where, "out")
     try:
-        run(program, "build", *CONTAINERS[container].write(copied(record), where), "--quiet", "-o", index)
+        run(program, "build", *CONTAINERS[container].write(copy.deepcopy(record), where), "--quiet", "-o", index)
         said = json.loads(run(program, "info", index, "--json"))
         isovalues = [f"--isovalue={value}" for value in ISOVALUES]
         run(program, "export", index, *isovalues, "--format", "ply", "--precision", "double", "-o", out + "/")

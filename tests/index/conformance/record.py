@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-METERS = {"m": 1, "km": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-SECONDS = {"s": 1, "ms": 1e-3, "min": 60, "h": 3600}
+METERS = {"m": 1, "km": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "micrometers": 1e-6}
+SECONDS = {"s": 1, "ms": 1e-3, "h": 3600, "hours": 3600, "second": 1, "sec": 1, "millisecond": 1e-3, "msec": 1e-3}
 
 
 @dataclass
@@ -36,6 +36,7 @@ class Record:
     slope: float = 1
     offset: float = 0
     fill: dict = field(default_factory=dict)  # attribute: the value that stands for none
+    valid: tuple = ()  # least and greatest value that stands for itself
     attributes: dict = field(default_factory=dict)  # of the array
     others: dict = field(default_factory=dict)  # further arrays of the same shape
     component: int = 0
@@ -45,6 +46,7 @@ class Record:
     may: list = field(default_factory=list)  # patterns of notes that there may be
     upright: bool = False  # whether one axis is said to be vertical
     dates: list = None
+    times: np.ndarray = None  # what the stated times come to, if not the numbers themselves
 
     def axis(self, role):
         return next((axis for axis in self.axes if axis.role == role), None)
@@ -81,10 +83,6 @@ class Record:
         return np.moveaxis(self.values, place, 0)
 
 
-def copied(record):
-    return copy.deepcopy(record)
-
-
 def plain(sizes):
     """x, y, z and time, all different in every respect; the value follows from the place."""
     t, z, y, x = (np.arange(float(size)) for size in sizes)
@@ -109,7 +107,9 @@ def drawn(record):
     """Coordinates along x, y and z in one unit: that of x. Where there is no proportion between units, those of an axis are
     scaled by the power of ten that brings its spacing next to that of x (guide: Formats). What counts downwards is drawn with
     its sign reversed."""
-    axes, places = [record.axis(role) for role in "xyz"], []
+    axes, places = [copy.copy(record.axis(role)) for role in "xyz"], []
+    if axes[0].unit == "degrees":
+        axes[0].at = np.unwrap(axes[0].at, period=360)
     convertible = all(axis.unit in METERS for axis in axes)
     for axis in axes:
         factor = 1
@@ -118,7 +118,7 @@ def drawn(record):
         elif axis.unit != axes[0].unit:
             factor = 10.0 ** round(np.log10(abs(axes[0].step() / axis.step())))
         downwards = axis.attributes.get("positive", "down" if axis.unit == "hPa" else "up") == "down"
-        places.append(np.asarray(axis.at) * factor * (-1 if downwards else 1))
+        places.append(axis.at * factor * (-1 if downwards else 1))
     same = convertible or len({axis.unit for axis in axes}) == 1
     return places, axes[0].unit if same else ""
 
@@ -131,9 +131,12 @@ def meaning(record):
     values = values.reshape(values.shape[:4])
     stored = values.astype("f8")
     gaps = np.isin(stored, [float(np.array(each, record.values.dtype)) for each in record.fill.values()])
+    if record.valid:
+        gaps |= (stored < record.valid[0]) | (stored > record.valid[1])
     places, unit = drawn(record)
     time = record.axis("t")
-    return Meaning(places, np.where(gaps, np.nan, stored * record.slope + record.offset), unit, np.asarray(time.at), time.unit)
+    return Meaning(places, np.where(gaps, np.nan, stored * record.slope + record.offset), unit,
+                   np.asarray(time.at if record.times is None else record.times), time.unit)
 
 
 def crossings(meant, record, step, isovalue):

@@ -254,7 +254,9 @@ def zarr_xarray(record, folder):
         fill = attributes.pop("_FillValue", None)
         zarr_2(where, values, dict(attributes, _ARRAY_DIMENSIONS=names), fill)
 
-    return with_coordinates(record, path, save)
+    asks = with_coordinates(record, path, save)
+    zarr.consolidate_metadata(path)
+    return asks
 
 
 @container("Zarr 3 dimension_names", NO_FRAME)

@@ -12,24 +12,95 @@ import pydicom
 import tifffile
 import zarr
 from pydicom.dataset import FileDataset, FileMetaDataset
+from pydicom.valuerep import DSfloat
 
 from record import METERS
 
 CONTAINERS = {}
 
+# Containers | what they have no way to say, in the words of the statements' needs | the place in the specification that shows it
+LACKS = """
+NetCDF-3, NetCDF-4, Zarr 2 xarray, Zarr 3 dimension_names | direction, frame | CF 1.11, 4: coordinates are along axes, of no body
+NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
+HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
+HDF5 bare | order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
+HDF5 openPMD | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
+HDF5 openPMD | unit by axis, unit other | openPMD 1.1.0, Mesh Based Records: gridUnitSI is one number, to meters
+HDF5 openPMD | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
+HDF5 openPMD | time axis, time dates | openPMD 1.1.0, iterations: time is a group for each, a number in seconds
+HDF5 openPMD | values scale offset, values unit, values gaps, unit words | openPMD 1.1.0, records: unitSI alone
+HDF5 openPMD | components last | openPMD 1.1.0, vector records: a dataset for each component
+HDF5 axistags | uneven, times uneven, first time, origin, descending | vigra, AxisInfo: one resolution
+HDF5 axistags | unit, time unit, time dates | vigra, AxisInfo: no unit
+HDF5 axistags | names, extra axis | vigra, AxisInfo: keys are x, y, z, t, c
+HDF5 axistags | direction, frame, values, arrays | vigra, AxisInfo: of axes alone
+HDF5 element_size_um | order, names, time axis, extra axis, components first | HDF5 1.14, H5S: dimensions without scales have no names
+HDF5 element_size_um | origin, interval, first time, times uneven, time unit, time dates, uneven, descending, direction, frame, unit by axis, unit words, unit other, values, arrays | ilastik, Fiji: element_size_um is three numbers
+Zarr resolution, HDF5 resolution | uneven, descending, times uneven, direction, frame, names by attributes, names of variables, unit other, time dates, values | funlib.persistence: resolution, offset, units and axis_names alone
+OME-Zarr 0.4, OME-Zarr 0.5 | uneven, times uneven, direction, frame, unit other pressure | NGFF 0.5, coordinateTransformations: scale and translation alone
+OME-Zarr 0.4, OME-Zarr 0.5 | time axis, components last | NGFF 0.5, axes: time comes first, then channels, then space
+OME-Zarr 0.4, OME-Zarr 0.5 | unit words, names by attributes, names of variables, unit other degrees, time dates | NGFF 0.5, axes: name, type, unit of a list
+OME-Zarr 0.4, OME-Zarr 0.5 | values, arrays | NGFF 0.5, multiscales: one image of numbers as they are
+XDMF | order, names, time axis, extra axis | XDMF 3, Topology: Dimensions are z, y, x
+XDMF | unit, direction, frame | XDMF 3, Geometry: no units, of no body
+XDMF | time unit, time dates | XDMF 3, Time: a number
+XDMF | values, components first | XDMF 3, Attribute: Name, AttributeType, Center
+VTK .vti, VTK .vtr, VTKHDF | unit, frame | VTK file formats: no units of length, of no body
+VTK .vti, VTK .vtr, VTKHDF | time axis, time unit, time dates | VTK file formats: a file for each entry of .pvd, timestep is a number
+VTK .vti, VTK .vtr, VTKHDF | names, extra axis | VTK file formats: axes are x, y, z
+VTK .vti, VTK .vtr, VTKHDF | values scale, values gaps, components first | VTK file formats, DataArray: values as they are
+VTK .vti, VTKHDF | uneven | VTK file formats, ImageData: Origin, Spacing, Direction
+VTK .vtr | order, direction, descending | VTK file formats, RectilinearGrid: ascending x, y, z
+NRRD | uneven, times uneven | NRRD 5, section 5, per-axis fields: one number an axis
+NRRD | time dates | NRRD 5, section 5, per-axis fields: units are words of no calendar
+NRRD | names, unit other, extra axis | NRRD 5, section 5, per-axis fields: labels are for people
+NRRD | values scale, values gaps, arrays | NRRD 5, section 4, basic fields: one array, as it is
+NIfTI-1 | uneven, times uneven | nifti1.h, pixdim and srow: one number an axis
+NIfTI-1 | time axis, components last, extra axis | nifti1.h, dim: x, y, z, t, then components
+NIfTI-1 | unit by axis, unit words, unit other, time dates | nifti1.h, xyzt_units: one unit of length, seconds and their parts
+NIfTI-1 | names | nifti1.h, qform and sform: places are RAS, axes have no names
+NIfTI-1 | values gaps, values unit, arrays | nifti1.h: one array of numbers
+MetaImage | uneven, times uneven | MetaIO, tags: ElementSpacing is one number an axis
+MetaImage | unit by axis, unit words, unit other, time unit, time dates | MetaIO, tags: DistanceUnits is one word, mm, um or cm
+MetaImage | names, time axis, components first, extra axis | MetaIO, tags: axes have no names, time is the fourth
+MetaImage | values, arrays | MetaIO, tags: ElementToIntensityFunctionSlope is for display; one array
+DICOM | uneven all, unit by axis, unit words, unit other | DICOM PS3.3 C.7.6.2, Image Plane: PixelSpacing in mm, of rows and columns
+DICOM | names, extra axis | DICOM PS3.3 C.7.6.2, Image Plane: places in the patient, axes have no names
+DICOM | time axis, time dates | DICOM PS3.3 C.7.6.18, Cardiac Synchronization: TriggerTime in ms from the R-peak
+DICOM | values gaps missing, values gaps valid, components, arrays, remark | DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image
+ImageJ TIFF | uneven, descending, direction, frame | ImageJ, TiffDecoder: spacing and resolution are one number an axis
+ImageJ TIFF | order, names, time axis, components last, extra axis | ImageJ, TiffDecoder: planes of x and y in order czt
+ImageJ TIFF | first time, times uneven, time dates | ImageJ, TiffDecoder: finterval is one number, from 0
+ImageJ TIFF | unit other | ImageJ, TiffDecoder: units are lengths
+ImageJ TIFF | arrays, values gaps | ImageJ, TiffDecoder: one array, no value for none
+OME-TIFF | uneven, descending, direction, frame | OME-XML 2016-06, Pixels: PhysicalSize is a positive number an axis
+OME-TIFF | order, names, time axis last, components last, extra axis | OME-XML 2016-06, Pixels: DimensionOrder begins with XY
+OME-TIFF | unit words, unit other | OME-XML 2016-06, Pixels: PhysicalSizeUnit is one of UnitsLength
+OME-TIFF | origin, time dates | OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time
+OME-TIFF | values, arrays, remark | OME-XML 2016-06, Pixels: numbers as they are
+BOV | order, uneven, descending, direction, frame, unit, names, extra axis | VisIt, BOV: BRICK_ORIGIN and BRICK_SIZE along x, y, z
+BOV | time unit, time dates, time axis | VisIt, BOV: TIME is a number, a file for each
+BOV | values, arrays, components first | VisIt, BOV: one array, as it is
+"""
+
 
 @dataclass
 class Container:
     write: object
-    lacks: dict
-    may: list  # patterns of notes that any file of this kind may have
+    may: tuple  # patterns of notes that any file of this kind may have
+    lacks: dict  # what it cannot say, and the place in the specification
 
 
-def container(name, *lacks, may=()):
-    """lacks: a place in the specification, with what it has no way to say, in the words of statements' needs."""
+def container(name, may=(), by_axis=False):
+    """by_axis: it states axes one by one, and may leave out time."""
 
     def add(write):
-        CONTAINERS[name] = Container(write, {need: why for why, *needs in lacks for need in needs}, list(may))
+        def write_axes(record, folder):
+            return write(record.without_unnamed() if by_axis else record, folder)
+
+        rows = [row.split(" | ") for row in LACKS.strip().splitlines()]
+        CONTAINERS[name] = Container(write_axes, may, {need: place for containers, needs, place in rows
+                                                       if name in containers.split(", ") for need in needs.split(", ")})
         return write
 
     return add
@@ -57,9 +128,14 @@ def attributes_of_values(record):
         said["scale_factor"] = record.slope
     if record.offset:
         said["add_offset"] = float(record.offset)
-    if any(axis.variable for axis in record.axes):
-        said["coordinates"] = " ".join(axis.variable for axis in record.axes if axis.variable)
+    if any(axis.variable != axis.name for axis in measured(record)):
+        said["coordinates"] = " ".join(axis.variable for axis in record.axes if axis.variable != axis.name)
     return said
+
+
+def measured(record):
+    """The axes that have coordinates."""
+    return [axis for axis in record.axes if axis.role != "c"]
 
 
 def arrays_of(record):
@@ -73,8 +149,6 @@ def asked(record, path, array=None):
 
 
 # ---- CF: names of dimensions, coordinates as arrays, attributes
-NO_FRAME = ("CF 1.11, 4: coordinates are along axes, of no body", "direction", "frame")
-NO_COMPONENTS = ("CF 1.11, 3.3: a vector is a variable for each component", "components")
 
 
 def netcdf(kind):
@@ -84,7 +158,7 @@ def netcdf(kind):
             for axis in record.axes:
                 file.createDimension(axis.name, len(axis.at))
                 stored = coordinates(axis)
-                variable = file.createVariable(axis.variable or axis.name, stored.dtype, (axis.name,))
+                variable = file.createVariable(axis.variable, stored.dtype, (axis.name,))
                 variable.set_auto_maskandscale(False)
                 variable[:] = stored
                 variable.setncatts(attributes_of(axis))
@@ -100,58 +174,36 @@ def netcdf(kind):
     return write
 
 
-container("NetCDF-3", NO_FRAME, NO_COMPONENTS)(netcdf("NETCDF3_CLASSIC"))
-container("NetCDF-4", NO_FRAME, NO_COMPONENTS)(netcdf("NETCDF4"))
+container("NetCDF-3", by_axis=True)(netcdf("NETCDF3_CLASSIC"))
+container("NetCDF-4", by_axis=True)(netcdf("NETCDF4"))
 
 
-@container("HDF5 scales", ("HDF5 1.14, Dimension Scales: along dimensions, of no body", "direction", "frame"))
-def hdf5_scales(record, folder):
-    path = f"{folder}/v.h5"
-    with h5py.File(path, "w") as file:
-        for axis in record.axes:
-            if axis.role != "c":
-                file[axis.variable or axis.name] = coordinates(axis)
-                file[axis.variable or axis.name].make_scale(axis.variable or axis.name)
-                file[axis.variable or axis.name].attrs.update(attributes_of(axis))
-        for name, values in arrays_of(record).items():
-            file[name] = values
-            file[name].attrs.update(attributes_of_values(record) | record.fill)
-            for i, axis in enumerate(record.axes):
-                file[name].dims[i].label = axis.name
-                if axis.role != "c":
-                    file[name].dims[i].attach_scale(file[axis.variable or axis.name])
-    return asked(record, path)
+def hdf5(scales):
+    def write(record, folder):
+        path = f"{folder}/v.h5"
+        with h5py.File(path, "w") as file:
+            for axis in measured(record):
+                file[axis.variable] = coordinates(axis)
+                file[axis.variable].attrs.update(attributes_of(axis))
+                if scales:
+                    file[axis.variable].make_scale(axis.variable)
+            for name, values in arrays_of(record).items():
+                file[name] = values
+                file[name].attrs.update(attributes_of_values(record) | record.fill)
+                for i, axis in enumerate(record.axes if scales else []):
+                    file[name].dims[i].label = axis.name
+                    if axis.role != "c":
+                        file[name].dims[i].attach_scale(file[axis.variable])
+        return asked(record, path)
+
+    return write
 
 
-BARE = "HDF5 1.14, H5S: dimensions without scales have no names"
+container("HDF5 scales", by_axis=True)(hdf5(True))
+container("HDF5 bare", may=("is taken for time", "coordinates taken from"), by_axis=True)(hdf5(False))
 
 
-@container("HDF5 bare", (BARE, "order", "names", "time axis", "extra axis", "direction", "frame", "unit degrees", "unit pressure",
-                         "components first"), may=["is taken for time", "coordinates taken from"])
-def hdf5_bare(record, folder):
-    """With x, y, z and time beside it."""
-    path = f"{folder}/v.h5"
-    with h5py.File(path, "w") as file:
-        for axis in record.axes:
-            if axis.role != "c":
-                file[axis.name] = coordinates(axis)
-                file[axis.name].attrs.update(attributes_of(axis))
-        for name, values in arrays_of(record).items():
-            file[name] = values
-            file[name].attrs.update(attributes_of_values(record) | record.fill)
-    return asked(record, path)
-
-
-OPENPMD = "openPMD 1.1.0, Mesh Based Records: "
-
-
-@container("HDF5 openPMD", (OPENPMD + "gridSpacing is a positive number an axis", "uneven", "descending", "direction", "extra axis"),
-           (OPENPMD + "gridUnitSI is one number, to meters", "unit by axis", "unit degrees", "unit pressure"),
-           (OPENPMD + "axisLabels are x, y, z in geometry cartesian", "names", "frame"),
-           ("openPMD 1.1.0, iterations: time is a group for each, a number in seconds", "time axis", "time dates"),
-           ("openPMD 1.1.0, records: unitSI alone", "values offset", "values unit", "values fill", "values missing",
-            "values valid", "unit words"),
-           ("openPMD 1.1.0, vector records: a dataset for each component", "components last"))
+@container("HDF5 openPMD")
 def hdf5_openpmd(record, folder):
     path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
     vector = record.axis("c") is not None
@@ -178,12 +230,7 @@ def hdf5_openpmd(record, folder):
         [path, "--array", "data/*/fields/v/y"]
 
 
-VIGRA = "vigra, AxisInfo: key, typeFlags, resolution, description: "
-
-
-@container("HDF5 axistags", (VIGRA + "one resolution", "uneven", "first time", "origin", "descending"),
-           (VIGRA + "no unit", "unit", "time unit", "time dates"), (VIGRA + "keys are x, y, z, t, c", "names", "extra axis"),
-           (VIGRA + "axes alone", "direction", "frame", "values", "arrays", "remark"))
+@container("HDF5 axistags", by_axis=True)
 def hdf5_axistags(record, folder):
     path, flags = f"{folder}/v.h5", {"t": 8, "c": 1}
     with h5py.File(path, "w") as file:
@@ -191,19 +238,18 @@ def hdf5_axistags(record, folder):
         file["exported_data"].attrs["axistags"] = json.dumps({"axes": [
             {"key": axis.role, "typeFlags": flags.get(axis.role, 2), "resolution": axis.step() if axis.role != "c" else 0,
              "description": ""} for axis in record.axes]})
+        file["exported_data"].attrs.update(record.attributes)
     return asked(record, path)
 
 
-@container("HDF5 element_size_um", (BARE, "order", "names", "time axis", "extra axis", "components first"),
-           ("ilastik, Fiji: element_size_um is three numbers", "origin", "interval", "time unit", "uneven", "descending",
-            "direction", "frame", "unit by axis", "unit words", "unit degrees", "unit pressure", "time dates", "first time",
-            "values", "arrays", "remark"), may=["is taken for time", "taken from element_size_um"])
+@container("HDF5 element_size_um", may=("is taken for time", "taken from element_size_um"), by_axis=True)
 def hdf5_element_size(record, folder):
     path = f"{folder}/v.h5"
     with h5py.File(path, "w") as file:
         file["data"] = record.values
         file["data"].attrs["element_size_um"] = [record.axis(role).step() * METERS[record.axis(role).unit] / METERS["um"]
                                                  for role in "zyx"]
+        file["data"].attrs.update(record.attributes)
     return asked(record, path)
 
 
@@ -216,7 +262,7 @@ def zarr_2(path, values, attributes, fill=None):
 
 
 def plain_numbers(attributes):
-    return {name: value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value for name, value in attributes.items()}
+    return {name: value if isinstance(value, (str, float)) else value.tolist() for name, value in attributes.items()}
 
 
 def save_json(path, content):
@@ -237,15 +283,15 @@ def zarr_3(path, values, attributes, fill=0, **more):
 
 def with_coordinates(record, path, save):
     """As xarray writes it."""
-    for axis in record.axes:
-        if axis.role != "c":
-            save(f"{path}/{axis.variable or axis.name}", coordinates(axis), attributes_of(axis), [axis.name])
+    for axis in measured(record):
+        save(f"{path}/{axis.variable}", coordinates(axis), attributes_of(axis), [axis.name])
     for name, values in arrays_of(record).items():
-        save(f"{path}/{name}", values, plain_numbers(attributes_of_values(record) | record.fill), [axis.name for axis in record.axes])
+        said = plain_numbers(attributes_of_values(record) | record.fill)
+        save(f"{path}/{name}", values, said, [axis.name for axis in record.axes])
     return asked(record, path)
 
 
-@container("Zarr 2 xarray", NO_FRAME)
+@container("Zarr 2 xarray", by_axis=True)
 def zarr_xarray(record, folder):
     path = f"{folder}/v.zarr"
     zarr.open_group(path, mode="w")
@@ -259,7 +305,7 @@ def zarr_xarray(record, folder):
     return asks
 
 
-@container("Zarr 3 dimension_names", NO_FRAME)
+@container("Zarr 3 dimension_names", by_axis=True)
 def zarr_dimension_names(record, folder):
     path = f"{folder}/v.zarr"
     save_json(f"{path}/zarr.json", dict(zarr_format=3, node_type="group", attributes={}))
@@ -267,19 +313,14 @@ def zarr_dimension_names(record, folder):
                                                                                           dimension_names=names))
 
 
-DAISY = "funlib.persistence: resolution, offset, units and axis_names alone"
-NO_DAISY = (DAISY, "uneven", "descending", "uneven times", "direction", "frame", "names by attributes", "names of variables",
-            "unit degrees", "unit pressure", "time dates", "values")
-
-
 def daisy_attributes(record):
-    real = [axis for axis in record.axes if axis.role != "c"]
-    return dict(resolution=[axis.step() for axis in real], offset=[float(axis.at[0]) for axis in real],
-                units=[axis.unit for axis in real], axis_names=[axis.name + ("^" if axis.role == "c" else "") for axis in record.axes],
-                **record.attributes)
+    axes = measured(record)
+    return dict(resolution=[axis.step() for axis in axes], offset=[float(axis.at[0]) for axis in axes],
+                units=[axis.unit for axis in axes],
+                axis_names=[axis.name + ("^" if axis.role == "c" else "") for axis in record.axes], **record.attributes)
 
 
-@container("Zarr resolution", NO_DAISY)
+@container("Zarr resolution", by_axis=True)
 def zarr_daisy(record, folder):
     zarr.open_group(f"{folder}/v.zarr", mode="w")
     for name, values in arrays_of(record).items():
@@ -287,7 +328,7 @@ def zarr_daisy(record, folder):
     return asked(record, f"{folder}/v.zarr")
 
 
-@container("HDF5 resolution", NO_DAISY)
+@container("HDF5 resolution", by_axis=True)
 def hdf5_daisy(record, folder):
     with h5py.File(f"{folder}/v.h5", "w") as file:
         for name, values in arrays_of(record).items():
@@ -297,14 +338,6 @@ def hdf5_daisy(record, folder):
 
 
 OME_UNITS = {"mm": "millimeter", "um": "micrometer", "m": "meter", "s": "second", "ms": "millisecond", "degrees": "degree"}
-NO_OME = [("NGFF 0.5, coordinateTransformations: scale and translation alone", "uneven", "uneven times", "direction", "frame",
-           "unit pressure"),
-          ("NGFF 0.5, axes: time comes first, then channels, then space", "time axis", "components last"),
-          ("NGFF 0.5, axes: name, type, unit of a list", "unit words", "names by attributes", "names of variables", "unit degrees",
-           "time dates"),
-          ("NGFF 0.5, omero: none", "values", "arrays", "remark")]
-
-
 def ome_axes(record):
     kinds = {"t": "time", "c": "channel"}
     axes = [dict(name=axis.name if axis.role in "xyz" else axis.role, type=kinds.get(axis.role, "space"),
@@ -322,28 +355,25 @@ def ome_asked(record, path):
 OMERO = dict(channels=[dict(label=f"c{number}") for number in range(3)])
 
 
-@container("OME-Zarr 0.4", *NO_OME)
+@container("OME-Zarr 0.4", by_axis=True)
 def ome_zarr_4(record, folder):
     path = f"{folder}/v.zarr"
     zarr.open_group(path, mode="w").attrs.update(multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
-    zarr_2(f"{path}/0", record.values, {})
+    zarr_2(f"{path}/0", record.values, record.attributes)
     return ome_asked(record, path)
 
 
-@container("OME-Zarr 0.5", *NO_OME)
+@container("OME-Zarr 0.5", by_axis=True)
 def ome_zarr_5(record, folder):
     path = f"{folder}/v.zarr"
     ome = dict(version="0.5", multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
     save_json(f"{path}/zarr.json", dict(zarr_format=3, node_type="group", attributes=dict(ome=ome)))
-    zarr_3(f"{path}/0", record.values, {}, dimension_names=[axis["name"] for axis in ome["multiscales"][0]["axes"]])
+    zarr_3(f"{path}/0", record.values, record.attributes, dimension_names=[axis["name"] for axis in ome["multiscales"][0]["axes"]])
     return ome_asked(record, path)
 
 
 # ---- XDMF and VTK
-@container("XDMF", ("XDMF 3, Topology: Dimensions are z, y, x", "order", "names", "time axis", "extra axis"),
-           ("XDMF 3, Geometry: no units, of no body", "unit", "direction", "frame"),
-           ("XDMF 3, Time: a number", "time unit", "time dates"),
-           ("XDMF 3, Attribute: Name, AttributeType, Center", "values", "components first"))
+@container("XDMF")
 def xdmf(record, folder):
     def item(values, more=""):
         return f'<DataItem Dimensions="{" ".join(map(str, np.shape(values)))}" {more} Format="XML">{numbers(values)}</DataItem>'
@@ -364,8 +394,8 @@ def xdmf(record, folder):
         f'{item(values[number], more="""NumberType="Float" Precision="4" """)}{remarks}</Attribute>'
         for name, values in arrays_of(record).items()) + "</Grid>" for number, time in enumerate(record.axis("t").at))
     with open(f"{folder}/v.xmf", "w", encoding="utf-8") as out:
-        out.write(f'<?xml version="1.0"?><Xdmf Version="3.0"><Domain><Grid GridType="Collection" CollectionType="Temporal">{grids}'
-                  "</Grid></Domain></Xdmf>")
+        out.write('<?xml version="1.0"?><Xdmf Version="3.0"><Domain><Grid GridType="Collection" CollectionType="Temporal">'
+                  f"{grids}</Grid></Domain></Xdmf>")
     return asked(record, f"{folder}/v.xmf")
 
 
@@ -373,20 +403,12 @@ def numbers(values):
     return " ".join(f"{value:.17g}" for value in np.ravel(values))
 
 
-VTK = "VTK file formats: "
-NO_VTK = [(VTK + "no units of length, of no body", "unit", "frame"),
-          (VTK + "a file for each entry of .pvd, timestep is a number", "time axis", "time unit", "time dates"),
-          (VTK + "axes are x, y, z", "names", "extra axis"),
-          (VTK + "DataArray: values as they are", "values slope", "values offset", "values fill", "values missing",
-           "values valid", "components first")]
-NO_UNEVEN = (VTK + "ImageData: Origin, Spacing, Direction", "uneven")
-
-
 def vtk_series(record, folder, kind, head, inside):
     """A .pvd with a file for each step."""
     extent = " ".join(f"0 {len(axis.at) - 1}" for axis in record.space())
     unit = f'<InformationKey name="UNITS_LABEL" location="vtkDataArray">{record.unit}</InformationKey>' if record.unit else ""
-    remarks = "".join(f'<InformationKey name="{name}" location="x">{value}</InformationKey>' for name, value in record.attributes.items())
+    remarks = "".join(f'<InformationKey name="{name}" location="x">{value}</InformationKey>'
+                      for name, value in record.attributes.items())
     entries = ""
     for number, time in enumerate(record.axis("t").at):
         arrays = "".join(f'<DataArray type="Float32" Name="{name}" NumberOfComponents="{3 if record.axis("c") else 1}" '
@@ -402,7 +424,7 @@ def vtk_series(record, folder, kind, head, inside):
     return asked(record, f"{folder}/v.pvd")
 
 
-@container("VTK .vti", *NO_VTK, NO_UNEVEN)
+@container("VTK .vti")
 def vti(record, folder):
     steps, first = record.steps()
     lengths = [np.linalg.norm(step) for step in steps]
@@ -411,14 +433,14 @@ def vti(record, folder):
                       f'Direction="{numbers(across)}"', "")
 
 
-@container("VTK .vtr", *NO_VTK, (VTK + "RectilinearGrid: ascending x, y, z", "order", "direction", "descending"))
+@container("VTK .vtr")
 def vtr(record, folder):
     arrays = "".join(f'<DataArray type="Float64" Name="{axis.name}" format="ascii">{numbers(axis.at)}</DataArray>'
                      for axis in record.space())
     return vtk_series(record, folder, "RectilinearGrid", "", f"<Coordinates>{arrays}</Coordinates>")
 
 
-@container("VTKHDF", *NO_VTK, NO_UNEVEN)
+@container("VTKHDF")
 def vtkhdf(record, folder):
     path, (steps, first) = f"{folder}/v.vtkhdf", record.steps()
     lengths = [np.linalg.norm(step) for step in steps]
@@ -437,27 +459,21 @@ def vtkhdf(record, folder):
 
 
 # ---- Medical
-NRRD = "NRRD 5, section 5, per-axis fields: "
-
-
-@container("NRRD", (NRRD + "one number an axis", "uneven", "uneven times"), (NRRD + "units are words of no calendar", "time dates"),
-           (NRRD + "labels are for people", "names", "unit degrees", "unit pressure", "extra axis"),
-           ("NRRD 5, section 4, basic fields: one array, as it is", "values slope", "values offset", "values fill",
-            "values missing", "values valid", "arrays"))
+@container("NRRD", by_axis=True)
 def nrrd(record, folder):
     path, fastest, (steps, first) = f"{folder}/v.nrrd", record.axes[::-1], record.steps()
     vectors = iter(f"({','.join(map(repr, map(float, step)))})" for step in steps)
     kinds = {"t": "time", "c": "vector"}
     time = record.axis("t")
     spaces = {"ras": "right-anterior-superior", "lps": "left-posterior-superior"}
-    units = [axis.unit for axis in map(record.axis, "xyz")]
     lines = ["type: " + {"f4": "float", "i2": "short"}[record.values.dtype.str[1:]], f"dimension: {len(fastest)}",
              "space: " + spaces[record.frame] if record.frame else "space dimension: 3",
              "sizes: " + " ".join(str(len(axis.at)) for axis in fastest),
              "kinds: " + " ".join(kinds.get(axis.role, "domain") for axis in fastest),
              "labels: " + " ".join(f'"{axis.name}"' for axis in fastest),
              "space directions: " + " ".join(next(vectors) if axis.role in "xyz" else "none" for axis in fastest),
-             f"space origin: ({','.join(map(repr, map(float, first)))})", "space units: " + " ".join(f'"{unit}"' for unit in units),
+             f"space origin: ({','.join(map(repr, map(float, first)))})",
+             "space units: " + " ".join(f'"{record.axis(role).unit}"' for role in "xyz"),
              "spacings: " + " ".join(str(axis.step()) if axis is time else "NaN" for axis in fastest),
              "axis mins: " + " ".join(str(axis.at[0]) if axis is time else "NaN" for axis in fastest),
              "units: " + " ".join(f'"{axis.unit if axis is time else ""}"' for axis in fastest),
@@ -470,44 +486,29 @@ def nrrd(record, folder):
     return asked(record, path)
 
 
-@container("NIfTI-1", ("nifti1.h, pixdim and srow: one number an axis", "uneven", "uneven times"),
-           ("nifti1.h, dim: x, y, z, t, then components", "time axis", "components last", "extra axis"),
-           ("nifti1.h, xyzt_units: one unit of length, seconds and their parts", "unit by axis", "unit words", "unit degrees",
-            "unit pressure", "time dates"),
-           ("nifti1.h, qform and sform: places are RAS, axes have no names", "names"),
-           ("nifti1.h: one array of numbers", "values fill", "values missing", "values valid", "values unit", "arrays"))
+@container("NIfTI-1")
 def nifti(record, folder):
     path, (steps, first) = f"{folder}/v.nii", record.steps("ras")
-    affine = np.eye(4)
-    affine[:3, :3], affine[:3, 3] = np.transpose(steps), first
-    values = record.values.transpose()
-    if record.axis("c"):  # stored as t, c, z, y, x: here x, y, z, c, t
-        values = values.transpose(0, 1, 2, 4, 3)
-    image = nibabel.Nifti1Image(np.asfortranarray(values), affine)
-    image.header.set_sform(affine, "scanner")
-    image.header.set_qform(None, 0)
+    values, time = record.values, record.axis("t")
+    header = nibabel.Nifti1Header()
     if record.axis("c"):
-        image.header.set_intent("vector")
-    codes = {"mm": 2, "um": 3, "m": 1, "s": 8, "ms": 16}
-    image.header["xyzt_units"] = codes[record.axis("x").unit] | codes[record.axis("t").unit]
-    image.header["toffset"], image.header["pixdim"][4] = record.axis("t").at[0], record.axis("t").step()
-    image.header["descrip"] = "; ".join(f"{name}: {value}" for name, value in record.attributes.items())
-    image.header.set_slope_inter(record.slope, record.offset)
-    with open(path, "wb") as out:  # nibabel would scale the values
-        header = image.header.copy()
-        header["vox_offset"], header["magic"] = 352, b"n+1"
-        out.write(header.binaryblock + bytes(4) + np.asfortranarray(values).tobytes("F"))
+        values = values.swapaxes(0, 1)  # time is the fourth axis of a file, its components are the fifth
+        header.set_intent("vector")
+    header.set_data_dtype(values.dtype)
+    header.set_data_shape(values.shape[::-1])
+    header.set_sform(np.vstack([np.transpose([*steps, first]), [0, 0, 0, 1]]), "scanner")
+    codes = {"": 0, "mm": 2, "um": 3, "m": 1, "s": 8, "ms": 16}
+    header["xyzt_units"] = codes[record.axis("x").unit] | codes[time.unit]
+    header["toffset"], header["pixdim"][4] = time.at[0], time.step()
+    header["descrip"] = "; ".join(f"{name}: {value}" for name, value in record.attributes.items())
+    header.set_slope_inter(record.slope, record.offset)
+    header["vox_offset"], header["magic"] = 352, b"n+1"
+    with open(path, "wb") as out:
+        out.write(header.binaryblock + bytes(4) + values.tobytes())
     return asked(record, path)
 
 
-META = "MetaIO, tags: "
-
-
-@container("MetaImage", (META + "ElementSpacing is one number an axis", "uneven", "uneven times"),
-           (META + "DistanceUnits is one word, mm, um or cm", "unit by axis", "unit words", "unit degrees",
-            "unit pressure", "time unit", "time dates"),
-           (META + "axes have no names, time is the fourth", "names", "time axis", "components first", "extra axis"),
-           (META + "ElementToIntensityFunctionSlope is for display; one array", "values", "arrays"))
+@container("MetaImage")
 def metaimage(record, folder):
     steps, first = record.steps("lps")
     time, lengths = record.axis("t"), [np.linalg.norm(step) for step in steps]
@@ -525,14 +526,11 @@ def metaimage(record, folder):
     return asked(record, f"{folder}/v.mha")
 
 
-PATIENT = "DICOM PS3.3 C.7.6.2, Image Plane: "
+def decimals(values):
+    return [DSfloat(float(value), auto_format=True) for value in values]
 
 
-@container("DICOM", (PATIENT + "PixelSpacing in mm, of rows and columns", "uneven all", "unit by axis", "unit words",
-            "unit degrees", "unit pressure"),
-           (PATIENT + "places in the patient, axes have no names", "names", "extra axis"),
-           ("DICOM PS3.3 C.7.6.18, Cardiac Synchronization: TriggerTime in ms from the R-peak", "time axis", "time dates"),
-           ("DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image", "values missing", "values valid", "components", "arrays", "remark"))
+@container("DICOM")
 def dicom(record, folder):
     steps, first = record.steps("lps", "mm")
     columns, rows = [np.linalg.norm(step) for step in steps[:2]]
@@ -554,38 +552,28 @@ def dicom(record, folder):
             data.PhotometricInterpretation, data.BitsAllocated, data.BitsStored, data.HighBit = "MONOCHROME2", 16, 16, 15
             data.PixelRepresentation = 1
             data.PixelData = values[t, s].astype("<i2").tobytes()
-            data.PixelSpacing = [pydicom.valuerep.DSfloat(rows), pydicom.valuerep.DSfloat(columns)]
-            data.ImageOrientationPatient = [pydicom.valuerep.DSfloat(v, True) for v in [*(steps[0] / columns), *(steps[1] / rows)]]
-            distance = abs(slow.at[s] - slow.at[0]) * ratio
-            data.ImagePositionPatient = [pydicom.valuerep.DSfloat(v, True) for v in first + distance * along]
-            data.TriggerTime, data.InstanceNumber = pydicom.valuerep.DSfloat(time), t * values.shape[1] + s + 1
+            data.PixelSpacing = decimals([rows, columns])
+            data.ImageOrientationPatient = decimals([*(steps[0] / columns), *(steps[1] / rows)])
+            data.ImagePositionPatient = decimals(first + abs(slow.at[s] - slow.at[0]) * ratio * along)
+            data.TriggerTime, data.InstanceNumber = *decimals([time]), t * values.shape[1] + s + 1
             if record.slope != 1:
                 data.RescaleSlope, data.RescaleIntercept = record.slope, record.offset
             if record.unit:
                 data.Units = record.unit
             if record.fill:
                 data.PixelPaddingValue = int(record.fill["_FillValue"])
-            if record.attributes:
-                data.ImageComments = str(record.attributes)
             data.save_as(f"{folder}/{t}_{s}.dcm", write_like_original=False)
     return asked(record, folder)
 
 
 # ---- Images
-IMAGEJ = "ImageJ, TiffDecoder: "
-
-
-@container("ImageJ TIFF", (IMAGEJ + "spacing and resolution are one number an axis", "uneven", "descending", "direction", "frame"),
-           (IMAGEJ + "planes of x and y in order czt", "order", "names", "time axis", "components last", "extra axis"),
-           (IMAGEJ + "finterval is one number, from 0", "first time", "uneven times", "time dates"),
-           (IMAGEJ + "units are lengths", "unit degrees", "unit pressure"),
-           (IMAGEJ + "one array, no value for none", "arrays", "values fill", "values missing", "values valid",
-            "remark"))
+@container("ImageJ TIFF")
 def imagej(record, folder):
     x, y, z = (record.axis(role) for role in "xyz")
     units = dict(unit=x.unit) if x.unit == y.unit == z.unit else dict(unit=x.unit, yunit=y.unit, zunit=z.unit)
     said = dict(axes="TZYX", spacing=z.step(), finterval=record.axis("t").step(), tunit=record.axis("t").unit,
-                xorigin=-x.at[0] / x.step(), yorigin=-y.at[0] / y.step(), zorigin=-z.at[0] / z.step(), **units)
+                xorigin=-x.at[0] / x.step(), yorigin=-y.at[0] / y.step(), zorigin=-z.at[0] / z.step(), **units,
+                **record.attributes)
     values = record.values
     if record.axis("c"):
         said["axes"], values = "TZCYX", values.transpose(0, 2, 1, 3, 4)
@@ -598,14 +586,7 @@ def imagej(record, folder):
     return [f"{folder}/v.tif", *(["--array", "channel 1"] if record.axis("c") else [])]
 
 
-OME = "OME-XML 2016-06, Pixels: "
-
-
-@container("OME-TIFF", (OME + "PhysicalSize is a positive number an axis", "uneven", "descending", "direction", "frame"),
-           (OME + "DimensionOrder begins with XY", "order", "names", "time axis last", "components last", "extra axis"),
-           (OME + "PhysicalSizeUnit is one of UnitsLength", "unit words", "unit degrees", "unit pressure"),
-           ("OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time", "origin", "time dates"),
-           (OME + "numbers as they are", "values", "arrays", "remark"))
+@container("OME-TIFF")
 def ome_tiff(record, folder):
     roles = "".join(axis.role for axis in record.axes)
     time = record.axis("t")
@@ -625,13 +606,7 @@ def ome_tiff(record, folder):
     return [f"{folder}/v.ome.tif", *(["--array", "c1"] if record.axis("c") else [])]
 
 
-BOV = "VisIt, BOV: "
-
-
-@container("BOV", (BOV + "BRICK_ORIGIN and BRICK_SIZE along x, y, z", "order", "uneven", "descending", "direction",
-                   "frame", "unit", "names", "extra axis"),
-           (BOV + "TIME is a number, a file for each", "time unit", "time dates", "time axis"),
-           (BOV + "one array, as it is", "values", "arrays", "components first"))
+@container("BOV")
 def bov(record, folder):
     space = [record.axis(role) for role in "xyz"]
     files = []

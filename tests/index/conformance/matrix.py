@@ -58,6 +58,11 @@ def few_steps(record):
     """As few as a vector has components."""
 
 
+@statement("no time", sizes=(1, 6, 7, 8))
+def no_time(record):
+    record.axis("t").name = ""
+
+
 @statement("an axis of one", "extra axis")
 def an_axis_of_one(record):
     record.axes.insert(1, Axis("s", "band", np.zeros(1)))
@@ -134,7 +139,7 @@ def frame_lps(record):
 # ---- Names
 def renamed(record, names):
     for role, name in names.items():
-        record.axis(role).name = name
+        record.axis(role).rename(name)
     return record.ordered("txyz")
 
 
@@ -173,17 +178,18 @@ def longer_names(record):
 
 
 # ---- Units that are no lengths
-@statement("degrees and meters", "spacing", "unit degrees")
+@statement("degrees and meters", "spacing", "unit other degrees")
 def degrees_and_meters(record):
     for role, name, unit, standard in (("x", "lon", "degrees_east", "longitude"), ("y", "lat", "degrees_north", "latitude")):
-        record.axis(role).name, record.axis(role).unit = name, "degrees"
+        record.axis(role).rename(name)
+        record.axis(role).unit = "degrees"
         record.axis(role).attributes.update(units=unit, standard_name=standard)
     record.axis("z").unit, record.axis("z").attributes = "m", dict(standard_name="height", positive="up")
     record.axis("z").at = record.axis("z").at * 100
     record.notes, record.upright = ["units differ"], True
 
 
-@statement("roles by units", "order", "unit degrees", "names by attributes")
+@statement("roles by units", "order", "unit other degrees", "names by attributes")
 def roles_by_units(record):
     degrees_and_meters(record)
     renamed(record, dict(x="i", y="j", z="k"))
@@ -191,23 +197,25 @@ def roles_by_units(record):
         record.axis(role).attributes.pop("standard_name")
 
 
-@statement("across Greenwich", "unit degrees")
+@statement("across Greenwich", "unit other degrees")
 def across_greenwich(record):
     degrees_and_meters(record)
     record.axis("x").at = (356 + np.arange(8.0)) % 360
 
 
-@statement("pressure levels", "spacing", "uneven all", "unit pressure")
+@statement("pressure levels", "spacing", "uneven all", "unit other pressure")
 def pressure_levels(record):
     degrees_and_meters(record)
     z = record.axis("z")
-    z.name, z.at, z.unit, z.attributes = "plev", np.array([1000.0, 850, 700, 500, 300, 200]), "hPa", dict(standard_name="air_pressure")
+    z.rename("plev")
+    z.at, z.unit, z.attributes = np.array([1000.0, 850, 700, 500, 300, 200]), "hPa", dict(standard_name="air_pressure")
     record.notes += ["plev.* is not uniform", "plev.* counts downwards"]
 
 
 @statement("depth positive down", "spacing", "origin", "names by attributes")
 def depth(record):
-    record.axis("z").name, record.axis("z").attributes = "depth", dict(positive="down", standard_name="depth")
+    record.axis("z").rename("depth")
+    record.axis("z").attributes = dict(positive="down", standard_name="depth")
     record.notes, record.upright = ["depth.* counts downwards"], True
 
 
@@ -217,7 +225,7 @@ def times(record):
     record.axis("t").at = 3 + 0.5 * np.arange(5)
 
 
-@statement("uneven times", "first time", "uneven times")
+@statement("uneven times", "first time", "times uneven")
 def uneven_times(record):
     record.axis("t").at = np.array([1.0, 2, 6, 6.5, 9])
 
@@ -239,7 +247,8 @@ def time_last(record):
 
 @statement("time of another name", "first time", "names by attributes")
 def time_of_another_name(record):
-    record.axis("t").name, record.axis("t").attributes = "tau", dict(axis="T", standard_name="time")
+    record.axis("t").rename("tau")
+    record.axis("t").attributes = dict(axis="T", standard_name="time")
     record.ordered("ztyx")
 
 
@@ -287,23 +296,23 @@ def packed(record):
     record.slope = 0.5
 
 
-@statement("scale_factor", "values slope")
+@statement("scale_factor", "values scale factor")
 def scale_factor(record):
     packed(record)
 
 
-@statement("scale_factor and add_offset", "values slope", "values offset")
+@statement("scale_factor and add_offset", "values scale factor", "values scale offset")
 def scale_and_offset(record):
     packed(record)
     record.values, record.offset = record.values + np.int16(20), -10
 
 
-@statement("fill value", "values fill")
+@statement("fill value", "values gaps fill")
 def fill_value(record):
     gap(record, "_FillValue", -999)
 
 
-@statement("missing_value", "values missing")
+@statement("missing_value", "values gaps missing")
 def missing_value(record):
     gap(record, "missing_value", 1e20)
 
@@ -314,13 +323,13 @@ def gap(record, name, value):
     record.fill[name] = record.values.dtype.type(value)
 
 
-@statement("fill value of packed", "values slope", "values fill")
+@statement("fill value of packed", "values scale factor", "values gaps fill")
 def fill_packed(record):
     packed(record)
     gap(record, "_FillValue", -999)
 
 
-@statement("valid_range", "values valid")
+@statement("valid_range", "values gaps valid")
 def valid_range(record):
     record.valid = (2, 40)
 
@@ -418,9 +427,9 @@ def compare(record, said, surfaces):
     if said["time_unit"] != meant.time_unit:
         if said["time_unit"] in SECONDS and meant.time_unit in SECONDS:
             got = got * SECONDS[said["time_unit"]] / SECONDS[meant.time_unit]
-        elif not record.dates:
+        elif not record.dates and len(expected) > 1:
             wrong.append(f"time unit {said['time_unit']!r}, expected {meant.time_unit!r}")
-    if len(got) != len(expected) or not np.allclose(got, expected, rtol=1e-6, atol=1e-9):
+    if len(expected) > 1 and not (len(got) == len(expected) and np.allclose(got, expected, rtol=1e-6, atol=1e-9)):
         wrong.append(f"times {of(got)}, expected {of(expected)}")
     if record.dates and [date.replace(" 00:00", "") for date in said["dates"] or []] != record.dates:
         wrong.append(f"dates {said['dates']}, expected {record.dates}")
@@ -467,7 +476,7 @@ def stated(name, container):
         if lacking(lacks, "time unit" if time else "unit"):
             axis.unit = ""
     change(record)
-    record.may = record.may + CONTAINERS[container].may
+    record.may = [*record.may, *CONTAINERS[container].may]
     return record
 
 

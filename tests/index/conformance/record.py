@@ -1,5 +1,6 @@
 """A plain record of what a container can state of an array, and what follows from it by arithmetic alone."""
 import copy
+import dataclasses
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,7 +18,13 @@ class Axis:
     at: np.ndarray
     unit: str = ""
     attributes: dict = field(default_factory=dict)  # of the coordinates, in words of CF
-    variable: str = ""  # what the coordinates are called, if not as the dimension
+    variable: str = ""  # what the coordinates are called
+
+    def __post_init__(self):
+        self.variable = self.variable or self.name
+
+    def rename(self, name):
+        self.name = self.variable = name
 
     def step(self):
         return (self.at[-1] - self.at[0]) / max(len(self.at) - 1, 1)
@@ -58,6 +65,13 @@ class Record:
         self.values = np.ascontiguousarray(self.values.transpose(place))
         self.others = {name: np.ascontiguousarray(values.transpose(place)) for name, values in self.others.items()}
         return self
+
+    def without_unnamed(self):
+        """Without time, where nothing tells it."""
+        told = [axis for axis in self.axes if axis.name]
+        shape = [len(axis.at) for axis in told]
+        return dataclasses.replace(self, axes=told, values=self.values.reshape(shape), others={
+            name: values.reshape(shape) for name, values in self.others.items()})
 
     def flip(self, role):
         """Stored the other way round: the same values at the same places."""
@@ -140,8 +154,8 @@ def meaning(record):
 
 
 def crossings(meant, record, step, isovalue):
-    """Where the surface crosses the edges of the grid: interpolated between their ends, [n][xyz]. An edge counts if some cell at
-    it has all of its eight values."""
+    """Where the surface crosses the edges of the grid: interpolated between their ends, [n][xyz]. An edge counts if some cell
+    at it has all of its eight values."""
     values = meant.values[step]
     whole = np.isfinite(values)
     for axis in range(3):

@@ -23,7 +23,7 @@ LACKS = """
 NetCDF-3, NetCDF-4, Zarr 2 xarray, Zarr 3 dimension_names | direction, frame | CF 1.11, 4: coordinates are along axes, of no body
 NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
 HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
-HDF5 bare | order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
+HDF5 bare | time told, order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
 HDF5 openPMD | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
 HDF5 openPMD | unit by axis, unit other | openPMD 1.1.0, Mesh Based Records: gridUnitSI is one number, to meters
 HDF5 openPMD | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
@@ -34,7 +34,7 @@ HDF5 axistags | uneven, times uneven, first time, origin, descending | vigra, Ax
 HDF5 axistags | unit, time unit, time dates | vigra, AxisInfo: no unit
 HDF5 axistags | names, extra axis | vigra, AxisInfo: keys are x, y, z, t, c
 HDF5 axistags | direction, frame, values, arrays | vigra, AxisInfo: of axes alone
-HDF5 element_size_um | order, names, time axis, extra axis, components first | HDF5 1.14, H5S: dimensions without scales have no names
+HDF5 element_size_um | time told, order, names, time axis, extra axis, components first | HDF5 1.14, H5S: dimensions without scales have no names
 HDF5 element_size_um | origin, interval, first time, times uneven, time unit, time dates, uneven, descending, direction, frame, unit by axis, unit words, unit other, values, arrays | ilastik, Fiji: element_size_um is three numbers
 Zarr resolution, HDF5 resolution | uneven, descending, times uneven, direction, frame, names by attributes, names of variables, unit other, time dates, values | funlib.persistence: resolution, offset, units and axis_names alone
 OME-Zarr 0.4, OME-Zarr 0.5 | uneven, times uneven, direction, frame, unit other pressure | NGFF 0.5, coordinateTransformations: scale and translation alone
@@ -149,8 +149,6 @@ def asked(record, path, array=None):
 
 
 # ---- CF: names of dimensions, coordinates as arrays, attributes
-
-
 def netcdf(kind):
     def write(record, folder):
         path = f"{folder}/v.nc"
@@ -368,7 +366,8 @@ def ome_zarr_5(record, folder):
     path = f"{folder}/v.zarr"
     ome = dict(version="0.5", multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
     save_json(f"{path}/zarr.json", dict(zarr_format=3, node_type="group", attributes=dict(ome=ome)))
-    zarr_3(f"{path}/0", record.values, record.attributes, dimension_names=[axis["name"] for axis in ome["multiscales"][0]["axes"]])
+    names = [axis["name"] for axis in ome["multiscales"][0]["axes"]]
+    zarr_3(f"{path}/0", record.values, record.attributes, dimension_names=names)
     return ome_asked(record, path)
 
 
@@ -577,11 +576,9 @@ def imagej(record, folder):
     values = record.values
     if record.axis("c"):
         said["axes"], values = "TZCYX", values.transpose(0, 2, 1, 3, 4)
-    if record.slope != 1:
-        said.update(cf=0, c0=record.offset - 32768 * record.slope, c1=record.slope)
+    if record.slope != 1 or record.unit:  # integers, calibrated by a straight line
+        said.update(cf=0, c0=record.offset - 32768 * record.slope, c1=record.slope, vunit=record.unit or "Gray Value")
         values = (values.astype("i4") + 32768).astype("u2")
-    if record.unit:
-        said["vunit"] = record.unit
     tifffile.imwrite(f"{folder}/v.tif", values, imagej=True, resolution=(1 / x.step(), 1 / y.step()), metadata=said)
     return [f"{folder}/v.tif", *(["--array", "channel 1"] if record.axis("c") else [])]
 

@@ -2,10 +2,9 @@
 
     matrix.py PROGRAM [--only CONTAINER,...] [--rows STATEMENT,...] [--keep FOLDER]
 
-prints the table, statements by containers: a cell is `same`, or `-` where the container has no way to say it (why not: at the
-container, in containers.py, with the place in its specification); anything else fails. A statement is a function that changes
-the plain record of record.py; a container is a function that writes a record. What is expected follows from the record by
-numpy.
+prints the table, statements by containers: `=` the same, `-` the container has no way to say it (LACKS in containers.py has the
+place in its specification), `X` anything else, which fails. A new row is a function here that changes the plain record of
+record.py; a new column is a function in containers.py that writes a record. What is expected follows from the record by numpy.
 """
 import argparse
 import copy
@@ -20,7 +19,7 @@ import unittest
 
 import numpy as np
 
-from containers import CONTAINERS
+from containers import CONTAINERS, LACKS
 from record import METERS, SECONDS, Axis, crossings, meaning, plain
 
 ISOVALUES = (6.5, 14.25)
@@ -53,7 +52,7 @@ def order_yxz(record):
     record.ordered("tyxz")
 
 
-@statement("few steps", "order", sizes=(3, 4, 5, 6))
+@statement("few steps", "time told", sizes=(3, 4, 5, 6))
 def few_steps(record):
     """As few as a vector has components."""
 
@@ -393,57 +392,57 @@ def of(numbers):
     return " ".join(f"{number:.5g}" for number in np.ravel(numbers))
 
 
-def compare(record, said, surfaces):
-    """@return what is wrong, in words."""
-    meant, wrong = meaning(record), []
-    # Units: numbers of one kind may be given in another unit of that kind.
-    ratio = 1
-    if said["length_unit"] != meant.length_unit:
-        if said["length_unit"] in METERS and meant.length_unit in METERS:
-            ratio = METERS[said["length_unit"]] / METERS[meant.length_unit]
-        else:
-            wrong.append(f"length unit {said['length_unit']!r}, expected {meant.length_unit!r}")
+def in_unit(numbers, unit, wanted, table, kind, wrong):
+    """In the unit that is expected: numbers of one kind may be given in another unit of that kind."""
+    if unit == wanted:
+        return numbers
+    if unit in table and wanted in table:
+        return numbers * (table[unit] / table[wanted])
+    wrong.append(f"{kind} unit {unit!r}, expected {wanted!r}")
+    return numbers
+
+
+def same_places(got, expected, size):
+    if len(got) != len(expected) or not len(got):
+        return len(got) == len(expected)
+    distances = np.linalg.norm(got[:, None] - expected[None], axis=-1)
+    return max(distances.min(0).max(), distances.min(1).max()) < 1e-5 * size
+
+
+def extent(points):
+    return f"{len(points)} vertices from {of(points.min(0))} to {of(points.max(0))}" if len(points) else "no vertices"
+
+
+def compare_surfaces(record, meant, said, surfaces, wrong):
     if len(surfaces) != len(meant.times):
         wrong.append(f"{len(surfaces)} steps, expected {len(meant.times)}")
-    turn = np.diag([-1, -1, 1]) if record.frame and said["anatomy"] == {"ras": "lps", "lps": "ras"}[record.frame] else np.eye(3)
-    for step, (parts, _) in enumerate(zip(surfaces, meant.times)):
-        for isovalue, got in zip(ISOVALUES, parts):
-            expected, got = crossings(meant, record, step, isovalue), got @ turn * ratio
-            size = max(float(np.ptp(place)) for place in meant.places)
-            if len(got) and len(expected):
-                distances = np.linalg.norm(got[:, None] - expected[None], axis=-1)
-                off = max(distances.min(0).max(), distances.min(1).max())
-            else:
-                off = np.inf if len(got) != len(expected) else 0
-            if len(got) == len(expected) and off < 1e-5 * size:
-                continue
-            extents = [f"{of(part.min(0))} to {of(part.max(0))}" if len(part) else "none" for part in (got, expected)]
-            wrong.append(f"step {step}: {len(got)} vertices from {extents[0]}, expected {len(expected)} from {extents[1]}")
-            break
-        else:
-            continue
-        break
-    got, expected = np.array(said["times"]), meant.times
-    if said["time_unit"] != meant.time_unit:
-        if said["time_unit"] in SECONDS and meant.time_unit in SECONDS:
-            got = got * SECONDS[said["time_unit"]] / SECONDS[meant.time_unit]
-        elif not record.dates and len(expected) > 1:
-            wrong.append(f"time unit {said['time_unit']!r}, expected {meant.time_unit!r}")
-    if len(expected) > 1 and not (len(got) == len(expected) and np.allclose(got, expected, rtol=1e-6, atol=1e-9)):
-        wrong.append(f"times {of(got)}, expected {of(expected)}")
-    if record.dates and [date.replace(" 00:00", "") for date in said["dates"] or []] != record.dates:
-        wrong.append(f"dates {said['dates']}, expected {record.dates}")
-    if said["value_unit"] != record.unit:
-        wrong.append(f"unit {said['value_unit']!r}, expected {record.unit!r}")
-    if said["nan_values"] != np.isnan(meant.values).sum():
-        wrong.append(f"{said['nan_values']} missing values, expected {np.isnan(meant.values).sum()}")
-    ends = [np.nanmin(meant.values), np.nanmax(meant.values)]
-    if not np.allclose([said["low"], said["high"]], ends):
-        wrong.append(f"values from {of([said['low'], said['high']])}, expected {of(ends)}")
-    if record.upright and said["anatomy"] != "enu":
-        wrong.append("nothing says which way is up")
-    if record.frame and said["anatomy"] == "none":
-        wrong.append(f"no anatomy, expected {record.frame}")
+    turned = record.frame and said["anatomy"] not in ("none", record.frame)
+    turn = np.diag([-1, -1, 1]) if turned else np.eye(3)
+    size = max(float(np.ptp(place)) for place in meant.places)
+    ratio = in_unit(1, said["length_unit"], meant.length_unit, METERS, "length", wrong)
+    for step, parts in enumerate(surfaces[:len(meant.times)]):
+        for isovalue, part in zip(ISOVALUES, parts):
+            got, expected = part @ turn * ratio, crossings(meant, record, step, isovalue)
+            if not same_places(got, expected, size):
+                wrong.append(f"step {step}: {extent(got)}, expected {extent(expected)}")
+                return
+
+
+def compare_times(record, meant, said, wrong):
+    if len(meant.times) == 1:
+        return
+    got = np.array(said["times"])
+    if record.dates:
+        dates = [date.replace(" 00:00", "") for date in said["dates"] or []]
+        if dates != record.dates:
+            wrong.append(f"dates {', '.join(dates) or 'none'}, expected {', '.join(record.dates)}")
+    else:
+        got = in_unit(got, said["time_unit"], meant.time_unit, SECONDS, "time", wrong)
+    if len(got) != len(meant.times) or not np.allclose(got, meant.times, rtol=1e-6, atol=1e-9):
+        wrong.append(f"times {of(got)}, expected {of(meant.times)}")
+
+
+def compare_notes(record, said, wrong):
     left = list(said["notes"])
     for pattern in record.notes:
         found = next((note for note in left if re.search(pattern, note)), None)
@@ -452,6 +451,25 @@ def compare(record, said, surfaces):
         else:
             left.remove(found)
     wrong += [f"note {note!r}" for note in left if not any(re.search(pattern, note) for pattern in record.may)]
+
+
+def compare(record, said, surfaces):
+    """@return what is wrong, in words."""
+    meant, wrong = meaning(record), []
+    compare_surfaces(record, meant, said, surfaces, wrong)
+    compare_times(record, meant, said, wrong)
+    gaps, ends = np.isnan(meant.values).sum(), [np.nanmin(meant.values), np.nanmax(meant.values)]
+    if said["value_unit"] != record.unit:
+        wrong.append(f"unit {said['value_unit']!r}, expected {record.unit!r}")
+    if said["nan_values"] != gaps:
+        wrong.append(f"{said['nan_values']} missing values, expected {gaps}")
+    if not np.allclose([said["low"], said["high"]], ends):
+        wrong.append(f"values from {of([said['low'], said['high']])}, expected {of(ends)}")
+    if record.upright and said["anatomy"] != "enu":
+        wrong.append("nothing says which way is up")
+    if record.frame and said["anatomy"] == "none":
+        wrong.append(f"no anatomy, expected {record.frame}")
+    compare_notes(record, said, wrong)
     return wrong
 
 
@@ -527,6 +545,8 @@ class Matrix(unittest.TestCase):
     """A test for each container."""
 
     def test_what_a_container_lacks_some_statement_needs(self):
+        named = {name for row in LACKS.strip().splitlines() for name in row.split(" | ")[0].split(", ")}
+        self.assertLessEqual(named, set(CONTAINERS))
         needs = [need for _, needs, _ in STATEMENTS.values() for need in needs] + ["spacing", "interval", "unit"]
         for name, container in CONTAINERS.items():
             for lack in container.lacks:

@@ -97,36 +97,12 @@ for i in range(3):
         f.attrs["time"] = i * 2.0
 expect([f"run_{i}.h5" for i in range(3)], steps, times=[0, 2, 4])
 
-# Positions: dimension scales, datasets beside it, attributes.
+# Positions by attributes.
 values = field(3, 4, 5)
-with h5py.File(path("scales.h5"), "w") as f:
-    f["rho"] = values
-    for i, (name, at) in enumerate([("lev", [1, 2, 3]), ("lat", [0, 2, 4, 6]), ("lon", [5, 5.5, 6, 6.5, 7])]):
-        f[name] = np.array(at, dtype="f8")
-        f[name].make_scale(name)
-        f["rho"].dims[i].attach_scale(f[name])
-expect("scales.h5", values, spacing=(0.5, 2, 1), origin=(5, 0, 1))
-with h5py.File(path("beside.h5"), "w") as f:
-    f["out/rho"] = values
-    f["x"], f["y"], f["z"] = np.linspace(0, 1, 5), np.linspace(-1, 1, 4), np.linspace(2, 8, 3)
-expect("beside.h5", values, spacing=(0.25, 2 / 3, 3), origin=(0, -1, 2))
-with h5py.File(path("um.h5"), "w") as f:
-    f["exported_data"] = values
-    f["exported_data"].attrs["element_size_um"] = [2.0, 0.5, 0.25]
-expect("um.h5", values, spacing=(0.25, 0.5, 2))
 with h5py.File(path("dx.h5"), "w") as f:
     f["rho"] = values
     f.attrs["dx"], f.attrs["dy"], f.attrs["dz"] = 0.1, 0.2, 0.3
 expect("dx.h5", values, spacing=(0.1, 0.2, 0.3))
-gaps = field(3, 4, 5)
-with h5py.File(path("gaps.h5"), "w") as f:
-    gaps[1, 2, 3] = -999
-    f["rho"], f["n"] = gaps, np.arange(60, dtype="i2").reshape(3, 4, 5)
-    f["rho"].attrs["_FillValue"], f["n"].attrs["_FillValue"] = np.float32(-999), np.int16(7)
-    f["n"].attrs["scale_factor"], f["n"].attrs["add_offset"] = 0.5, 10.0
-expect("gaps.h5", np.where(gaps == -999, np.nan, gaps), array="rho")
-numbers = np.arange(60.0).reshape(3, 4, 5)
-expect("gaps.h5", np.where(numbers == 7, np.nan, numbers * 0.5 + 10), array="n")
 
 # VTKHDF: image data, of one step and of several.
 points, vectors, cells = field(3, 4, 5), field(3, 4, 5, 3), field(2, 3, 4)

@@ -45,18 +45,6 @@ for name, how in (("deflated", dict(zlib=True, shuffle=True)), ("chunked", dict(
     with new(f"{name}.nc") as file:
         add(file, moving, **how)
     expect(f"{name}.nc", moving, times=[0, 1, 2.5], **where)
-with new("packed.nc") as file:
-    packed = file.createVariable("rho", "i2", ("time", "z", "y", "x"))
-    packed.scale_factor, packed.add_offset = 0.25, -3.0
-    packed.set_auto_maskandscale(False)
-    stored = field(3, 4, 5, 6, dtype="i2") // 2
-    packed[:] = stored
-expect("packed.nc", stored * 0.25 - 3.0, times=[0, 1, 2.5], **where)
-with new("missing.nc") as file:
-    holes = np.ma.masked_array(moving, mask=np.random.default_rng(1).random(moving.shape) < 0.2)
-    add(file, holes, fill_value=np.float32(1e20))
-with netCDF4.Dataset(path("missing.nc")) as file:
-    expect("missing.nc", np.ma.filled(file["rho"][:].astype("f8"), np.nan), times=[0, 1, 2.5], **where)
 with new("group.nc") as file:
     add(file.createGroup("run"), moving, "p")
     add(file, -moving, "rho")

@@ -173,31 +173,6 @@ for name in ["ome4.zarr", "ome5.zarr"]:
     refuse(name, "choose one with --array: dapi (u16), gfp (u16)")
     expect(name, image[:, 1], array="gfp", **where)
 
-# As xarray writes it: coordinates beside the array, packed values, the fill value for missing ones.
-packed, moving = field(2, 3, 4, 5, dtype="i2"), field(2, 3, 4, 5)
-packed[0, 1, 2, 3], moving[1, 1, 1, 1], moving[0, 0, 0, 0] = -999, np.nan, 1e20
-for name in ("xarray.zarr", "stretched.zarr"):
-    places = dict(time=[0.0, 6], z=[0.0, 10, 20], y=[5.0, 4, 3, 2], x=[0.0, 0.5, 1, 1.5, 2])
-    if name == "stretched.zarr":
-        places["x"] = [0.0, 1, 3, 6, 10]
-    group_of(name)
-    group_of(f"{name}/out")
-    for short, data, fill in (("t", packed, -999), ("u", moving, 1e20)):
-        attributes = dict(_ARRAY_DIMENSIONS=list(places))
-        if short == "t":
-            attributes.update(scale_factor=0.5, add_offset=10.0)
-        save(f"{name}/out/{short}", data, (1, 3, 4, 5), fill_value=fill).attrs.update(attributes)
-    for axis, at in places.items():
-        save(f"{name}/out/{axis}", np.array(at), fill_value=None).attrs.update(
-            _ARRAY_DIMENSIONS=[axis], units="hours" if axis == "time" else "m")
-    zarr.consolidate_metadata(path(name))
-    x = places["x"]
-    where = dict(times=[0, 6], spacing=(x[-1] / 4, 1, 10), origin=(0, 5, 0), direction=[[1, 0, 0], [0, -1, 0], [0, 0, 1]],
-                 positions=[x, places["y"], places["z"]])
-    expect(name, np.where(packed == -999, np.nan, packed * 0.5 + 10), array="out/t", **where)
-    expect(name, np.where(moving == np.float32(1e20), np.nan, moving), array="out/u", **where)
-refuse("xarray.zarr", "out/t (i16, 2 x 3 x 4 x 5), out/u (f32, 2 x 3 x 4 x 5)")
-
 # Damage: in what describes, and in chunks.
 for name, key, text, message in [
         ("bad_json", ".zarray", b"{", "is no JSON object"), ("bad_shape", ".zarray", dict(zarr_format=2), "damaged description"),

@@ -47,55 +47,6 @@ void put_landmark(NetcdfWriter& out, const std::vector<std::string>& dimensions,
     out.put("v", values);
 }
 
-TEST(NetcdfAxes, LieWhereTheirNamesSayInEveryOrder) {
-    TestFolder folder;
-    std::vector<std::string> order{"x", "y", "z"};
-    do {
-        NetcdfWriter out(folder.path() / "order.nc", NC_CLASSIC_MODEL);
-        out.axis("x", kX, "m");
-        out.axis("y", kY, "m");
-        out.axis("z", kZ, "m");
-        put_landmark(out, order, false);
-        EXPECT_EQ(brightest(out.done()), glm::dvec3(16, 23, 38))
-            << order[0] << order[1] << order[2];
-    } while (std::ranges::next_permutation(order).found);
-}
-
-TEST(NetcdfAxes, AreToldApartByTheirAttributes) {
-    TestFolder folder;
-    using Tell = void (*)(NetcdfWriter&);
-    const Tell tells[]{
-        [](NetcdfWriter& out) {
-            out.text("ax", "axis", "X");
-            out.text("ay", "axis", "Y");
-            out.text("az", "axis", "Z");
-        },
-        [](NetcdfWriter& out) {
-            out.text("ax", "standard_name", "projection_x_coordinate");
-            out.text("ay", "standard_name", "projection_y_coordinate");
-            out.text("az", "standard_name", "height_above_reference_ellipsoid");
-        },
-        [](NetcdfWriter& out) {
-            out.text("az", "positive", "up");
-            out.text("ax", "axis", "x");
-        },
-    };
-    for (const Tell tell : tells)
-        for (const std::vector<std::string>& order :
-             {std::vector<std::string>{"ax", "ay", "az"}, {"az", "ay", "ax"}, {"ay", "az", "ax"}}) {
-            NetcdfWriter out(folder.path() / "told.nc", NC_NETCDF4);
-            out.axis("ax", kX, "m");
-            out.axis("ay", kY, "meters");
-            out.axis("az", kZ, "metres");
-            tell(out);
-            put_landmark(out, order, false);
-            const auto file = out.done();
-            EXPECT_EQ(brightest(file), glm::dvec3(16, 23, 38)) << order[0];
-            EXPECT_EQ(open_series({file})->info().anatomy, Anatomy::enu);
-            EXPECT_EQ(open_series({file})->info().length_unit, "m");
-        }
-}
-
 TEST(NetcdfAxes, WithoutNamesAreInTheOrderOfStorage) {
     TestFolder folder;
     NetcdfWriter out(folder.path() / "plain.nc", NC_NETCDF4);
@@ -110,70 +61,6 @@ TEST(NetcdfAxes, WithoutNamesAreInTheOrderOfStorage) {
     EXPECT_EQ(series->info().times, (std::vector<double>{0, 1}));
     EXPECT_EQ(series->info().anatomy, Anatomy::none);
     EXPECT_THAT(series->info().notes, IsEmpty());
-}
-
-TEST(NetcdfAxes, MayBePacked) {
-    TestFolder folder;
-    NetcdfWriter out(folder.path() / "packed.nc", NC_CLASSIC_MODEL);
-    out.axis("x", kX, "m");
-    out.axis("y", kY, "m");
-    out.dimension("z", 3);
-    out.variable("z", NC_SHORT, {"z"});
-    out.text("z", "units", "m");
-    out.number<float>("z", "scale_factor", {0.5f});
-    out.number<float>("z", "add_offset", {10});
-    out.put("z", std::vector<std::int16_t>{40, 48, 56});
-    put_landmark(out, {"z", "y", "x"}, false);
-    EXPECT_EQ(brightest(out.done()), glm::dvec3(16, 23, 38));
-}
-
-TEST(NetcdfAxes, MayDescend) {
-    TestFolder folder;
-    NetcdfWriter out(folder.path() / "down.nc", NC_CLASSIC_MODEL);
-    out.axis("x", {18, 16, 14, 12, 10}, "km");
-    out.axis("y", {29, 26, 23, 20}, "km");
-    out.axis("z", kZ, "km");
-    put_landmark(out, {"z", "y", "x"}, false);
-    const auto file = out.done();
-    EXPECT_EQ(brightest(file), glm::dvec3(12, 26, 38));
-    const Grid grid = open_series({file})->info().grid;
-    EXPECT_EQ(grid.spacing, glm::dvec3(2, 3, 4));
-    EXPECT_EQ(grid.direction, glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1));
-}
-
-TEST(NetcdfAxes, ThatCountDownwardsAreTurned) {
-    TestFolder folder;
-    for (const bool pressure : {false, true}) {
-        NetcdfWriter out(folder.path() / "depth.nc", NC_CLASSIC_MODEL);
-        out.axis("x", kX, "m");
-        out.axis("y", kY, "m");
-        out.axis("depth", kZ, pressure ? "hPa" : "m");
-        if (!pressure)
-            out.text("depth", "positive", "down");
-        out.variable("v", NC_FLOAT, {"depth", "y", "x"});
-        std::vector<float> values(60);
-        values[(2 * 4 + 1) * 5 + 3] = 1;
-        out.put("v", values);
-        const auto file = out.done();
-        EXPECT_EQ(brightest(file), glm::dvec3(16, 23, -38));
-        EXPECT_THAT(
-            open_series({file})->info().notes,
-            testing::Contains("z (depth) counts downwards and is shown with its sign reversed"));
-    }
-}
-
-TEST(NetcdfAxes, OfLengthsAreInTheUnitOfX) {
-    TestFolder folder;
-    NetcdfWriter out(folder.path() / "units.nc", NC_CLASSIC_MODEL);
-    out.axis("x", kX, "km");
-    out.axis("y", kY, "kilometers");
-    out.axis("z", {3000, 3400, 3800}, "m");
-    put_landmark(out, {"z", "y", "x"}, false);
-    const auto series = open_series({out.done()});
-    EXPECT_EQ(series->info().length_unit, "km");
-    EXPECT_THAT(series->info().notes, IsEmpty());
-    EXPECT_NEAR(series->info().grid.spacing.z, 0.4, 1e-12);
-    EXPECT_NEAR(series->info().grid.origin.z, 3, 1e-12);
 }
 
 TEST(NetcdfAxes, InOtherUnitsAreBroughtInProportionByAPowerOfTen) {
@@ -237,18 +124,6 @@ TEST(NetcdfAxes, OfOneSeriesMayDifferByRounding) {
                 HasSubstr("t2.nc: other positions of vertices along axis 0 than"));
 }
 
-TEST(NetcdfAxes, OfLongitudesMayPassGreenwich) {
-    TestFolder folder;
-    NetcdfWriter out(folder.path() / "wrap.nc", NC_CLASSIC_MODEL);
-    out.axis("x", {356, 358, 0, 2, 4}, "degrees_east");
-    out.axis("y", kY, "degrees_north");
-    out.axis("z", kZ, "degrees");
-    put_landmark(out, {"z", "y", "x"}, false);
-    const auto series = open_series({out.done()});
-    EXPECT_EQ(series->info().grid.spacing.x, 2);
-    EXPECT_THAT(series->info().notes, IsEmpty());
-}
-
 TEST(NetcdfAxes, ThatGoToAndFroAreRefusedUnlessTheSpacingIsGiven) {
     TestFolder folder;
     for (const double second : {10.0, 9.0, std::nan("")}) {
@@ -268,35 +143,6 @@ TEST(NetcdfAxes, ThatGoToAndFroAreRefusedUnlessTheSpacingIsGiven) {
         options.spacing = glm::dvec3(1);
         EXPECT_EQ(open_series({file}, options)->info().grid.spacing, glm::dvec3(1));
     }
-}
-
-TEST(NetcdfAxes, OfLengthOneCountForNothing) {
-    TestFolder folder;
-    NetcdfWriter out(folder.path() / "member.nc", NC_NETCDF4);
-    out.dimension("member", 1);
-    out.dimension("time", 2);
-    out.axis("x", kX, "m");
-    out.axis("y", kY, "m");
-    out.axis("z", kZ, "m");
-    out.variable("v", NC_FLOAT, {"time", "member", "z", "y", "x"});
-    out.put("v", ramp<float>(120));
-    const auto series = open_series({out.done()});
-    EXPECT_EQ(values_of<float>(*series, 1), ramp<float>(60, 60));
-}
-
-TEST(NetcdfTimes, MayBeAnyDimension) {
-    TestFolder folder;
-    NetcdfWriter out(folder.path() / "inner.nc", NC_NETCDF4);
-    for (const char* name : {"z", "y", "x"})
-        out.dimension(name, 2);
-    out.axis("month", {3, 4, 5}, "days since 2000-01-01");
-    out.text("month", "calendar", "360_day");
-    out.variable("v", NC_SHORT, {"z", "y", "x", "month"});
-    out.put("v", ramp<std::int16_t>(24));
-    const auto series = open_series({out.done()});
-    EXPECT_EQ(series->info().times, (std::vector<double>{3, 4, 5}));
-    EXPECT_EQ(series->info().time_unit, "days since 2000-01-01 (360_day)");
-    EXPECT_THAT(values_of<std::int16_t>(*series, 1), ElementsAre(1, 4, 7, 10, 13, 16, 19, 22));
 }
 
 std::filesystem::path at_times(const TestFolder& folder, const char* name,

@@ -178,22 +178,6 @@ TEST(MissingValues, IncludeWhatWasNeverWritten) {
     }
 }
 
-TEST(MissingValues, MakePackedIntegersF32AndStayPacked) {
-    TestFolder folder;
-    Field field(folder, NC_CLASSIC_MODEL, NC_SHORT, 1);
-    field.out().number<float>("v", "scale_factor", {0.25f});
-    field.out().number<std::int16_t>("v", "_FillValue", {-32768});
-    auto values = ramp<std::int16_t>(kVertices, 32740);
-    values[4] = -32768;
-    const auto series = field.with(values);
-    EXPECT_EQ(series->info().scaling, (Scaling{0.25, 0}));
-    EXPECT_THAT(series->info().notes,
-                ElementsAre("i16 values converted to f32, missing ones to NaN"));
-    const auto read = values_of<float>(*series, 0);
-    EXPECT_THAT(gaps_in(read), ElementsAre(4));
-    EXPECT_EQ(read[23], 32763);
-}
-
 TEST(MissingValues, OfWideIntegersNeedNoExactF64) {
     TestFolder folder;
     Field field(folder, NC_NETCDF4, NC_INT64, 1);

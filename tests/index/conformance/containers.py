@@ -1,0 +1,620 @@
+"""Writes a plain record (record.py) in each container. A writer makes files in a folder and gives the arguments that open them.
+`lacks`: what the container has no way to say, with the place in its specification that shows it."""
+import json
+import os
+from dataclasses import dataclass
+
+import h5py
+import netCDF4
+import nibabel
+import numpy as np
+import pydicom
+import tifffile
+import zarr
+from pydicom.dataset import FileDataset, FileMetaDataset
+from pydicom.valuerep import DSfloat
+
+from record import METERS
+
+CONTAINERS = {}
+
+# Containers | what they have no way to say, in the words of the statements' needs | the place in the specification that shows it
+LACKS = """
+NetCDF-3, NetCDF-4, Zarr 2 xarray, Zarr 3 dimension_names | direction, frame | CF 1.11, 4: coordinates are along axes, of no body
+NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
+HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
+HDF5 bare | time told, order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
+HDF5 openPMD | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
+HDF5 openPMD | unit by axis, unit other | openPMD 1.1.0, Mesh Based Records: gridUnitSI is one number, to meters
+HDF5 openPMD | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
+HDF5 openPMD | time axis, time dates | openPMD 1.1.0, iterations: time is a group for each, a number in seconds
+HDF5 openPMD | values scale offset, values unit, values gaps, unit words | openPMD 1.1.0, records: unitSI alone
+HDF5 openPMD | components last | openPMD 1.1.0, vector records: a dataset for each component
+HDF5 axistags | uneven, times uneven, first time, origin, descending | vigra, AxisInfo: one resolution
+HDF5 axistags | unit, time unit, time dates | vigra, AxisInfo: no unit
+HDF5 axistags | names, extra axis | vigra, AxisInfo: keys are x, y, z, t, c
+HDF5 axistags | direction, frame, values, arrays | vigra, AxisInfo: of axes alone
+HDF5 element_size_um | time told, order, names, time axis, extra axis, components first | HDF5 1.14, H5S: dimensions without scales have no names
+HDF5 element_size_um | origin, interval, first time, times uneven, time unit, time dates, uneven, descending, direction, frame, unit by axis, unit words, unit other, values, arrays | ilastik, Fiji: element_size_um is three numbers
+Zarr resolution, HDF5 resolution | uneven, descending, times uneven, direction, frame, names by attributes, names of variables, unit other, time dates, values | funlib.persistence: resolution, offset, units and axis_names alone
+OME-Zarr 0.4, OME-Zarr 0.5 | uneven, times uneven, direction, frame, unit other pressure | NGFF 0.5, coordinateTransformations: scale and translation alone
+OME-Zarr 0.4, OME-Zarr 0.5 | time axis, components last | NGFF 0.5, axes: time comes first, then channels, then space
+OME-Zarr 0.4, OME-Zarr 0.5 | unit words, names by attributes, names of variables, unit other degrees, time dates | NGFF 0.5, axes: name, type, unit of a list
+OME-Zarr 0.4, OME-Zarr 0.5 | values, arrays | NGFF 0.5, multiscales: one image of numbers as they are
+XDMF | order, names, time axis, extra axis | XDMF 3, Topology: Dimensions are z, y, x
+XDMF | unit, direction, frame | XDMF 3, Geometry: no units, of no body
+XDMF | time unit, time dates | XDMF 3, Time: a number
+XDMF | values, components first | XDMF 3, Attribute: Name, AttributeType, Center
+VTK .vti, VTK .vtr, VTKHDF | unit, frame | VTK file formats: no units of length, of no body
+VTK .vti, VTK .vtr, VTKHDF | time axis, time unit, time dates | VTK file formats: a file for each entry of .pvd, timestep is a number
+VTK .vti, VTK .vtr, VTKHDF | names, extra axis | VTK file formats: axes are x, y, z
+VTK .vti, VTK .vtr, VTKHDF | values scale, values gaps, components first | VTK file formats, DataArray: values as they are
+VTK .vti, VTKHDF | uneven | VTK file formats, ImageData: Origin, Spacing, Direction
+VTK .vtr | order, direction, descending | VTK file formats, RectilinearGrid: ascending x, y, z
+NRRD | uneven, times uneven | NRRD 5, section 5, per-axis fields: one number an axis
+NRRD | time dates | NRRD 5, section 5, per-axis fields: units are words of no calendar
+NRRD | names, unit other, extra axis | NRRD 5, section 5, per-axis fields: labels are for people
+NRRD | values scale, values gaps, arrays | NRRD 5, section 4, basic fields: one array, as it is
+NIfTI-1 | uneven, times uneven | nifti1.h, pixdim and srow: one number an axis
+NIfTI-1 | time axis, components last, extra axis | nifti1.h, dim: x, y, z, t, then components
+NIfTI-1 | unit by axis, unit words, unit other, time dates | nifti1.h, xyzt_units: one unit of length, seconds and their parts
+NIfTI-1 | names | nifti1.h, qform and sform: places are RAS, axes have no names
+NIfTI-1 | values gaps, values unit, arrays | nifti1.h: one array of numbers
+MetaImage | uneven, times uneven | MetaIO, tags: ElementSpacing is one number an axis
+MetaImage | unit by axis, unit words, unit other, time unit, time dates | MetaIO, tags: DistanceUnits is one word, mm, um or cm
+MetaImage | names, time axis, components first, extra axis | MetaIO, tags: axes have no names, time is the fourth
+MetaImage | values, arrays | MetaIO, tags: ElementToIntensityFunctionSlope is for display; one array
+DICOM | uneven all, unit by axis, unit words, unit other | DICOM PS3.3 C.7.6.2, Image Plane: PixelSpacing in mm, of rows and columns
+DICOM | names, extra axis | DICOM PS3.3 C.7.6.2, Image Plane: places in the patient, axes have no names
+DICOM | time axis, time dates | DICOM PS3.3 C.7.6.18, Cardiac Synchronization: TriggerTime in ms from the R-peak
+DICOM | values gaps missing, values gaps valid, components, arrays, remark | DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image
+ImageJ TIFF | uneven, descending, direction, frame | ImageJ, TiffDecoder: spacing and resolution are one number an axis
+ImageJ TIFF | order, names, time axis, components last, extra axis | ImageJ, TiffDecoder: planes of x and y in order czt
+ImageJ TIFF | first time, times uneven, time dates | ImageJ, TiffDecoder: finterval is one number, from 0
+ImageJ TIFF | unit other | ImageJ, TiffDecoder: units are lengths
+ImageJ TIFF | arrays, values gaps | ImageJ, TiffDecoder: one array, no value for none
+OME-TIFF | uneven, descending, direction, frame | OME-XML 2016-06, Pixels: PhysicalSize is a positive number an axis
+OME-TIFF | order, names, time axis last, components last, extra axis | OME-XML 2016-06, Pixels: DimensionOrder begins with XY
+OME-TIFF | unit words, unit other | OME-XML 2016-06, Pixels: PhysicalSizeUnit is one of UnitsLength
+OME-TIFF | origin, time dates | OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time
+OME-TIFF | values, arrays, remark | OME-XML 2016-06, Pixels: numbers as they are
+BOV | order, uneven, descending, direction, frame, unit, names, extra axis | VisIt, BOV: BRICK_ORIGIN and BRICK_SIZE along x, y, z
+BOV | time unit, time dates, time axis | VisIt, BOV: TIME is a number, a file for each
+BOV | values, arrays, components first | VisIt, BOV: one array, as it is
+"""
+
+
+@dataclass
+class Container:
+    write: object
+    may: tuple  # patterns of notes that any file of this kind may have
+    lacks: dict  # what it cannot say, and the place in the specification
+
+
+def container(name, may=(), by_axis=False):
+    """by_axis: it states axes one by one, and may leave out time."""
+
+    def add(write):
+        def write_axes(record, folder):
+            return write(record.without_unnamed() if by_axis else record, folder)
+
+        rows = [row.split(" | ") for row in LACKS.strip().splitlines()]
+        CONTAINERS[name] = Container(write_axes, may, {need: place for containers, needs, place in rows
+                                                       if name in containers.split(", ") for need in needs.split(", ")})
+        return write
+
+    return add
+
+
+def attributes_of(axis):
+    """As CF has them."""
+    return dict({"units": axis.unit} if axis.unit else {}, **axis.attributes)
+
+
+def coordinates(axis):
+    """As they are stored: packed, if the attributes say so."""
+    if "scale_factor" not in axis.attributes:
+        return np.asarray(axis.at, "f8")
+    return np.round((axis.at - axis.attributes["add_offset"]) / axis.attributes["scale_factor"]).astype("i2")
+
+
+def attributes_of_values(record):
+    said = dict(record.attributes)
+    if record.valid:
+        said["valid_range"] = np.array(record.valid, record.values.dtype)
+    if record.unit:
+        said["units"] = record.unit
+    if record.slope != 1:
+        said["scale_factor"] = record.slope
+    if record.offset:
+        said["add_offset"] = float(record.offset)
+    if any(axis.variable != axis.name for axis in measured(record)):
+        said["coordinates"] = " ".join(axis.variable for axis in record.axes if axis.variable != axis.name)
+    return said
+
+
+def measured(record):
+    """The axes that have coordinates."""
+    return [axis for axis in record.axes if axis.role != "c"]
+
+
+def arrays_of(record):
+    return {record.name: record.values, **record.others}
+
+
+def asked(record, path, array=None):
+    """The arguments that open it."""
+    more = ["--array", array or record.name] if record.others or array else []
+    return [path, *more, *(["--component", record.component] if record.axis("c") else [])]
+
+
+# ---- CF: names of dimensions, coordinates as arrays, attributes
+def netcdf(kind):
+    def write(record, folder):
+        path = f"{folder}/v.nc"
+        with netCDF4.Dataset(path, "w", format=kind) as file:
+            for axis in record.axes:
+                file.createDimension(axis.name, len(axis.at))
+                stored = coordinates(axis)
+                variable = file.createVariable(axis.variable, stored.dtype, (axis.name,))
+                variable.set_auto_maskandscale(False)
+                variable[:] = stored
+                variable.setncatts(attributes_of(axis))
+            for name, values in arrays_of(record).items():
+                variable = file.createVariable(name, values.dtype, [axis.name for axis in record.axes],
+                                               fill_value=record.fill.get("_FillValue"))
+                variable.set_auto_maskandscale(False)
+                variable[:] = values
+                variable.setncatts(attributes_of_values(record))
+                variable.setncatts({name: value for name, value in record.fill.items() if name != "_FillValue"})
+        return asked(record, path)
+
+    return write
+
+
+container("NetCDF-3", by_axis=True)(netcdf("NETCDF3_CLASSIC"))
+container("NetCDF-4", by_axis=True)(netcdf("NETCDF4"))
+
+
+def hdf5(scales):
+    def write(record, folder):
+        path = f"{folder}/v.h5"
+        with h5py.File(path, "w") as file:
+            for axis in measured(record):
+                file[axis.variable] = coordinates(axis)
+                file[axis.variable].attrs.update(attributes_of(axis))
+                if scales:
+                    file[axis.variable].make_scale(axis.variable)
+            for name, values in arrays_of(record).items():
+                file[name] = values
+                file[name].attrs.update(attributes_of_values(record) | record.fill)
+                for i, axis in enumerate(record.axes if scales else []):
+                    file[name].dims[i].label = axis.name
+                    if axis.role != "c":
+                        file[name].dims[i].attach_scale(file[axis.variable])
+        return asked(record, path)
+
+    return write
+
+
+container("HDF5 scales", by_axis=True)(hdf5(True))
+container("HDF5 bare", may=("is taken for time", "coordinates taken from"), by_axis=True)(hdf5(False))
+
+
+@container("HDF5 openPMD")
+def hdf5_openpmd(record, folder):
+    path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
+    vector = record.axis("c") is not None
+    with h5py.File(path, "w") as file:
+        file.attrs.update(openPMD=np.bytes_("1.1.0"), openPMDextension=np.uint32(0), basePath=np.bytes_("/data/%T/"),
+                          meshesPath=np.bytes_("fields/"), iterationEncoding=np.bytes_("groupBased"),
+                          iterationFormat=np.bytes_("/data/%T/"))
+        for number, time in enumerate(record.axis("t").at):
+            group = file.create_group(f"data/{number}")
+            group.attrs.update(time=time, dt=1.0, timeUnitSI=1e-3 if record.axis("t").unit == "ms" else 1.0)
+            for name, values in arrays_of(record).items():
+                volume = np.moveaxis(values, [axis.role for axis in record.axes].index("t"), 0)[number]
+                at = f"fields/{name}"
+                mesh = group.create_group(at) if vector else group.create_dataset(at, data=volume)
+                parts = [group.create_dataset(f"{at}/{c}", data=volume[i]) for i, c in enumerate("xyz")] if vector else [mesh]
+                mesh.attrs.update(geometry=np.bytes_("cartesian"), dataOrder=np.bytes_("C"), unitDimension=np.zeros(7),
+                                  axisLabels=[np.bytes_(axis.name) for axis in space], timeOffset=np.float32(0),
+                                  gridSpacing=[axis.step() for axis in space], gridGlobalOffset=[axis.at[0] for axis in space],
+                                  gridUnitSI={"mm": 1e-3, "um": 1e-6}[space[0].unit])
+                mesh.attrs.update(record.attributes)
+                for part in parts:
+                    part.attrs.update(unitSI=float(record.slope), position=np.zeros(3))
+    return asked(record, path, f"data/*/fields/{record.name}" if record.others else None) if not vector else \
+        [path, "--array", "data/*/fields/v/y"]
+
+
+@container("HDF5 axistags", by_axis=True)
+def hdf5_axistags(record, folder):
+    path, flags = f"{folder}/v.h5", {"t": 8, "c": 1}
+    with h5py.File(path, "w") as file:
+        file["exported_data"] = record.values
+        file["exported_data"].attrs["axistags"] = json.dumps({"axes": [
+            {"key": axis.role, "typeFlags": flags.get(axis.role, 2), "resolution": axis.step() if axis.role != "c" else 0,
+             "description": ""} for axis in record.axes]})
+        file["exported_data"].attrs.update(record.attributes)
+    return asked(record, path)
+
+
+@container("HDF5 element_size_um", may=("is taken for time", "taken from element_size_um"), by_axis=True)
+def hdf5_element_size(record, folder):
+    path = f"{folder}/v.h5"
+    with h5py.File(path, "w") as file:
+        file["data"] = record.values
+        file["data"].attrs["element_size_um"] = [record.axis(role).step() * METERS[record.axis(role).unit] / METERS["um"]
+                                                 for role in "zyx"]
+        file["data"].attrs.update(record.attributes)
+    return asked(record, path)
+
+
+# ---- Zarr
+def zarr_2(path, values, attributes, fill=None):
+    array = zarr.create(store=path, shape=values.shape, dtype=values.dtype, chunks=values.shape, fill_value=fill,
+                        compressor=None)
+    array[...] = values
+    array.attrs.update(attributes)
+
+
+def plain_numbers(attributes):
+    return {name: value if isinstance(value, (str, float)) else value.tolist() for name, value in attributes.items()}
+
+
+def save_json(path, content):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as out:
+        json.dump(content, out)
+
+
+def zarr_3(path, values, attributes, fill=0, **more):
+    save_json(f"{path}/zarr.json", dict(
+        zarr_format=3, node_type="array", shape=list(values.shape), data_type=values.dtype.name, attributes=attributes,
+        chunk_grid=dict(name="regular", configuration=dict(chunk_shape=list(values.shape))), fill_value=fill,
+        chunk_key_encoding=dict(name="default", configuration=dict(separator="/")),
+        codecs=[dict(name="bytes", configuration=dict(endian="little"))], **more))
+    os.makedirs(f"{path}/c" + "/0" * (values.ndim - 1))
+    values.tofile(f"{path}/c" + "/0" * values.ndim)
+
+
+def with_coordinates(record, path, save):
+    """As xarray writes it."""
+    for axis in measured(record):
+        save(f"{path}/{axis.variable}", coordinates(axis), attributes_of(axis), [axis.name])
+    for name, values in arrays_of(record).items():
+        said = plain_numbers(attributes_of_values(record) | record.fill)
+        save(f"{path}/{name}", values, said, [axis.name for axis in record.axes])
+    return asked(record, path)
+
+
+@container("Zarr 2 xarray", by_axis=True)
+def zarr_xarray(record, folder):
+    path = f"{folder}/v.zarr"
+    zarr.open_group(path, mode="w")
+
+    def save(where, values, attributes, names):
+        fill = attributes.pop("_FillValue", None)
+        zarr_2(where, values, dict(attributes, _ARRAY_DIMENSIONS=names), fill)
+
+    asks = with_coordinates(record, path, save)
+    zarr.consolidate_metadata(path)
+    return asks
+
+
+@container("Zarr 3 dimension_names", by_axis=True)
+def zarr_dimension_names(record, folder):
+    path = f"{folder}/v.zarr"
+    save_json(f"{path}/zarr.json", dict(zarr_format=3, node_type="group", attributes={}))
+    return with_coordinates(record, path, lambda where, values, attributes, names: zarr_3(where, values, attributes,
+                                                                                          dimension_names=names))
+
+
+def daisy_attributes(record):
+    axes = measured(record)
+    return dict(resolution=[axis.step() for axis in axes], offset=[float(axis.at[0]) for axis in axes],
+                units=[axis.unit for axis in axes],
+                axis_names=[axis.name + ("^" if axis.role == "c" else "") for axis in record.axes], **record.attributes)
+
+
+@container("Zarr resolution", by_axis=True)
+def zarr_daisy(record, folder):
+    zarr.open_group(f"{folder}/v.zarr", mode="w")
+    for name, values in arrays_of(record).items():
+        zarr_2(f"{folder}/v.zarr/{name}", values, daisy_attributes(record))
+    return asked(record, f"{folder}/v.zarr")
+
+
+@container("HDF5 resolution", by_axis=True)
+def hdf5_daisy(record, folder):
+    with h5py.File(f"{folder}/v.h5", "w") as file:
+        for name, values in arrays_of(record).items():
+            file[name] = values
+            file[name].attrs.update(daisy_attributes(record))
+    return asked(record, f"{folder}/v.h5")
+
+
+OME_UNITS = {"mm": "millimeter", "um": "micrometer", "m": "meter", "s": "second", "ms": "millisecond", "degrees": "degree"}
+def ome_axes(record):
+    kinds = {"t": "time", "c": "channel"}
+    axes = [dict(name=axis.name if axis.role in "xyz" else axis.role, type=kinds.get(axis.role, "space"),
+                 **({"unit": OME_UNITS[axis.unit]} if axis.unit else {})) for axis in record.axes]
+    steps = [axis.step() if axis.role != "c" else 1 for axis in record.axes]
+    first = [float(axis.at[0]) if axis.role != "c" else 0 for axis in record.axes]
+    return [dict(version="0.4", name="v", axes=axes, datasets=[dict(path="0", coordinateTransformations=[
+        dict(type="scale", scale=steps), dict(type="translation", translation=first)])])]
+
+
+def ome_asked(record, path):
+    return [path, *(["--array", "c1"] if record.axis("c") else [])]
+
+
+OMERO = dict(channels=[dict(label=f"c{number}") for number in range(3)])
+
+
+@container("OME-Zarr 0.4", by_axis=True)
+def ome_zarr_4(record, folder):
+    path = f"{folder}/v.zarr"
+    zarr.open_group(path, mode="w").attrs.update(multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
+    zarr_2(f"{path}/0", record.values, record.attributes)
+    return ome_asked(record, path)
+
+
+@container("OME-Zarr 0.5", by_axis=True)
+def ome_zarr_5(record, folder):
+    path = f"{folder}/v.zarr"
+    ome = dict(version="0.5", multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
+    save_json(f"{path}/zarr.json", dict(zarr_format=3, node_type="group", attributes=dict(ome=ome)))
+    names = [axis["name"] for axis in ome["multiscales"][0]["axes"]]
+    zarr_3(f"{path}/0", record.values, record.attributes, dimension_names=names)
+    return ome_asked(record, path)
+
+
+# ---- XDMF and VTK
+@container("XDMF")
+def xdmf(record, folder):
+    def item(values, more=""):
+        return f'<DataItem Dimensions="{" ".join(map(str, np.shape(values)))}" {more} Format="XML">{numbers(values)}</DataItem>'
+
+    space = [record.axis(role) for role in "xyz"]
+    even = all(np.allclose(np.diff(axis.at), axis.step()) for axis in space)
+    sizes = " ".join(str(len(axis.at)) for axis in space[::-1])
+    if even:
+        places = f'<Topology TopologyType="3DCoRectMesh" Dimensions="{sizes}"/><Geometry GeometryType="ORIGIN_DXDYDZ">' + \
+            item([axis.at[0] for axis in space[::-1]]) + item([axis.step() for axis in space[::-1]]) + "</Geometry>"
+    else:
+        places = f'<Topology TopologyType="3DRectMesh" Dimensions="{sizes}"/><Geometry GeometryType="VXVYVZ">' + \
+            "".join(item(axis.at) for axis in space) + "</Geometry>"
+    kind = "Vector" if record.axis("c") else "Scalar"
+    remarks = "".join(f'<Information Name="{name}" Value="{value}"/>' for name, value in record.attributes.items())
+    grids = "".join(f'<Grid GridType="Uniform">{places}<Time Value="{time}"/>' + "".join(
+        f'<Attribute Name="{name}" AttributeType="{kind}" Center="Node">'
+        f'{item(values[number], more="""NumberType="Float" Precision="4" """)}{remarks}</Attribute>'
+        for name, values in arrays_of(record).items()) + "</Grid>" for number, time in enumerate(record.axis("t").at))
+    with open(f"{folder}/v.xmf", "w", encoding="utf-8") as out:
+        out.write('<?xml version="1.0"?><Xdmf Version="3.0"><Domain><Grid GridType="Collection" CollectionType="Temporal">'
+                  f"{grids}</Grid></Domain></Xdmf>")
+    return asked(record, f"{folder}/v.xmf")
+
+
+def numbers(values):
+    return " ".join(f"{value:.17g}" for value in np.ravel(values))
+
+
+def vtk_series(record, folder, kind, head, inside):
+    """A .pvd with a file for each step."""
+    extent = " ".join(f"0 {len(axis.at) - 1}" for axis in record.space())
+    unit = f'<InformationKey name="UNITS_LABEL" location="vtkDataArray">{record.unit}</InformationKey>' if record.unit else ""
+    remarks = "".join(f'<InformationKey name="{name}" location="x">{value}</InformationKey>'
+                      for name, value in record.attributes.items())
+    entries = ""
+    for number, time in enumerate(record.axis("t").at):
+        arrays = "".join(f'<DataArray type="Float32" Name="{name}" NumberOfComponents="{3 if record.axis("c") else 1}" '
+                         f'format="ascii">{numbers(values[number])}{unit}{remarks}</DataArray>'
+                         for name, values in arrays_of(record).items())
+        file = f"v{number}.{'vti' if kind == 'ImageData' else 'vtr'}"
+        with open(f"{folder}/{file}", "w", encoding="utf-8") as out:
+            out.write(f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian"><{kind} WholeExtent="{extent}" {head}>'
+                      f'<Piece Extent="{extent}"><PointData>{arrays}</PointData>{inside}</Piece></{kind}></VTKFile>')
+        entries += f'<DataSet timestep="{time}" file="{file}"/>'
+    with open(f"{folder}/v.pvd", "w", encoding="utf-8") as out:
+        out.write(f'<VTKFile type="Collection" version="1.0"><Collection>{entries}</Collection></VTKFile>')
+    return asked(record, f"{folder}/v.pvd")
+
+
+@container("VTK .vti")
+def vti(record, folder):
+    steps, first = record.steps()
+    lengths = [np.linalg.norm(step) for step in steps]
+    across = np.transpose([step / length for step, length in zip(steps, lengths)])
+    return vtk_series(record, folder, "ImageData", f'Origin="{numbers(first)}" Spacing="{numbers(lengths)}" '
+                      f'Direction="{numbers(across)}"', "")
+
+
+@container("VTK .vtr")
+def vtr(record, folder):
+    arrays = "".join(f'<DataArray type="Float64" Name="{axis.name}" format="ascii">{numbers(axis.at)}</DataArray>'
+                     for axis in record.space())
+    return vtk_series(record, folder, "RectilinearGrid", "", f"<Coordinates>{arrays}</Coordinates>")
+
+
+@container("VTKHDF")
+def vtkhdf(record, folder):
+    path, (steps, first) = f"{folder}/v.vtkhdf", record.steps()
+    lengths = [np.linalg.norm(step) for step in steps]
+    with h5py.File(path, "w") as file:
+        group = file.create_group("VTKHDF")
+        group.attrs.create("Type", b"ImageData", dtype=h5py.string_dtype("ascii", 9))
+        extent = np.ravel([[0, len(axis.at) - 1] for axis in record.space()])
+        group.attrs.update(Version=[2, 0], WholeExtent=extent, Origin=first, Spacing=lengths, Direction=np.ravel(
+            np.transpose([step / length for step, length in zip(steps, lengths)])))
+        for name, values in arrays_of(record).items():
+            group[f"PointData/{name}"] = values
+            group[f"PointData/{name}"].attrs.update(record.attributes | ({"units": record.unit} if record.unit else {}))
+        group["Steps/Values"] = np.asarray(record.axis("t").at, "f8")
+        group["Steps"].attrs["NSteps"] = len(record.axis("t").at)
+    return asked(record, path)
+
+
+# ---- Medical
+@container("NRRD", by_axis=True)
+def nrrd(record, folder):
+    path, fastest, (steps, first) = f"{folder}/v.nrrd", record.axes[::-1], record.steps()
+    vectors = iter(f"({','.join(map(repr, map(float, step)))})" for step in steps)
+    kinds = {"t": "time", "c": "vector"}
+    time = record.axis("t")
+    spaces = {"ras": "right-anterior-superior", "lps": "left-posterior-superior"}
+    lines = ["type: " + {"f4": "float", "i2": "short"}[record.values.dtype.str[1:]], f"dimension: {len(fastest)}",
+             "space: " + spaces[record.frame] if record.frame else "space dimension: 3",
+             "sizes: " + " ".join(str(len(axis.at)) for axis in fastest),
+             "kinds: " + " ".join(kinds.get(axis.role, "domain") for axis in fastest),
+             "labels: " + " ".join(f'"{axis.name}"' for axis in fastest),
+             "space directions: " + " ".join(next(vectors) if axis.role in "xyz" else "none" for axis in fastest),
+             f"space origin: ({','.join(map(repr, map(float, first)))})",
+             "space units: " + " ".join(f'"{record.axis(role).unit}"' for role in "xyz"),
+             "spacings: " + " ".join(str(axis.step()) if axis is time else "NaN" for axis in fastest),
+             "axis mins: " + " ".join(str(axis.at[0]) if axis is time else "NaN" for axis in fastest),
+             "units: " + " ".join(f'"{axis.unit if axis is time else ""}"' for axis in fastest),
+             "endian: little", "encoding: raw"]
+    if record.unit:
+        lines.append(f"sample units: {record.unit}")
+    lines += [f"{name}:={value}" for name, value in record.attributes.items()]
+    with open(path, "wb") as out:
+        out.write(("NRRD0005\n" + "\n".join(lines) + "\n\n").encode() + record.values.tobytes())
+    return asked(record, path)
+
+
+@container("NIfTI-1")
+def nifti(record, folder):
+    path, (steps, first) = f"{folder}/v.nii", record.steps("ras")
+    values, time = record.values, record.axis("t")
+    header = nibabel.Nifti1Header()
+    if record.axis("c"):
+        values = values.swapaxes(0, 1)  # time is the fourth axis of a file, its components are the fifth
+        header.set_intent("vector")
+    header.set_data_dtype(values.dtype)
+    header.set_data_shape(values.shape[::-1])
+    header.set_sform(np.vstack([np.transpose([*steps, first]), [0, 0, 0, 1]]), "scanner")
+    codes = {"": 0, "mm": 2, "um": 3, "m": 1, "s": 8, "ms": 16}
+    header["xyzt_units"] = codes[record.axis("x").unit] | codes[time.unit]
+    header["toffset"], header["pixdim"][4] = time.at[0], time.step()
+    header["descrip"] = "; ".join(f"{name}: {value}" for name, value in record.attributes.items())
+    header.set_slope_inter(record.slope, record.offset)
+    header["vox_offset"], header["magic"] = 352, b"n+1"
+    with open(path, "wb") as out:
+        out.write(header.binaryblock + bytes(4) + values.tobytes())
+    return asked(record, path)
+
+
+@container("MetaImage")
+def metaimage(record, folder):
+    steps, first = record.steps("lps")
+    time, lengths = record.axis("t"), [np.linalg.norm(step) for step in steps]
+    matrix = np.eye(4)
+    matrix[:3, :3] = [step / length for step, length in zip(steps, lengths)]
+    kind = {"f4": "MET_FLOAT", "i2": "MET_SHORT"}[record.values.dtype.str[1:]]
+    lines = ["ObjectType = Image", "NDims = 4", "DimSize = " + " ".join(str(len(axis.at)) for axis in [*record.space(), time]),
+             "BinaryData = True", "BinaryDataByteOrderMSB = False", f"TransformMatrix = {numbers(matrix)}",
+             f"Offset = {numbers([*first, time.at[0]])}", f"ElementSpacing = {numbers([*lengths, time.step()])}",
+             f"DistanceUnits = {record.axis('x').unit}", f"ElementNumberOfChannels = {3 if record.axis('c') else 1}",
+             f"ElementType = {kind}"]
+    lines += [f"{name} = {value}" for name, value in record.attributes.items()]
+    with open(f"{folder}/v.mha", "wb") as out:
+        out.write(("\n".join(lines) + "\nElementDataFile = LOCAL\n").encode() + record.values.tobytes())
+    return asked(record, f"{folder}/v.mha")
+
+
+def decimals(values):
+    return [DSfloat(float(value), auto_format=True) for value in values]
+
+
+@container("DICOM")
+def dicom(record, folder):
+    steps, first = record.steps("lps", "mm")
+    columns, rows = [np.linalg.norm(step) for step in steps[:2]]
+    slow = record.space()[2]
+    along = steps[2] / np.linalg.norm(steps[2])
+    ratio = slow.in_unit("mm")[0] / slow.at[0] if slow.at[0] else 1
+    values = record.volumes()
+    for t, time in enumerate(record.axis("t").in_unit("ms")):
+        for s in range(values.shape[1]):
+            meta = FileMetaDataset()
+            meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.4"
+            meta.MediaStorageSOPInstanceUID = f"1.2.826.0.1.3680043.9.{t + 1}.{s + 1}"
+            meta.TransferSyntaxUID = pydicom.uid.ExplicitVRLittleEndian
+            data = FileDataset(None, {}, file_meta=meta, preamble=b"\0" * 128)
+            data.is_little_endian, data.is_implicit_VR = True, False
+            data.SOPClassUID, data.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
+            data.SeriesInstanceUID, data.Modality, data.SeriesDescription = "1.2.826.0.1.3680043.9.9", "MR", "v"
+            data.Rows, data.Columns, data.SamplesPerPixel = *values.shape[2:], 1
+            data.PhotometricInterpretation, data.BitsAllocated, data.BitsStored, data.HighBit = "MONOCHROME2", 16, 16, 15
+            data.PixelRepresentation = 1
+            data.PixelData = values[t, s].astype("<i2").tobytes()
+            data.PixelSpacing = decimals([rows, columns])
+            data.ImageOrientationPatient = decimals([*(steps[0] / columns), *(steps[1] / rows)])
+            data.ImagePositionPatient = decimals(first + abs(slow.at[s] - slow.at[0]) * ratio * along)
+            data.TriggerTime, data.InstanceNumber = *decimals([time]), t * values.shape[1] + s + 1
+            if record.slope != 1:
+                data.RescaleSlope, data.RescaleIntercept = record.slope, record.offset
+            if record.unit:
+                data.Units = record.unit
+            if record.fill:
+                data.PixelPaddingValue = int(record.fill["_FillValue"])
+            data.save_as(f"{folder}/{t}_{s}.dcm", write_like_original=False)
+    return asked(record, folder)
+
+
+# ---- Images
+@container("ImageJ TIFF")
+def imagej(record, folder):
+    x, y, z = (record.axis(role) for role in "xyz")
+    units = dict(unit=x.unit) if x.unit == y.unit == z.unit else dict(unit=x.unit, yunit=y.unit, zunit=z.unit)
+    said = dict(axes="TZYX", spacing=z.step(), finterval=record.axis("t").step(), tunit=record.axis("t").unit,
+                xorigin=-x.at[0] / x.step(), yorigin=-y.at[0] / y.step(), zorigin=-z.at[0] / z.step(), **units,
+                **record.attributes)
+    values = record.values
+    if record.axis("c"):
+        said["axes"], values = "TZCYX", values.transpose(0, 2, 1, 3, 4)
+    if record.slope != 1 or record.unit:  # integers, calibrated by a straight line
+        said.update(cf=0, c0=record.offset - 32768 * record.slope, c1=record.slope, vunit=record.unit or "Gray Value")
+        values = (values.astype("i4") + 32768).astype("u2")
+    tifffile.imwrite(f"{folder}/v.tif", values, imagej=True, resolution=(1 / x.step(), 1 / y.step()), metadata=said)
+    return [f"{folder}/v.tif", *(["--array", "channel 1"] if record.axis("c") else [])]
+
+
+@container("OME-TIFF")
+def ome_tiff(record, folder):
+    roles = "".join(axis.role for axis in record.axes)
+    time = record.axis("t")
+    said = dict(axes=roles.upper(), TimeIncrement=time.step(), TimeIncrementUnit=time.unit)
+    for role in "xyz":
+        axis = record.axis(role)
+        said[f"PhysicalSize{role.upper()}"] = axis.step()
+        said[f"PhysicalSize{role.upper()}Unit"] = {"um": "\u00b5m"}.get(axis.unit, axis.unit)
+    planes = [len(axis.at) for axis in record.axes if axis.role in "tzc"]
+    of_planes = np.indices(planes)[[role for role in roles if role in "tzc"].index("t")].ravel()
+    if time.at[0] or not np.allclose(np.diff(time.at), time.step()):
+        del said["TimeIncrement"], said["TimeIncrementUnit"]
+        said["Plane"] = dict(DeltaT=[float(time.at[t]) for t in of_planes], DeltaTUnit=[time.unit] * len(of_planes))
+    if record.axis("c"):
+        said["Channel"] = dict(Name=["c0", "c1", "c2"])
+    tifffile.imwrite(f"{folder}/v.ome.tif", record.values, photometric="minisblack", metadata=said)
+    return [f"{folder}/v.ome.tif", *(["--array", "c1"] if record.axis("c") else [])]
+
+
+@container("BOV")
+def bov(record, folder):
+    space = [record.axis(role) for role in "xyz"]
+    files = []
+    for number, time in enumerate(record.axis("t").at):
+        record.values[number].tofile(f"{folder}/v{number}.bin")
+        files.append(f"{folder}/v{number}.bov")
+        remarks = "".join(f"{name}: {value}\n" for name, value in record.attributes.items())
+        with open(files[-1], "w", encoding="utf-8") as out:
+            out.write(f"TIME: {time}\nDATA_FILE: v{number}.bin\nDATA_SIZE: {' '.join(str(len(axis.at)) for axis in space)}\n"
+                      f"DATA_FORMAT: FLOAT\nVARIABLE: v\nDATA_ENDIAN: LITTLE\nCENTERING: nodal\n"
+                      f"BRICK_ORIGIN: {numbers([axis.at[0] for axis in space])}\n"
+                      f"BRICK_SIZE: {numbers([axis.at[-1] - axis.at[0] for axis in space])}\n"
+                      f"DATA_COMPONENTS: {3 if record.axis('c') else 1}\n{remarks}")
+    return [*files, *asked(record, "")[1:]]

@@ -138,10 +138,10 @@ followed.append("several arrays, choose one with --array: {}; --all-arrays takes
 four = hdf5("four.h5", {"v": np.zeros((3, 4, 5, 6), "f4")})
 for advice, gives in [("--extra-axis-is-time", "3, "), ("--component 0", "v.0")]:
     follow(four, "its first axis may be time (--extra-axis-is-time) or an axis components (--component 0, 1, ... or magnitude)",
-           (advice,), gives=gives)
+           (advice,), gives=gives, build=True)
 zarr_group("four.zarr", v=np.zeros((3, 4, 5, 6), "f4"))
 for advice, gives in (("--extra-axis-is-time", "6 x 5 x 4"), ("--component 0", "5 x 4 x 3")):
-    follow("four.zarr", "its first axis may be time (--extra-axis-is-time), its last one components (--component 0, 1, ... or "
+    follow("four.zarr", "its first axis may be time (--extra-axis-is-time) or an axis components (--component 0, 1, ... or "
            "magnitude)", (advice,), gives=gives, build=True)
 follow(nrrd("list.nrrd", np.zeros((3, 4, 5, 6), "f4"), "kinds: space space space space\n"),
        ": --extra-axis-is-time reads it as time, --component N takes one of it", ("--extra-axis-is-time",),
@@ -200,6 +200,19 @@ data.DX, data.DY = 1000., 500.
 data.close()
 follow("wrf.nc", "attributes say DX 1000 and DY 500: --spacing 1000 500 DZ", ("--spacing 1000 500 DZ", "100"),
        gives="1000 x 500 x 100")
+data = netCDF4.Dataset("runs.nc", "w")
+for axis, n in zip(("member", "z", "y", "x"), (3, 4, 5, 6)):
+    data.createDimension(axis, n)
+data.createVariable("v", "f4", ("member", "z", "y", "x"))[:] = np.stack([values, values + 1000, values])
+data.close()
+follow("runs.nc", "v has 3 members along member, choose one with --member 0 to 2", ("--member", "1"), gives="1000 to 1199",
+       build=True)
+follow("wrf.nc --member 1", "has no axis of members, --member names one", build=True)
+still = zarr.open_group("still.zarr", mode="w")
+still.create_dataset("0", data=np.stack([values] * 3))
+still.attrs["multiscales"] = [dict(axes=[dict(name="t", type="time")] + [dict(name=name, type="space") for name in "zyx"],
+                                   datasets=[dict(path="0", coordinateTransformations=[dict(type="scale", scale=[0, 1, 1, 1])])])]
+follow("still.zarr", "steps are 0 apart by the file: their times are not used (--time-step)", ("--time-step", "5"), gives="to 10")
 with h5py.File("spaced.h5", "w") as file:
     file["v"] = values
     file["v"].attrs["spacing"] = [1., 2., 3.]
@@ -216,7 +229,7 @@ with h5py.File("unlike.h5", "w") as file:
         file[name].attrs["units"] = unit
         file[name].make_scale(name)
         file["v"].dims[axis].attach_scale(file[name])
-follow("unlike.h5", "--spacing sets proportions", ("--spacing", "1 1 1"), gives="1 x 1 x 1", gone=True)
+follow("unlike.h5", "--spacing sets other proportions", ("--spacing", "1 1 1"), gives="1 x 1 x 1", gone=True)
 
 # ---- grids that are not regular
 status, out, err = run("info", rectilinear("uneven.vtr", [0, 1, 3, 6, 10, 15]), "--resample", "9", "5", "4")

@@ -272,7 +272,7 @@ ArrayLayout lay_out(StatedArray& array, const std::vector<StatedAttributes>& obj
         throw Error(fmt::format("{}: {} ({}): {}", array.file, array.name, shape_text(array), why));
     std::array<std::size_t, 3> space = layout->space;
     std::ranges::reverse(space);
-    for (std::string& note : take_grid_attributes(objects, space, array))
+    for (std::string& note : take_grid_attributes(objects, space, options, array))
         notes.push_back(std::move(note));
     if (layout->time_is_guessed)
         notes.push_back(fmt::format("the first axis of {} ({}) is taken for time", array.name,

@@ -206,7 +206,7 @@ void take_axis_names(const std::vector<StatedAttributes>& objects, StatedArray& 
 
 std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes>& objects,
                                               const std::array<std::size_t, 3>& slowest_first,
-                                              StatedArray& array) {
+                                              const ReadOptions& options, StatedArray& array) {
     std::vector<std::string> notes;
     const std::vector<std::size_t> space(slowest_first.begin(), slowest_first.end());
     const auto placed = [&] {
@@ -245,7 +245,7 @@ std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes
     }
     const std::vector<double> other =
         nearest.numbers({"spacing", "Spacing", "voxel_size", "voxelSize", "pixel_size"}, 3);
-    if (!other.empty())
+    if (!other.empty() && !options.spacing)
         notes.push_back(fmt::format(
             "an attribute may be the spacing, in either order: {:g} {:g} {:g} (--spacing)",
             other[0], other[1], other[2]));

@@ -8,6 +8,8 @@
 //     place_axes(array, *layout, options, info);
 #pragma once
 
+#include "index/volume/volume_series.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -75,7 +77,7 @@ void take_axis_names(const std::vector<StatedAttributes>& objects, StatedArray& 
 /// @return notes on what was taken from where, and on attributes that may be the spacing
 std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes>& objects,
                                               const std::array<std::size_t, 3>& space,
-                                              StatedArray& array);
+                                              const ReadOptions& options, StatedArray& array);
 
 /// A note on the attributes of an array that change neither values nor places here; texts that only
 /// describe are left out. @param others further ones, with their values where short

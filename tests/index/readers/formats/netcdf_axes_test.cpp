@@ -60,7 +60,7 @@ TEST(NetcdfAxes, WithoutNamesAreInTheOrderOfStorage) {
     const auto series = open_series({file});
     EXPECT_EQ(series->info().times, (std::vector<double>{0, 1}));
     EXPECT_EQ(series->info().anatomy, Anatomy::none);
-    EXPECT_THAT(series->info().notes, IsEmpty());
+    EXPECT_THAT(series->info().notes, ElementsAre(HasSubstr("is taken for time")));
 }
 
 TEST(NetcdfAxes, InOtherUnitsAreBroughtInProportionByAPowerOfTen) {

@@ -128,8 +128,8 @@ def attributes_of_values(record):
         said["scale_factor"] = record.slope
     if record.offset:
         said["add_offset"] = float(record.offset)
-    if any(axis.variable != axis.name for axis in measured(record)):
-        said["coordinates"] = " ".join(axis.variable for axis in record.axes if axis.variable != axis.name)
+    if beside := [axis.variable for axis in measured(record) if axis.variable != axis.name] + list(record.curved):
+        said["coordinates"] = " ".join(beside)
     return said
 
 
@@ -160,6 +160,8 @@ def netcdf(kind):
                 variable.set_auto_maskandscale(False)
                 variable[:] = stored
                 variable.setncatts(attributes_of(axis))
+            for name, values in record.curved.items():
+                file.createVariable(name, "f8", [record.axis(role).name for role in "yx"])[:] = values
             for name, values in arrays_of(record).items():
                 variable = file.createVariable(name, values.dtype, [axis.name for axis in record.axes],
                                                fill_value=record.fill.get("_FillValue"))
@@ -185,6 +187,8 @@ def hdf5(scales):
                 file[axis.variable].attrs.update(attributes_of(axis))
                 if scales:
                     file[axis.variable].make_scale(axis.variable)
+            for name, values in record.curved.items():
+                file[name] = values
             for name, values in arrays_of(record).items():
                 file[name] = values
                 file[name].attrs.update(attributes_of_values(record) | record.fill)
@@ -283,6 +287,8 @@ def with_coordinates(record, path, save):
     """As xarray writes it."""
     for axis in measured(record):
         save(f"{path}/{axis.variable}", coordinates(axis), attributes_of(axis), [axis.name])
+    for name, values in record.curved.items():
+        save(f"{path}/{name}", values, {}, [record.axis(role).name for role in "yx"])
     for name, values in arrays_of(record).items():
         said = plain_numbers(attributes_of_values(record) | record.fill)
         save(f"{path}/{name}", values, said, [axis.name for axis in record.axes])

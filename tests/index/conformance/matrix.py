@@ -358,8 +358,14 @@ def components_first(record):
 # ---- What nothing uses
 @statement("remark", "remark")
 def remark(record):
-    record.attributes["cell_methods"] = "time: mean"
-    record.notes = ["stated and not used.*cell_methods"]
+    record.attributes = dict(cell_methods="time: mean", ancillary_variables="q")
+    record.notes = ["stated and not used(?=.*cell_methods)(?=.*ancillary_variables)"]
+
+
+@statement("curved coordinates", "names of variables")
+def curved_coordinates(record):
+    record.curved = {name: 20 + np.arange(7.0)[:, None] + step * np.arange(8.0) for name, step in (("lat", 0.5), ("lon", 2))}
+    record.notes = ["stated and not used.*lat.*lon"]
 
 
 # ---- What the program says

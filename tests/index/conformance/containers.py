@@ -10,7 +10,6 @@ import nibabel
 import numpy as np
 import pydicom
 import tifffile
-import zarr
 from pydicom.dataset import FileDataset, FileMetaDataset
 from pydicom.valuerep import DSfloat
 
@@ -256,13 +255,6 @@ def hdf5_element_size(record, folder):
 
 
 # ---- Zarr
-def zarr_2(path, values, attributes, fill=None):
-    array = zarr.create(store=path, shape=values.shape, dtype=values.dtype, chunks=values.shape, fill_value=fill,
-                        compressor=None)
-    array[...] = values
-    array.attrs.update(attributes)
-
-
 def plain_numbers(attributes):
     return {name: value if isinstance(value, (str, float)) else value.tolist() for name, value in attributes.items()}
 
@@ -271,6 +263,18 @@ def save_json(path, content):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w", encoding="utf-8") as out:
         json.dump(content, out)
+
+
+def zarr_2(path, values, attributes, fill=None):
+    save_json(f"{path}/.zarray", dict(zarr_format=2, shape=values.shape, chunks=values.shape, dtype=values.dtype.str, order="C",
+                                      fill_value=fill, compressor=None, filters=None))
+    save_json(f"{path}/.zattrs", attributes)
+    values.tofile(f"{path}/" + ".".join("0" * values.ndim))
+
+
+def zarr_2_group(path, attributes):
+    save_json(f"{path}/.zgroup", dict(zarr_format=2))
+    save_json(f"{path}/.zattrs", attributes)
 
 
 def zarr_3(path, values, attributes, fill=0, **more):
@@ -298,15 +302,13 @@ def with_coordinates(record, path, save):
 @container("Zarr 2 xarray", by_axis=True)
 def zarr_xarray(record, folder):
     path = f"{folder}/v.zarr"
-    zarr.open_group(path, mode="w")
+    zarr_2_group(path, {})
 
     def save(where, values, attributes, names):
         fill = attributes.pop("_FillValue", None)
         zarr_2(where, values, dict(attributes, _ARRAY_DIMENSIONS=names), fill)
 
-    asks = with_coordinates(record, path, save)
-    zarr.consolidate_metadata(path)
-    return asks
+    return with_coordinates(record, path, save)
 
 
 @container("Zarr 3 dimension_names", by_axis=True)
@@ -326,7 +328,7 @@ def daisy_attributes(record):
 
 @container("Zarr resolution", by_axis=True)
 def zarr_daisy(record, folder):
-    zarr.open_group(f"{folder}/v.zarr", mode="w")
+    zarr_2_group(f"{folder}/v.zarr", {})
     for name, values in arrays_of(record).items():
         zarr_2(f"{folder}/v.zarr/{name}", values, daisy_attributes(record))
     return asked(record, f"{folder}/v.zarr")
@@ -362,7 +364,7 @@ OMERO = dict(channels=[dict(label=f"c{number}") for number in range(3)])
 @container("OME-Zarr 0.4", by_axis=True)
 def ome_zarr_4(record, folder):
     path = f"{folder}/v.zarr"
-    zarr.open_group(path, mode="w").attrs.update(multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
+    zarr_2_group(path, dict(multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {})))
     zarr_2(f"{path}/0", record.values, record.attributes)
     return ome_asked(record, path)
 

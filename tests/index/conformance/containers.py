@@ -10,7 +10,6 @@ import nibabel
 import numpy as np
 import pydicom
 import tifffile
-import zarr
 from pydicom.dataset import FileDataset, FileMetaDataset
 from pydicom.valuerep import DSfloat
 
@@ -128,8 +127,8 @@ def attributes_of_values(record):
         said["scale_factor"] = record.slope
     if record.offset:
         said["add_offset"] = float(record.offset)
-    if any(axis.variable != axis.name for axis in measured(record)):
-        said["coordinates"] = " ".join(axis.variable for axis in record.axes if axis.variable != axis.name)
+    if beside := [axis.variable for axis in measured(record) if axis.variable != axis.name] + list(record.curved):
+        said["coordinates"] = " ".join(beside)
     return said
 
 
@@ -160,6 +159,8 @@ def netcdf(kind):
                 variable.set_auto_maskandscale(False)
                 variable[:] = stored
                 variable.setncatts(attributes_of(axis))
+            for name, values in record.curved.items():
+                file.createVariable(name, "f8", [record.axis(role).name for role in "yx"])[:] = values
             for name, values in arrays_of(record).items():
                 variable = file.createVariable(name, values.dtype, [axis.name for axis in record.axes],
                                                fill_value=record.fill.get("_FillValue"))
@@ -185,6 +186,8 @@ def hdf5(scales):
                 file[axis.variable].attrs.update(attributes_of(axis))
                 if scales:
                     file[axis.variable].make_scale(axis.variable)
+            for name, values in record.curved.items():
+                file[name] = values
             for name, values in arrays_of(record).items():
                 file[name] = values
                 file[name].attrs.update(attributes_of_values(record) | record.fill)
@@ -252,13 +255,6 @@ def hdf5_element_size(record, folder):
 
 
 # ---- Zarr
-def zarr_2(path, values, attributes, fill=None):
-    array = zarr.create(store=path, shape=values.shape, dtype=values.dtype, chunks=values.shape, fill_value=fill,
-                        compressor=None)
-    array[...] = values
-    array.attrs.update(attributes)
-
-
 def plain_numbers(attributes):
     return {name: value if isinstance(value, (str, float)) else value.tolist() for name, value in attributes.items()}
 
@@ -267,6 +263,18 @@ def save_json(path, content):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w", encoding="utf-8") as out:
         json.dump(content, out)
+
+
+def zarr_2(path, values, attributes, fill=None):
+    save_json(f"{path}/.zarray", dict(zarr_format=2, shape=values.shape, chunks=values.shape, dtype=values.dtype.str, order="C",
+                                      fill_value=fill, compressor=None, filters=None))
+    save_json(f"{path}/.zattrs", attributes)
+    values.tofile(f"{path}/" + ".".join("0" * values.ndim))
+
+
+def zarr_2_group(path, attributes):
+    save_json(f"{path}/.zgroup", dict(zarr_format=2))
+    save_json(f"{path}/.zattrs", attributes)
 
 
 def zarr_3(path, values, attributes, fill=0, **more):
@@ -283,6 +291,8 @@ def with_coordinates(record, path, save):
     """As xarray writes it."""
     for axis in measured(record):
         save(f"{path}/{axis.variable}", coordinates(axis), attributes_of(axis), [axis.name])
+    for name, values in record.curved.items():
+        save(f"{path}/{name}", values, {}, [record.axis(role).name for role in "yx"])
     for name, values in arrays_of(record).items():
         said = plain_numbers(attributes_of_values(record) | record.fill)
         save(f"{path}/{name}", values, said, [axis.name for axis in record.axes])
@@ -292,15 +302,13 @@ def with_coordinates(record, path, save):
 @container("Zarr 2 xarray", by_axis=True)
 def zarr_xarray(record, folder):
     path = f"{folder}/v.zarr"
-    zarr.open_group(path, mode="w")
+    zarr_2_group(path, {})
 
     def save(where, values, attributes, names):
         fill = attributes.pop("_FillValue", None)
         zarr_2(where, values, dict(attributes, _ARRAY_DIMENSIONS=names), fill)
 
-    asks = with_coordinates(record, path, save)
-    zarr.consolidate_metadata(path)
-    return asks
+    return with_coordinates(record, path, save)
 
 
 @container("Zarr 3 dimension_names", by_axis=True)
@@ -320,7 +328,7 @@ def daisy_attributes(record):
 
 @container("Zarr resolution", by_axis=True)
 def zarr_daisy(record, folder):
-    zarr.open_group(f"{folder}/v.zarr", mode="w")
+    zarr_2_group(f"{folder}/v.zarr", {})
     for name, values in arrays_of(record).items():
         zarr_2(f"{folder}/v.zarr/{name}", values, daisy_attributes(record))
     return asked(record, f"{folder}/v.zarr")
@@ -356,7 +364,7 @@ OMERO = dict(channels=[dict(label=f"c{number}") for number in range(3)])
 @container("OME-Zarr 0.4", by_axis=True)
 def ome_zarr_4(record, folder):
     path = f"{folder}/v.zarr"
-    zarr.open_group(path, mode="w").attrs.update(multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {}))
+    zarr_2_group(path, dict(multiscales=ome_axes(record), **({"omero": OMERO} if record.axis("c") else {})))
     zarr_2(f"{path}/0", record.values, record.attributes)
     return ome_asked(record, path)
 

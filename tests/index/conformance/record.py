@@ -46,6 +46,7 @@ class Record:
     valid: tuple = ()  # least and greatest value that stands for itself
     attributes: dict = field(default_factory=dict)  # of the array
     others: dict = field(default_factory=dict)  # further arrays of the same shape
+    curved: dict = field(default_factory=dict)  # coordinates along two axes, [y][x]
     component: int = 0
     turn: np.ndarray = field(default_factory=lambda: np.eye(3))  # of coordinates into space
     frame: str = ""  # of coordinates: ras, lps

@@ -49,6 +49,7 @@ VTK .vti, VTK .vtr, VTKHDF | time axis, time unit, time dates | VTK file formats
 VTK .vti, VTK .vtr, VTKHDF | names, extra axis | VTK file formats: axes are x, y, z
 VTK .vti, VTK .vtr, VTKHDF | values scale, values gaps, components first | VTK file formats, DataArray: values as they are
 VTK .vti, VTKHDF | uneven | VTK file formats, ImageData: Origin, Spacing, Direction
+VTK .vtr | remark | VTK 9.1, vtkXMLDataReader: hands out the keys of information that VTK itself has
 VTK .vtr | order, direction, descending | VTK file formats, RectilinearGrid: ascending x, y, z
 NRRD | uneven, times uneven | NRRD 5, section 5, per-axis fields: one number an axis
 NRRD | time dates | NRRD 5, section 5, per-axis fields: units are words of no calendar
@@ -66,7 +67,8 @@ MetaImage | values, arrays | MetaIO, tags: ElementToIntensityFunctionSlope is fo
 DICOM | uneven all, unit by axis, unit words, unit other | DICOM PS3.3 C.7.6.2, Image Plane: PixelSpacing in mm, of rows and columns
 DICOM | names, extra axis | DICOM PS3.3 C.7.6.2, Image Plane: places in the patient, axes have no names
 DICOM | time axis, time dates | DICOM PS3.3 C.7.6.18, Cardiac Synchronization: TriggerTime in ms from the R-peak
-DICOM | values gaps missing, values gaps valid, components, arrays, remark | DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image
+DICOM | values gaps | DICOM PS3.3 C.7.5.1.1.2, Pixel Padding: pads pictures to rectangles, is no value that is missing
+DICOM | components, arrays, remark | DICOM PS3.3 C.7.6.3, Image Pixel: samples of one image
 ImageJ TIFF | uneven, descending, direction, frame | ImageJ, TiffDecoder: spacing and resolution are one number an axis
 ImageJ TIFF | order, names, time axis, components last, extra axis | ImageJ, TiffDecoder: planes of x and y in order czt
 ImageJ TIFF | first time, times uneven, time dates | ImageJ, TiffDecoder: finterval is one number, from 0
@@ -326,7 +328,7 @@ def daisy_attributes(record):
                 axis_names=[axis.name + ("^" if axis.role == "c" else "") for axis in record.axes], **record.attributes)
 
 
-@container("Zarr resolution", by_axis=True)
+@container("Zarr resolution", may=("taken from resolution",), by_axis=True)
 def zarr_daisy(record, folder):
     zarr_2_group(f"{folder}/v.zarr", {})
     for name, values in arrays_of(record).items():
@@ -334,7 +336,7 @@ def zarr_daisy(record, folder):
     return asked(record, f"{folder}/v.zarr")
 
 
-@container("HDF5 resolution", by_axis=True)
+@container("HDF5 resolution", may=("taken from resolution",), by_axis=True)
 def hdf5_daisy(record, folder):
     with h5py.File(f"{folder}/v.h5", "w") as file:
         for name, values in arrays_of(record).items():

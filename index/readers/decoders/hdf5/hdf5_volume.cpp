@@ -121,7 +121,15 @@ class Hdf5Decoder final : public DecodedFile {
             if (std::ranges::any_of(offset, [](double number) { return number != 0; }))
                 unread.emplace_back("timeOffset");
         }
-        if (auto note = note_on_attributes(attributes_of(*file_, path), unread))
+        const StatedAttributes attributes = attributes_of(*file_, path);
+        for (std::string& curved : curved_coordinates(attributes, [&](const std::string& name) {
+                 const auto beside = file_->dataset(group + "/" + name);
+                 return !beside ? std::size_t{0}
+                                : static_cast<std::size_t>(std::ranges::count_if(
+                                      beside->dimensions, [](std::uint64_t n) { return n > 1; }));
+             }))
+            unread.push_back(std::move(curved));
+        if (auto note = note_on_attributes(attributes, unread))
             volume_.info.notes.push_back(std::move(*note));
     }
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace isochron::index {
@@ -125,12 +124,6 @@ void note_unread(const Hdf5File& file, const ChosenScalar& chosen, SeriesInfo& i
     for (const Hdf5Dataset& dataset : file.datasets()) {
         if (dataset.path.starts_with(kRoot + "/FieldData/") || is_flag(dataset.path))
             unread.push_back(dataset.path.substr(kRoot.size() + 1));
-        constexpr std::array kTaken{"units",      "unit",          "Units",        "UNITS",
-                                    "_FillValue", "missing_value", "scale_factor", "add_offset"};
-        for (const std::string& name : file.attributes(dataset.path))
-            if ((dataset.path.starts_with(kPoints) || dataset.path.starts_with(kCells)) &&
-                std::ranges::find(kTaken, name) == kTaken.end())
-                unread.push_back(fmt::format("{} {}", dataset.path.substr(kRoot.size() + 1), name));
     }
     if (auto note = note_on_unread(unread))
         info.notes.push_back(std::move(*note));

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -86,20 +85,6 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
     return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
 }
 
-/// Whether coordinates that an attribute names place the vertices one by one, as on a curved grid:
-/// then they are not used.
-bool names_curved_axes(const NetcdfFile& file, const NetcdfVariable& variable) {
-    std::istringstream names(file.text(variable, "coordinates"));
-    for (std::string name; names >> name;)
-        for (const NetcdfVariable& other : file.variables())
-            if (other.name.substr(other.name.rfind('/') + 1) == name &&
-                std::ranges::count_if(other.dimensions, [](const NetcdfDimension& each) {
-                    return each.length > 1;
-                }) > 1)
-                return true;
-    return false;
-}
-
 /// Formats within NetCDF whose values would be wrong if they were read as they are stored.
 void expect_no_other_format(const NetcdfFile& file) {
     for (const NetcdfVariable& variable : file.variables())
@@ -159,11 +144,17 @@ class NetcdfVolume final : public DecodedFile {
         if (!options.spacing)
             offer_cell_sizes(objects, array, layout_, info_);
         place_times(array);
-        std::vector<std::string> curved;
-        if (names_curved_axes(file_, variable_))
-            curved.push_back(fmt::format("coordinates {} (a curved grid is shown straight)",
-                                         excerpt(file_.text(variable_, "coordinates"))));
-        if (auto note = note_on_attributes(objects.front(), curved))
+        const auto long_dimensions = [&](const std::string& of) -> std::size_t {
+            for (const NetcdfVariable& other : file_.variables())
+                if (other.name.substr(other.name.rfind('/') + 1) == of)
+                    return static_cast<std::size_t>(
+                        std::ranges::count_if(other.dimensions, [](const NetcdfDimension& each) {
+                            return each.length > 1;
+                        }));
+            return 0;
+        };
+        if (auto note = note_on_attributes(objects.front(),
+                                           curved_coordinates(objects.front(), long_dimensions)))
             info_.notes.push_back(std::move(*note));
         part_ = crop_description(info_, options, name);
     }

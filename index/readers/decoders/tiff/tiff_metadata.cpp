@@ -16,7 +16,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <sstream>
+#include <string_view>
 
 namespace isochron::index {
 namespace {
@@ -261,7 +263,12 @@ namespace {
 void take_calibration(const std::map<std::string, std::string>& values, const auto& number,
                       TiffStack& stack) {
     constexpr double kStraightLine = 0, kNone = 20;
-    std::vector<std::string> unread;
+    static const std::set<std::string_view> kRead{
+        "ImageJ",    "images", "channels", "slices",  "frames",  "hyperstack", "mode",
+        "unit",      "yunit",  "zunit",    "spacing", "loop",    "min",        "max",
+        "finterval", "fps",    "tunit",    "xorigin", "yorigin", "zorigin",    "cf",
+        "c0",        "c1",     "vunit",    "inverty", "axes"};
+    std::vector<std::string> unread = fields_besides(kRead, values);
     const double function = values.contains("cf") ? number("cf", kNone) : kNone;
     const double slope = number("c1", 1), intercept = number("c0", 0);
     if (function == kStraightLine && slope != 0 && std::isfinite(slope) && std::isfinite(intercept))

@@ -179,7 +179,11 @@ class ZarrVolume final : public DecodedFile {
         if (array_->half())
             info_.notes.push_back("float16 values converted to f32");
         expect_few_steps(steps(), name_);
-        if (auto note = note_on_attributes(of_array))
+        const auto long_dimensions = [&](const std::string& of) {
+            return long_dimensions_of(*store_, *array_, of);
+        };
+        if (auto note =
+                note_on_attributes(of_array, curved_coordinates(of_array, long_dimensions)))
             info_.notes.push_back(std::move(*note));
         if (layout_.time)
             place_steps(stated_.axes[*layout_.time], info_);

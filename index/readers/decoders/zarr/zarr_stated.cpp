@@ -259,6 +259,15 @@ std::optional<StatedAxis> time_alone(const ZarrStore& store, const ZarrArray& ar
     return std::nullopt;
 }
 
+std::size_t long_dimensions_of(const ZarrStore& store, const ZarrArray& array,
+                               const std::string& beside) {
+    for (const std::string& group : groups_around(array))
+        if (const auto found = ZarrArray::open(store, zarr_key(group, beside)))
+            return static_cast<std::size_t>(std::ranges::count_if(
+                found->shape(), [](std::uint64_t length) { return length > 1; }));
+    return 0;
+}
+
 std::vector<double> fills_of(const ZarrArray& array) {
     if (const auto never_written = array.fill(); never_written &&
                                                  array.attributes().contains("_ARRAY_DIMENSIONS") &&

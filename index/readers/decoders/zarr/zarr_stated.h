@@ -26,6 +26,10 @@ std::vector<StatedAxis> axes_of(const nlohmann::json& image, const ZarrArray& ar
 /// The time of a step that is alone, by an array `time` of one value beside the array; none.
 std::optional<StatedAxis> time_alone(const ZarrStore& store, const ZarrArray& array);
 
+/// How many dimensions longer than 1 the array of a name beside this one has; 0: there is none.
+std::size_t long_dimensions_of(const ZarrStore& store, const ZarrArray& array,
+                               const std::string& beside);
+
 /// The value of chunks that were never written, where names of dimensions say that xarray, for
 /// which it stands for missing values, has written the array; empty: there is none.
 std::vector<double> fills_of(const ZarrArray& array);

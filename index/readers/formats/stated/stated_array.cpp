@@ -5,6 +5,7 @@
 #include "index/readers/formats/stated/stated_array.h"
 
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
 
 #include <fmt/format.h>
@@ -250,6 +251,18 @@ std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes
             "an attribute may be the spacing, in either order: {:g} {:g} {:g} (--spacing)",
             other[0], other[1], other[2]));
     return notes;
+}
+
+std::vector<std::string>
+curved_coordinates(const StatedAttributes& array,
+                   const std::function<std::size_t(const std::string& name)>& long_dimensions) {
+    const std::string named = array.text("coordinates");
+    std::istringstream names(named);
+    for (std::string name; names >> name;)
+        if (long_dimensions(name) > 1)
+            return {
+                fmt::format("coordinates {} (a curved grid is shown straight)", excerpt(named))};
+    return {};
 }
 
 std::optional<std::string> note_on_attributes(const StatedAttributes& array,

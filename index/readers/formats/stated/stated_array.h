@@ -79,6 +79,13 @@ std::vector<std::string> take_grid_attributes(const std::vector<StatedAttributes
                                               const std::array<std::size_t, 3>& space,
                                               const ReadOptions& options, StatedArray& array);
 
+/// What a note says of coordinates that place the vertices one by one, as on a curved grid, and that
+/// are not used; empty without any.
+/// @param long_dimensions how many dimensions longer than 1 a variable has; 0: there is none
+std::vector<std::string>
+curved_coordinates(const StatedAttributes& array,
+                   const std::function<std::size_t(const std::string& name)>& long_dimensions);
+
 /// A note on the attributes of an array that change neither values nor places here; texts that only
 /// describe are left out. @param others further ones, with their values where short
 std::optional<std::string> note_on_attributes(const StatedAttributes& array,

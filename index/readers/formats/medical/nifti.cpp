@@ -354,7 +354,7 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     }
     layout.array.components = static_cast<std::uint32_t>(h.dim[5]);
     layout.array.maybe_steps = layout.steps == 1;
-    return open_stacked_components(path, std::move(info), layout, options);
+    return open_stacked_components(path, std::move(info), layout, false, options);
 }
 
 } // namespace isochron::index

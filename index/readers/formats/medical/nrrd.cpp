@@ -315,6 +315,9 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
               info.grid.vertex_count() * layout.array.components * layout.steps *
                   size_of(*layout.array.type),
               layout);
+    const std::optional<std::size_t> other = axes.time ? axes.time : axes.components;
+    if (axes.sizes.size() == 4 && other && axes.sizes[*other] > 1 && (*other == 1 || *other == 2))
+        return open_axis_between(path, std::move(info), layout, static_cast<int>(*other), options);
     const bool interleaved = axes.time == 0u;
     const bool stacked = axes.components && *axes.components != 0;
     if (interleaved && stacked)
@@ -324,7 +327,8 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
     if (interleaved)
         return open_interleaved_steps(path, std::move(info), layout, options);
     if (stacked)
-        return open_stacked_components(path, std::move(info), layout, options);
+        return open_stacked_components(path, std::move(info), layout, axes.time > axes.components,
+                                       options);
     return open_stored(path, std::move(info), layout, options);
 }
 

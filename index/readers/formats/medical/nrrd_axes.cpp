@@ -169,9 +169,9 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
             axes.space[found++] = axis;
             continue;
         }
-        if (axis != 0 && axis != count - 1)
+        if (count > 4 && axis != 0 && axis < 3)
             throw Error(fmt::format("{}: axis {} is not one of space; expected that of the slowest "
-                                    "or the fastest axis only",
+                                    "axes or the fastest one only",
                                     file, axis));
         const Role role = role_of(axis, kinds[axis], axes, options, file);
         std::optional<std::size_t>& place = role == Role::time ? axes.time : axes.components;

@@ -1,0 +1,17 @@
+// Series that are the phases of one scan: a 4D CT has a series for each.
+#pragma once
+
+#include "index/readers/decoders/dicom/dicom_stack.h"
+
+#include <vector>
+
+namespace isochron::index {
+
+/// Puts a volume in front of these in which those that are phases follow each other, if some are.
+/// Such series say the part of a breath or a heartbeat (`NominalPercentageOfCardiacPhase`, or in
+/// their description, `Gated 20%`, `phase 3`), or their number among all of them
+/// (`TemporalPositionIdentifier`), and have images at the same places.
+/// @return the number of phases; 0: there are none
+std::size_t join_phases(std::vector<DicomVolume>& volumes, const std::vector<DicomFile>& files);
+
+} // namespace isochron::index

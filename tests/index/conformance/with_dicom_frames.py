@@ -1,5 +1,6 @@
 """DICOM: what each image, frame or tile stands for. Statements of time by containers, vectors of older files, films, mosaics,
 phases in series of their own, positions as scanners round them. Expected values are numpy's."""
+import os
 import struct
 
 import numpy as np
@@ -10,7 +11,7 @@ from pydicom.tag import Tag
 from pydicom.valuerep import DSfloat
 
 from dicom_files import blank, new_series, save, sequence, stack
-from manifest import done, expect, field, refuse
+from manifest import done, expect, field, path, refuse
 
 grid = dict(spacing=(0.5, 0.75, 2.0), origin=(-10, 20, 5))
 moving = field(3, 4, 5, 6, dtype="u2")
@@ -73,6 +74,7 @@ classic = {
     "no date": (dated("", "AcquisitionTime", days=False), late, "s", "passes midnight"),
     "content": (dated("ContentDate", "ContentTime"), late, "s", "by ContentTime"),
     "content, no date": (dated("", "ContentTime", days=False), late, "s", "passes midnight"),
+    "series": (dated("SeriesDate", "SeriesTime"), late, "s", "by SeriesTime"),
     "image index": (lambda t: {"ImageIndex": None}, [0, 1, 2], "", "by ImageIndex alone"),
     "acquisition": (at({"AcquisitionNumber": [3, 5, 9]}), [0, 1, 2], "", "by AcquisitionNumber alone"),
     "fMRI": (at({"AcquisitionNumber": [3, 5, 9], "ScanningSequence": "EP", "RepetitionTime": 800}), [0, 800, 1600], "ms",
@@ -160,6 +162,9 @@ for name, (group, tags, times, unit, note) in groups.items():
 # Dimensions that are volumes of their own.
 for group, tag, values, chosen in [("SegmentIdentificationSequence", "ReferencedSegmentNumber", [1, 2, 3], "segment 2"),
                                    ("MREchoSequence", "EffectiveEchoTime", [2.5, 5.0, 7.5], "echo time 5 ms"),
+                                   ("MRImageFrameTypeSequence", "ComplexImageComponent", ["MAGNITUDE", "PHASE", "REAL"],
+                                    "component PHASE"),
+                                   ("CTXRayDetailsSequence", "KVP", [80, 100, 140], "voltage 100 kV"),
                                    ("FrameContentSequence", "StackID", ["1", "2", "3"], "stack 2"),
                                    ("MRVelocityEncodingSequence", "VelocityEncodingDirection",
                                     [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "velocity direction 0 1 0")]:
@@ -362,6 +367,20 @@ def one_of_three(data, t):
 
 
 expect(scan(["dynamic"] * 3, (1, 0, 2), one_of_three), moving, times=late, unit="s", note="phases of one scan", **grid)
+
+
+def commented(data, t):
+    data.ImageComments = f"Phase {30 * t} %, best diastole"
+
+
+expect(scan(["CorCTA"] * 3, (1, 0, 2), commented), moving, times=[0, 30, 60], unit="%", note="steps by phase", **grid)
+names = []
+for t in (2, 0, 1):
+    folder = f"cine/phase_{t}"
+    os.makedirs(path(folder))
+    names += stack(f"{folder}/image", moving[t], new_series(), SeriesDescription="CT", SeriesNumber=t)
+expect(names, moving, times=[0, 1, 2], note="steps by phase", **grid)
+expect(["cine"], moving, times=[0, 1, 2], note="steps by phase", **grid)
 
 
 def of_heart(data, t):

@@ -1,6 +1,7 @@
 // DICOM volumes: a file for each slice, or many frames in one.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/dicom/dicom_header.h"
 #include "index/readers/decoders/dicom/dicom_phases.h"
 #include "index/readers/decoders/dicom/dicom_pixels.h"
 #include "index/readers/decoders/dicom/dicom_stack.h"
@@ -69,7 +70,7 @@ class DicomSeries final : public DecodedFile {
     const DicomFile& file_of(const DicomImage& image) const { return files_[image.file]; }
 
     void choose(std::vector<DicomVolume>& volumes, ReadOptions options, const std::string& name) {
-        const std::size_t series = volumes.size(), phases = join_phases(volumes, files_);
+        const std::size_t series = volumes.size(), phases = join_phases(volumes, files_, names_);
         if (phases == series && !options.array) {
             options.array = volumes.front().name;
             info_.notes.push_back(fmt::format(

@@ -17,7 +17,7 @@ struct ClockSource {
     DicomClock clock;
     std::string_view unit;
     gdcm::Tag group, tag;
-    gdcm::Tag date = kNoTag; ///< of a time of the day
+    gdcm::Tag date = kNoTag; ///< the date of a time of the day
 };
 const std::array<ClockSource, kDicomClocks - 6> kClockSources{{
     {DicomClock::time_offset, "s", {0x0020, 0x9310}, {0x0020, 0x930d}},
@@ -34,6 +34,7 @@ const std::array<ClockSource, kDicomClocks - 6> kClockSources{{
     {DicomClock::acquisition_moment, "s", kNoTag, {0x0008, 0x002a}},
     {DicomClock::acquisition_time, "s", kNoTag, {0x0008, 0x0032}, {0x0008, 0x0022}},
     {DicomClock::content_time, "s", kNoTag, {0x0008, 0x0033}, {0x0008, 0x0023}},
+    {DicomClock::series_time, "s", kNoTag, {0x0008, 0x0031}, {0x0008, 0x0021}},
     {DicomClock::frame_acquisition, "", kOfFrame, {0x0020, 0x9156}},
     {DicomClock::image_index, "", kNoTag, {0x0054, 0x1330}},
     {DicomClock::acquisition, "", kNoTag, {0x0020, 0x0012}},
@@ -105,7 +106,7 @@ std::string name_of(DicomClock clock, const DicomFile& file) {
     if (clock == DicomClock::dimension)
         return file.dimensions_by;
     if (clock == DicomClock::described_phase || clock == DicomClock::described_number)
-        return "SeriesDescription";
+        return "phase";
     const auto source = std::ranges::find(kClockSources, clock, &ClockSource::clock);
     return keyword_of(source == kClockSources.end() ? gdcm::Tag(0x0020, 0x0013) : source->tag);
 }

@@ -1,7 +1,7 @@
 // When DICOM images were taken: each statement of it, with its unit.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/readers/decoders/dicom/dicom_tags.h"
 
 #include <string>

@@ -29,11 +29,13 @@ struct KindSource {
     const char *name, *unit; ///< unit of its numbers; null: it is text
     Tag group, tag, root;
 };
-const std::array<KindSource, 7> kKindSources{{
+const std::array<KindSource, 9> kKindSources{{
     {"echo time", " ms", {0x0018, 0x9114}, {0x0018, 0x9082}, {0x0018, 0x0081}},
     {"inversion time", " ms", {0x0018, 0x9115}, {0x0018, 0x9079}, {0x0018, 0x0082}},
     {"b-value", " s/mm2", {0x0018, 0x9117}, {0x0018, 0x9087}, {0x0018, 0x9087}},
     {"image type", nullptr, {0x0018, 0x9226}, {0x0008, 0x9007}, {0x0008, 0x0008}},
+    {"component", nullptr, {0x0018, 0x9226}, {0x0008, 0x9208}, {0x0008, 0x9208}},
+    {"voltage", " kV", {0x0018, 0x9325}, {0x0018, 0x0060}, {0x0018, 0x0060}},
     {"stack", nullptr, kContent, {0x0020, 0x9056}, {0x0020, 0x9056}},
     {"segment", "", {0x0062, 0x000a}, {0x0062, 0x000b}, {0x0062, 0x000b}},
     {"velocity direction", "", {0x0018, 0x9197}, {0x0018, 0x9090}, {0x0018, 0x9090}},
@@ -97,7 +99,7 @@ void place(const DicomTags& root, const FrameTags& tags, DicomFile& file, const 
         image.level = *number * (file.slice_spacing != 0 ? std::abs(file.slice_spacing) : 1);
 }
 
-/// Of a frame of an older file, where the first lies.
+/// Moves a frame of an older file from the place of the first to its own.
 void place_frame(const FrameCounts& counts, const DicomFile& file, DicomImage& image) {
     const double level = counts.levels[image.frame] - counts.first;
     if (!image.position) {
@@ -147,7 +149,7 @@ class OtherDimensions {
     }
 
   private:
-    std::vector<std::size_t> places_; ///< of their indices among those of a frame
+    std::vector<std::size_t> places_; ///< where their indices are among those of a frame
 };
 
 void tell_apart(const DicomTags& root, const FrameTags& tags, const DicomFile& file,

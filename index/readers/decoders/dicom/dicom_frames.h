@@ -1,7 +1,7 @@
 // Decides what each image of a DICOM file stands for: a place, a time, or a volume of its own.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/readers/decoders/dicom/dicom_tags.h"
 
 #include <cstddef>

@@ -92,7 +92,7 @@ std::string unit_of(const DicomTags& root, const std::string& modality) {
         if (unit.empty())
             unit = root.within(groups, 0).within({0x0028, 0x9145}, 0).text({0x0028, 0x1054});
     for (const gdcm::Tag& tag : {gdcm::Tag(0x0028, 0x1054), gdcm::Tag(0x0054, 0x1001),
-                                 gdcm::Tag(0x3004, 0x0002)}) // of all, of PET, of dose
+                                 gdcm::Tag(0x3004, 0x0002)}) // units of all, of PET, of dose
         if (unit.empty())
             unit = root.text(tag);
     if (unit.empty() && modality == "CT")
@@ -123,6 +123,7 @@ DicomFile read_dicom_header(const fs::path& path, std::size_t number) {
     find_pixels(path, reader.GetFile().GetHeader().GetDataSetTransferSyntax(), file);
     file.modality = root.text({0x0008, 0x0060});
     file.description = root.text({0x0008, 0x103e});
+    file.comments = root.text({0x0020, 0x4000});
     file.value_unit = unit_of(root, file.modality);
     file.slice_spacing =
         root.number({0x0018, 0x0088}).value_or(root.number({0x0018, 0x0050}).value_or(0));

@@ -1,7 +1,7 @@
 // Slices that lie side by side in one picture, as Siemens and United Imaging store a volume.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/readers/decoders/dicom/dicom_tags.h"
 
 #include <string>

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <regex>
@@ -21,24 +22,31 @@ namespace {
 struct Phase {
     DicomClock clock = DicomClock::described_phase;
     double number = 0;
-    std::string rest = {}; ///< of the description: phases of one scan have the same
+    std::string rest = {}; ///< rest of the description, which phases of one scan share
     const DicomVolume* volume = nullptr;
 };
 
-std::optional<Phase> phase_of(const DicomVolume& volume, const std::vector<DicomFile>& files) {
+std::optional<Phase> phase_of(const DicomVolume& volume, const std::vector<DicomFile>& files,
+                              const std::vector<std::string>& names) {
     const DicomImage& first = volume.images.front();
     const DicomFile& file = files[first.file];
+    Phase phase{.rest = file.description, .volume = &volume};
     // `Gated, 20.0%`, `T=20%`, `20% Ex`, `phase_3`, `Ph3/Dynamic`
     static const std::regex kPercent(R"((\d+(?:\.\d+)?) ?%(?: ?\b(?:in|ex)\w*)?)"),
         kCounted(R"((?:^|[^a-z])ph(?:ase)?[ _=#:-]?(\d+(?:\.\d+)?))");
-    constexpr std::size_t kLongest = 256;
-    const std::string said = lower_case(file.description.substr(0, kLongest));
-    Phase phase{.rest = said, .volume = &volume};
-    std::smatch found;
-    const bool percent = std::regex_search(said, found, kPercent);
-    if (percent || std::regex_search(said, found, kCounted)) {
+    for (const std::string& words :
+         {file.description, file.comments,
+          std::filesystem::path(names[first.file]).parent_path().filename().string()}) {
+        constexpr std::size_t kLongest = 256;
+        const std::string said = lower_case(words.substr(0, kLongest));
+        std::smatch found;
+        const bool percent = std::regex_search(said, found, kPercent);
+        if (!percent && !std::regex_search(said, found, kCounted))
+            continue;
         phase.number = std::stod(found[1]);
-        phase.rest = std::string(found.prefix()) + std::string(found.suffix());
+        // What the description says beside its phase, or all of it.
+        const std::string rest = std::string(found.prefix()) + std::string(found.suffix());
+        phase.rest = words == file.description ? rest : file.description + rest;
         phase.clock = percent ? DicomClock::described_phase : DicomClock::described_number;
         return phase;
     }
@@ -82,10 +90,11 @@ auto kind_of(const DicomVolume& volume) {
 
 } // namespace
 
-std::size_t join_phases(std::vector<DicomVolume>& volumes, const std::vector<DicomFile>& files) {
+std::size_t join_phases(std::vector<DicomVolume>& volumes, const std::vector<DicomFile>& files,
+                        const std::vector<std::string>& names) {
     std::map<std::pair<DicomClock, std::string>, std::vector<Phase>> scans;
     for (const DicomVolume& volume : volumes)
-        if (auto phase = phase_of(volume, files)) {
+        if (auto phase = phase_of(volume, files, names)) {
             const std::pair scan(phase->clock, phase->rest);
             scans[scan].push_back(std::move(*phase));
         }

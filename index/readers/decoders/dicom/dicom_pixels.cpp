@@ -15,7 +15,7 @@
 namespace isochron::index {
 namespace {
 
-/// Of a picture as it is stored: a frame, or a mosaic of all.
+/// The size of a picture as it is stored: a frame, or a mosaic of all.
 std::uint32_t stored_columns(const DicomFile& file) {
     return file.columns * file.tiles_across;
 }

@@ -1,7 +1,7 @@
 // Puts the images of DICOM files in the order of their places and times.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/volume/grid.h"
 
 #include <cstddef>

@@ -19,7 +19,7 @@ namespace {
 
 /// A scan that goes on past midnight, with the date of its beginning or without any.
 void pass_midnight(std::vector<DicomSlice>& slices, DicomClock clock, DicomTimes& found) {
-    constexpr double kSeconds = 86400; // of a day
+    constexpr double kSeconds = 86400; // in a day
     std::set<double> all;
     for (const DicomSlice& slice : slices)
         for (const DicomImage& image : slice)
@@ -79,7 +79,7 @@ std::optional<DicomClock> ordering_clock(const std::vector<DicomSlice>& slices) 
     return std::nullopt;
 }
 
-/// Of each step, the mean over its slices; empty where these do not increase.
+/// The mean over the slices of each step; empty where means do not increase.
 std::vector<double> means_of(const std::vector<DicomSlice>& slices, DicomClock clock) {
     std::vector<double> means;
     for (std::size_t step = 0; step < slices.front().size(); ++step) {
@@ -166,7 +166,8 @@ DicomTimes sort_times(std::vector<DicomSlice>& slices, const DicomFile& file,
     DicomTimes found;
     if (first.size() == 1)
         return found;
-    for (const DicomClock clock : {DicomClock::acquisition_time, DicomClock::content_time})
+    for (const DicomClock clock :
+         {DicomClock::acquisition_time, DicomClock::content_time, DicomClock::series_time})
         pass_midnight(slices, clock, found);
     const auto clock = ordering_clock(slices);
     if (!clock)

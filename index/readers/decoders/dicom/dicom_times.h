@@ -1,7 +1,7 @@
 // Puts images at the same place in the order of their times.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // Frames of older DICOM files: vectors with a number for each frame say what it is.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/readers/decoders/dicom/dicom_tags.h"
 
 #include <map>

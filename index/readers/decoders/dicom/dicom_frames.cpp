@@ -119,6 +119,8 @@ class OtherDimensions {
   public:
     OtherDimensions(const DicomTags& root, DicomFile& file) {
         const Tag kIndices(0x0020, 0x9222);
+        if (root.items(kIndices) == 0)
+            return;
         std::set<Tag> known{{0x0020, 0x9057}, {0x0020, 0x0032}, {0x0020, 0x9301}, {0x0020, 0x0037},
                             {0x0020, 0x9302}, {0x0020, 0x1041}, {0x0020, 0x930d}};
         for (const Tag& tag : tags_of_clocks())

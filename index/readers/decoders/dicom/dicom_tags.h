@@ -1,7 +1,6 @@
 // The attributes of a DICOM data set, by their tags.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -50,8 +49,12 @@ std::string keyword_of(const gdcm::Tag& tag);
 class FrameTags {
   public:
     /// @param groups the sequence with an item for each frame
-    FrameTags(const DicomTags& root, const gdcm::Tag& groups, std::uint32_t frame)
-        : places_{root.within(groups, frame), root.within(gdcm::Tag(0x5200, 0x9229), 0), root} {}
+    FrameTags(const DicomTags& root, const gdcm::Tag& groups, std::uint32_t frame) {
+        for (const DicomTags& place :
+             {root.within(groups, frame), root.within(gdcm::Tag(0x5200, 0x9229), 0), root})
+            if (!place.empty())
+                places_.push_back(place);
+    }
 
     /// Numbers of an attribute that stands at the root, or, in files of many frames, in a group.
     std::vector<double> numbers(const gdcm::Tag& group, const gdcm::Tag& tag) const {
@@ -88,7 +91,7 @@ class FrameTags {
         return {};
     }
 
-    std::array<DicomTags, 3> places_;
+    std::vector<DicomTags> places_;
 };
 
 } // namespace isochron::index

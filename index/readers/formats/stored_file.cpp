@@ -187,7 +187,7 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
 }
 
 void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps) {
-    if (steps > 1 && layout.time_step > 0 && std::isfinite(layout.time_step))
+    if (info.times.empty() && steps > 1 && layout.time_step > 0 && std::isfinite(layout.time_step))
         for (std::size_t step = 0; step < steps; ++step)
             info.times.push_back(layout.first_time + static_cast<double>(step) * layout.time_step);
     if (info.times.empty())

@@ -29,8 +29,8 @@ struct StoredLayout {
 std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, SeriesInfo info,
                                         const StoredLayout& layout, const ReadOptions& options);
 
-/// Sets the times of that many steps from the layout's first time and time step; if the file does
-/// not give them, removes times and their unit.
+/// Sets the times of that many steps, unless they are there, from the layout's first time and time
+/// step; if the file does not give them, removes their unit.
 void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps);
 
 /// Sets spacing and direction from the vectors between neighboring vertices along the index axes.

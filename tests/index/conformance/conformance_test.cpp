@@ -161,6 +161,13 @@ TEST_P(Conformance, ValuesPlacesAndTimesAreTheLibrarys) {
             expect_places(info, entry);
             for (std::size_t i = 0; i < entry["times"].size(); ++i)
                 EXPECT_NEAR(info.times[i], double(entry["times"][i]), 1e-9);
+            if (!entry["unit"].is_null()) {
+                EXPECT_EQ(info.time_unit, entry["unit"]);
+            }
+            if (!entry["note"].is_null()) {
+                EXPECT_THAT(info.notes,
+                            testing::Contains(testing::HasSubstr(std::string(entry["note"]))));
+            }
             expect_values(scaled_values(*series), doubles_in(folder_.path() / entry["values"]),
                           slack_of(entry["kind"]));
         } catch (const Error& error) {
@@ -281,6 +288,8 @@ std::string library_name(const testing::TestParamInfo<const char*>& script) {
     return name.substr(5, name.size() - 8);
 }
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance, kOfFiles, library_name);
+INSTANTIATE_TEST_SUITE_P(Matrices, Conformance, testing::Values("with_dicom_frames.py"),
+                         library_name);
 INSTANTIATE_TEST_SUITE_P(Libraries, DamagedFiles, kOfFiles, library_name);
 INSTANTIATE_TEST_SUITE_P(Libraries, DamagedFolders, kOfFolders, library_name);
 

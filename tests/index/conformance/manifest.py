@@ -25,9 +25,10 @@ def field(*shape, dtype="f4"):
 
 
 def expect(files, values, *, spacing=(1, 1, 1), origin=(0, 0, 0), times=None, direction=None, positions=None, kind=None,
-           **options):
+           unit=None, note=None, **options):
     """values: [time][z][y][x] or [z][y][x], after all scaling. direction: of each index axis in physical space, by
-    default x, y and z. positions: of all vertices along each axis. options: array, component, extra_axis_is_time, ..."""
+    default x, y and z. positions: of all vertices along each axis. unit: of times. note: a part of one of the notes.
+    options: array, component, extra_axis_is_time, ..."""
     values = np.asarray(values)
     if direction is None:
         direction = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
@@ -39,7 +40,7 @@ def expect(files, values, *, spacing=(1, 1, 1), origin=(0, 0, 0), times=None, di
                         vertices=list(values.shape[:0:-1]), steps=values.shape[0],
                         spacing=[float(v) for v in spacing], origin=[float(v) for v in origin],
                         times=None if times is None else [float(t) for t in times],
-                        direction=direction, positions=positions, kind=kind, options=options))
+                        direction=direction, positions=positions, kind=kind, unit=unit, note=note, options=options))
 
 
 def refuse(files, message, **options):

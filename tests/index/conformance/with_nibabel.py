@@ -52,6 +52,33 @@ image = nibabel.Nifti1Image(field(4, 5, 6, 1, 1, 2), affine)
 nibabel.save(image, path("six.nii"))
 refuse("six.nii", "6 dimensions, the 6th with 2 values")
 
+# What an intent says of the fourth axis, in both versions: components, or still time.
+for kind in (nibabel.Nifti1Image, nibabel.Nifti2Image):
+    for code, count, what in [(1004, 9, "matrices"), (1005, 6, "symmetric matrices"), (1006, 3, "displacement vectors"),
+                              (1007, 3, "vectors"), (1010, 4, "quaternions"), (2003, 3, "vectors of colors, RGB"),
+                              (2004, 4, "vectors of colors, RGBA"), (2006, 3, "displacement vectors of FSL"),
+                              (2016, 3, "coefficients of FSL"), (0, 3, ""), (3, 3, "statistics"), (1002, 3, "labels"),
+                              (2001, 3, ""), (77, 3, "")]:
+        name = f"intent_{kind.__name__}_{code}.nii"
+        image = kind(field(4, 5, 6, count, dtype="f4"), affine)
+        image.header["intent_code"], image.header["pixdim"][4] = code, 2.5
+        image.header.set_xyzt_units("mm", "sec")
+        nibabel.save(image, path(name))
+        values, times = zyx(nibabel.load(path(name))), np.arange(count) * 2.5
+        if 1004 <= code <= 1010 or code > 2001:
+            refuse(name, f"{count} components, choose one with --component")
+            expect(name, values[1], component="1", note=f"intent_code {code} ({what}): its fourth axis is not time", **where)
+            expect(name, values, times=times, unit="s", extra_axis_is_time=True, **where)
+        else:
+            expect(name, values, times=times, unit="s", note=f"intent_code {code} ({what})" if what else None, **where)
+for unit, said in [("ppm", "ppm"), ("hz", "Hz"), ("rads", "rad/s")]:
+    image = nibabel.Nifti1Image(field(4, 5, 6, 3, dtype="f4"), affine)
+    image.header["pixdim"][4] = 2.5
+    image.header.set_xyzt_units("mm", unit)
+    nibabel.save(image, path(f"spectrum_{unit}.nii"))
+    expect(f"spectrum_{unit}.nii", zyx(nibabel.load(path(f"spectrum_{unit}.nii"))), times=[0, 2.5, 5], unit=said,
+           note=f"fourth axis is in {said}, no time", **where)
+
 # Pairs, either file of which may be given.
 image = nibabel.Nifti1Pair(field(4, 5, 6, dtype="i2"), affine)
 nibabel.save(image, path("pair.img"))

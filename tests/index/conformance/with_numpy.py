@@ -127,6 +127,68 @@ for name, more, signs, kind in [("even.nrrd", "kinds: vector space space space\n
     rotation, strain = (gradient - gradient.swapaxes(0, 1)) / 2, (gradient + gradient.swapaxes(0, 1)) / 2
     expect(file, ((rotation ** 2).sum((0, 1)) - (strain ** 2).sum((0, 1))) / 2, component="q-criterion", **where)
     refuse(file, "3 components", component="gradient")
+
+# Lists of volumes, whose axis is the fastest or the slowest: 3D Slicer says what they are.
+directions = "(1,0,0) (0,2,0) (0,0,3)"
+
+
+def listed(name, more, kind="list", fastest=True, labels="", units=""):
+    """labels, units: of the list's axis."""
+    head = "NRRD0005\ntype: short\ndimension: 4\nspace: left-posterior-superior\nendian: little\nencoding: raw\n"
+    axes = (lambda one, rest: f"{one} {rest}") if fastest else (lambda one, rest: f"{rest} {one}")
+    head += f"sizes: {axes(3, '4 5 6')}\nspace directions: {axes('none', directions)}\n"
+    head += f"kinds: {axes(kind, 'domain domain domain')}\n"
+    for key, value in (("labels", labels), ("units", units)):
+        if value:
+            quoted = axes(f'"{value}"', '"" "" ""')
+            head += f"{key}: {quoted}\n"
+    stored = moving.transpose(1, 2, 3, 0) if fastest else moving
+    return write(name, (head + more + "\n").encode() + np.ascontiguousarray(stored).tobytes())
+
+
+def multi_volume(tag, labels, unit="ms"):
+    return f"MultiVolume.FrameIdentifyingDICOMTagName:={tag}\nMultiVolume.FrameIdentifyingDICOMTagUnits:={unit}\n" \
+        f"MultiVolume.FrameLabels:={labels}\nMultiVolume.NumberOfFrames:=3\n"
+
+
+for fastest in (True, False):
+    at = 0 if fastest else 3
+    for name, more, times, unit, note in [
+            ("trigger", dict(more=multi_volume("TriggerTime", "0,33.3,100")), [0, 33.3, 100], "ms", "by TriggerTime"),
+            ("position", dict(more=multi_volume("TemporalPositionIdentifier", "1,2,3", "count")), [1, 2, 3], "count",
+             "by TemporalPositionIdentifier"),
+            ("time kind", dict(more=multi_volume("AcquisitionTime", "0,5000,9500"), kind="time"), [0, 5000, 9500], "ms",
+             "by AcquisitionTime"),
+            ("few labels", dict(more=multi_volume("TriggerTime", "0,33.3")), [0, 1, 2], "", "MultiVolume.FrameLabels"),
+            ("texts", dict(more=multi_volume("TriggerTime", "a,b,c")), [0, 1, 2], "", "MultiVolume.FrameLabels"),
+            ("sequence", dict(more=f"axis {at} index type:=numeric\naxis {at} index values:=0.5 1.5 4\n", labels="time",
+                              units="s"), [0.5, 1.5, 4], "s", "by time"),
+            ("phases", dict(more=f"axis {at} index type:=numeric\naxis {at} index values:=10 20 40\n", labels="phase",
+                            units="%"), [10, 20, 40], "%", "by phase"),
+            ("names", dict(more=f"axis {at} index type:=text\naxis {at} index values:=rest stress late\n"), [0, 1, 2], "",
+             "by index")]:
+        expect(listed(f"{name} {at}.nrrd", fastest=fastest, **more), moving, times=times, unit=unit, note=note, **placed)
+    for tag in ("EchoTime", "FlipAngle", "GE.B-value"):
+        file = listed(f"{tag} {at}.nrrd", multi_volume(tag, "0,33.3,100"), fastest=fastest)
+        refuse(file, "3 components, choose one with --component")
+        expect(file, moving[1], component="1", note="MultiVolume.FrameLabels", **placed)
+        expect(file, moving, extra_axis_is_time=True, **placed)
+for kind in ("list", "time", "vector", "RGB-color"):
+    refuse(write(f"{kind} film.nrrd", nhdr.encode() + f"kinds: domain domain {kind}\n\n".encode() + values.tobytes()),
+           "2 axes of space, expected 3")
+
+# Frames of MetaImage, as PLUS and 3D Slicer write them, with their times.
+frames = "".join(f"Seq_Frame{t:04}_Timestamp = {time}\nSeq_Frame{t:04}_Status = OK\n" for t, time in enumerate((69.25, 69.5, 71)))
+mha = mhd.replace("NDims = 3", "NDims = 4").replace("4 5 6", "4 5 6 3").replace("1 2 3", "1 2 3 1")
+expect(write("sequence.mhd", mha + "Kinds = domain domain domain list\n" + frames + "ElementDataFile = step_%d.raw 0 2 1\n"),
+       moving, times=[69.25, 69.5, 71], unit="s", note="steps by", **placed)
+expect(write("untimed.mhd", mha + frames.replace("71", "x", 0).split("Seq_Frame0002")[0] +
+             "ElementDataFile = step_%d.raw 0 2 1\n"), moving, times=[0, 1, 2], note="Seq_Frame0000_Timestamp", **placed)
+for name, more in (("film", frames), ("film by kind", "Kinds = domain domain list\n")):
+    film = write(f"{name}.mhd", mhd + more + "ElementDataFile = slice%03d.raw 1 6 1\n")
+    refuse(film, "a film, 6 frames of one slice")
+    expect(film, values, spacing=(1, 2, 4), spacing_given=[1, 2, 4])
+
 scalar = write("scalar.nhdr", nhdr.replace("spacings: 1 2 3", "spacings: 1.5 2 0.5") + "data file: slice%03d.raw 1 6 1\n")
 expect(scalar, np.sqrt(sum(g ** 2 for g in derivatives(values))), component="gradient", spacing=(1.5, 2, 0.5), kind="rounded")
 refuse(scalar, "component", component="vorticity")

@@ -1,79 +1,13 @@
 """DICOM: a file for each slice, enhanced multi-frame, 4D by several clocks, and what is refused. Values are pydicom's own
 reading, scaled as its header says."""
-import copy
-
 import numpy as np
-import pydicom
 import pydicom.uid
-from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
-from pydicom.encaps import encapsulate
+from pydicom.dataset import Dataset
 from pydicom.sequence import Sequence
 from pydicom.valuerep import DSfloat
 
-from manifest import done, expect, field, path, refuse
-
-series_number = 0
-
-
-def new_series():
-    global series_number
-    series_number += 1
-    return f"1.2.826.0.1.3680043.9.{series_number}"
-
-
-def blank(values, series, **tags):
-    """A data set with an image, or frames of one, in it: [y][x], [frame][y][x] or [y][x][rgb]."""
-    meta = FileMetaDataset()
-    meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2"
-    meta.MediaStorageSOPInstanceUID = pydicom.uid.generate_uid(entropy_srcs=[series, str(tags)])
-    meta.TransferSyntaxUID = pydicom.uid.ExplicitVRLittleEndian
-    data = FileDataset(None, {}, file_meta=meta, preamble=b"\0" * 128)
-    data.is_little_endian, data.is_implicit_VR = True, False
-    data.SOPClassUID, data.SOPInstanceUID = meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID
-    data.SeriesInstanceUID = series
-    data.SeriesNumber = 3
-    data.SeriesDescription = "test"
-    data.Modality = "MR"
-    put(data, values)
-    for name, value in tags.items():
-        setattr(data, name, value)
-    return data
-
-
-def put(data, values):
-    color = values.ndim == 3 and values.shape[-1] == 3
-    data.Rows, data.Columns = values.shape[-3:-1] if color else values.shape[-2:]
-    data.SamplesPerPixel = 3 if color else 1
-    if color:
-        data.PlanarConfiguration = 0
-    data.PhotometricInterpretation = "RGB" if color else "MONOCHROME2"
-    data.BitsAllocated = data.BitsStored = 8 * values.dtype.itemsize
-    data.HighBit = data.BitsStored - 1
-    data.PixelRepresentation = int(values.dtype.kind == "i")
-    if values.ndim == 3 and not color:
-        data.NumberOfFrames = values.shape[0]
-    data.PixelData = values.tobytes()
-
-
-def save(data, name):
-    data.save_as(path(name), write_like_original=False)
-    return name
-
-
-def stack(name, values, series, change=lambda data, z: None, spacing=(0.5, 0.75, 2.0), origin=(-10, 20, 5), **tags):
-    """A file for each slice, in shuffled order of names."""
-    names = []
-    for z in range(len(values)):
-        data = blank(values[z], series, **tags)
-        data.PixelSpacing = [DSfloat(spacing[1]), DSfloat(spacing[0])]
-        data.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
-        data.ImagePositionPatient = [origin[0], origin[1], origin[2] + spacing[2] * z]
-        data.InstanceNumber = z + 1
-        data.SliceThickness = 9
-        change(data, z)
-        names.append(save(data, f"{name}_{(z * 7 + 3) % 11}_{z}"))
-    return names
-
+from dicom_files import blank, new_series, save, sequence, stack
+from manifest import done, expect, field, refuse
 
 grid = dict(spacing=(0.5, 0.75, 2.0), origin=(-10, 20, 5))
 turned = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
@@ -147,7 +81,7 @@ def tilted(data, z):
 
 
 refuse(stack("gap.dcm", values, new_series(), gap), "slices are missing")
-refuse(stack("tilted.dcm", values, new_series(), tilted), "tilted by 11.3 degrees")
+refuse(stack("tilted.dcm", values, new_series(), tilted), "shifted sideways, by 11.3 degrees")
 refuse(stack("mosaic.dcm", values[:2], new_series(), ImageType=["ORIGINAL", "PRIMARY", "M", "MOSAIC"]), "mosaic")
 refuse(stack("lut.dcm", field(2, 3, 3, dtype="u1"), new_series(), PhotometricInterpretation="PALETTE COLOR"),
        "PhotometricInterpretation PALETTE COLOR")
@@ -202,13 +136,6 @@ expect(stack("planar.dcm", colors, new_series(), planar), colors[..., 2], compon
 
 
 # One file: enhanced, with frames in no order, two steps in time; and the older ways.
-def sequence(**tags):
-    item = Dataset()
-    for name, value in tags.items():
-        setattr(item, name, value)
-    return Sequence([item])
-
-
 def enhanced(name, change=lambda frame, t, z: None, compress=False):
     frames = [(t, z) for z in (2, 0, 3, 1) for t in (1, 0)]
     data = blank(np.stack([moving[t][z] for t, z in frames]), new_series())

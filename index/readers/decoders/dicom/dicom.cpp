@@ -1,6 +1,8 @@
 // DICOM volumes: a file for each slice, or many frames in one.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_phases.h"
 #include "index/readers/decoders/dicom/dicom_pixels.h"
 #include "index/readers/decoders/dicom/dicom_stack.h"
 #include "index/readers/formats/stored_file.h"
@@ -41,7 +43,7 @@ class DicomSeries final : public DecodedFile {
     std::uint64_t decoded_bytes() const override {
         const DicomFile& file = file_of(stack_.steps.front().front());
         return std::uint64_t{file.columns} * file.rows * file.samples * size_of(file.type) *
-               (DicomPixels::by_frame(file) ? 1 : file.frames);
+               (DicomPixels::by_frame(file) && file.tiles_across == 1 ? 1 : file.frames);
     }
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
@@ -67,8 +69,13 @@ class DicomSeries final : public DecodedFile {
   private:
     const DicomFile& file_of(const DicomImage& image) const { return files_[image.file]; }
 
-    void choose(std::vector<DicomVolume>& volumes, const ReadOptions& options,
-                const std::string& name) {
+    void choose(std::vector<DicomVolume>& volumes, ReadOptions options, const std::string& name) {
+        const std::size_t series = volumes.size(), phases = join_phases(volumes, files_, names_);
+        if (phases == series && !options.array) {
+            options.array = volumes.front().name;
+            info_.notes.push_back(fmt::format(
+                "{} series are the phases of one scan; --array NAME reads one", phases));
+        }
         std::vector<StoredArray> offered;
         for (const DicomVolume& volume : volumes) {
             const DicomFile& file = file_of(volume.images.front());
@@ -84,7 +91,7 @@ class DicomSeries final : public DecodedFile {
         DicomVolume& volume = volumes[static_cast<std::size_t>(at - offered.begin())];
         const DicomFile& file = file_of(volume.images.front());
         rescaled_ = type_of(volume) != file.type;
-        stack_ = dicom_stack(volume.images, file, names_);
+        stack_ = dicom_stack(volume.images, file, names_, options.spacing.has_value());
     }
 
     /// Values that each slice scales in its own way are scaled when they are read.
@@ -109,7 +116,7 @@ class DicomSeries final : public DecodedFile {
         info_.value_unit = file.value_unit;
         if (stack_.in_space || image.spacing)
             info_.length_unit = "mm";
-        if (stack_.in_space)
+        if (stack_.in_space && file.of_patient)
             info_.anatomy = Anatomy::lps;
         info_.times = stack_.times;
         info_.time_unit = stack_.time_unit;

@@ -15,8 +15,20 @@
 namespace isochron::index {
 namespace {
 
+/// The size of a picture as it is stored: a frame, or a mosaic of all.
+std::uint32_t stored_columns(const DicomFile& file) {
+    return file.columns * file.tiles_across;
+}
+std::uint32_t stored_rows(const DicomFile& file) {
+    return file.rows * file.tiles_down;
+}
+std::uint32_t stored_frames(const DicomFile& file) {
+    return file.tiles_across > 1 ? 1 : file.frames;
+}
+
 std::size_t frame_bytes(const DicomFile& file) {
-    return std::size_t{file.columns} * file.rows * file.samples * size_of(file.type);
+    return std::size_t{stored_columns(file)} * stored_rows(file) * file.samples *
+           size_of(file.type);
 }
 
 /// Leaves only the value of each stored number, with its sign: other bits may stand around it.
@@ -42,14 +54,14 @@ void DicomPixels::decode(const std::filesystem::path& path, const DicomFile& fil
     if (decoded_ == path && (!alone || frame_ == frame))
         return;
     decoded_.clear();
-    const std::size_t expected = frame_bytes(file) * (alone ? 1 : file.frames);
+    const std::size_t expected = frame_bytes(file) * (alone ? 1 : stored_frames(file));
     const auto check = [&](const gdcm::Image& image) {
         const unsigned* sizes = image.GetDimensions();
-        if (sizes[0] != file.columns || sizes[1] != file.rows ||
+        if (sizes[0] != stored_columns(file) || sizes[1] != stored_rows(file) ||
             image.GetPixelFormat().GetSamplesPerPixel() != file.samples ||
             image.GetPixelFormat().GetBitsAllocated() != 8 * size_of(file.type))
             throw Error(fmt::format("{}: its pixels are {} x {}, its header says {} x {}", name,
-                                    sizes[0], sizes[1], file.columns, file.rows));
+                                    sizes[0], sizes[1], stored_columns(file), stored_rows(file)));
     };
     if (alone) {
         pixels_.resize(expected);
@@ -85,14 +97,23 @@ void DicomPixels::decode(const std::filesystem::path& path, const DicomFile& fil
 
 void DicomPixels::read(const std::filesystem::path& path, const DicomFile& file,
                        std::uint32_t frame, std::size_t sample, std::span<std::byte> out) {
-    decode(path, file, frame);
-    const std::size_t count = std::size_t{file.columns} * file.rows, size = size_of(file.type);
-    const char* from = pixels_.data() + (frame - frame_) * frame_bytes(file);
-    if (planar_ || file.samples == 1)
-        std::memcpy(out.data(), from + sample * count * size, count * size);
-    else
-        for (std::size_t i = 0; i < count; ++i)
-            std::memcpy(out.data() + i * size, from + (i * file.samples + sample) * size, size);
+    const bool tiled = file.tiles_across > 1;
+    const std::uint32_t stored = tiled ? 0 : frame;
+    decode(path, file, stored);
+    const std::size_t size = size_of(file.type), wide = stored_columns(file);
+    const bool apart = planar_ || file.samples == 1;
+    const std::size_t next = apart ? size : file.samples * size; // from a pixel to the next
+    const char* from = pixels_.data() + (stored - frame_) * frame_bytes(file) +
+                       sample * (apart ? wide * stored_rows(file) * size : size);
+    if (tiled)
+        from += (frame / file.tiles_across * wide * file.rows +
+                 frame % file.tiles_across * file.columns) *
+                next;
+    std::byte* to = out.data();
+    for (std::uint32_t row = 0; row < file.rows; ++row, from += wide * next)
+        for (std::uint32_t column = 0; column < file.columns; ++column, to += size)
+            std::memcpy(to, from + column * next, size);
+    const std::size_t count = std::size_t{file.columns} * file.rows;
     visit_stored_type(file.type, [&]<class T>(std::type_identity<T>) {
         if constexpr (std::is_integral_v<T>)
             keep_value(reinterpret_cast<T*>(out.data()), count, file);

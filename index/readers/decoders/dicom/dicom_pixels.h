@@ -1,7 +1,7 @@
 // The pixels of DICOM files, decoded by GDCM.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 
 #include <cstddef>
 #include <filesystem>

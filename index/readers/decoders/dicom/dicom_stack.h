@@ -1,7 +1,7 @@
 // Puts the images of DICOM files in the order of their places and times.
 #pragma once
 
-#include "index/readers/decoders/dicom/dicom_header.h"
+#include "index/readers/decoders/dicom/dicom_image.h"
 #include "index/volume/grid.h"
 
 #include <cstddef>
@@ -31,9 +31,10 @@ std::vector<DicomVolume> dicom_volumes(const std::vector<DicomFile>& files);
 
 /// @param images of one volume @param first the file that holds the first of them
 /// @param names of the files
+/// @param spaced whether a user says how far slices are apart: frames of one slice may be slices then
 /// @throws Error naming a file: slices shifted sideways (a tilted gantry), missing slices, images
-///         at the same place that nothing tells apart
+///         at the same place that nothing tells apart, a film
 DicomStack dicom_stack(const std::vector<DicomImage>& images, const DicomFile& first,
-                       const std::vector<std::string>& names);
+                       const std::vector<std::string>& names, bool spaced);
 
 } // namespace isochron::index

@@ -7,39 +7,21 @@
 
 #include <fmt/format.h>
 #include <gdcmByteValue.h>
+#include <gdcmDicts.h>
+#include <gdcmGlobal.h>
 #include <gdcmSequenceOfItems.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
 namespace isochron::index {
 namespace {
 
 /// How numbers are stored where the file itself does not say: in the older transfer syntax.
 gdcm::VR::VRType implied(const gdcm::Tag& tag) {
-    static const std::array<std::pair<gdcm::Tag, gdcm::VR::VRType>, 14> kBinary{{
-        {{0x0028, 0x0002}, gdcm::VR::US},
-        {{0x0028, 0x0006}, gdcm::VR::US},
-        {{0x0028, 0x0010}, gdcm::VR::US},
-        {{0x0028, 0x0011}, gdcm::VR::US},
-        {{0x0028, 0x0100}, gdcm::VR::US},
-        {{0x0028, 0x0101}, gdcm::VR::US},
-        {{0x0028, 0x0102}, gdcm::VR::US},
-        {{0x0028, 0x0103}, gdcm::VR::US},
-        {{0x0028, 0x0120}, gdcm::VR::US},
-        {{0x0020, 0x930d}, gdcm::VR::FD},
-        {{0x0020, 0x9153}, gdcm::VR::FD},
-        {{0x0018, 0x9082}, gdcm::VR::FD},
-        {{0x0018, 0x9087}, gdcm::VR::FD},
-        {{0x0020, 0x9128}, gdcm::VR::UL},
-    }};
-    const auto known =
-        std::ranges::find(kBinary, tag, [](const auto& entry) { return entry.first; });
-    return known == kBinary.end() ? gdcm::VR::DS : known->second;
+    return gdcm::Global::GetInstance().GetDicts().GetPublicDict().GetDictEntry(tag).GetVR();
 }
 
 template <class T>
@@ -54,7 +36,8 @@ std::vector<double> binary(const std::string& bytes) {
 }
 
 /// The bytes of an element, as they are.
-std::string bytes_of(const gdcm::DataSet& set, const gdcm::Tag& tag) {
+template <class AnyTag>
+std::string bytes_of(const gdcm::DataSet& set, const AnyTag& tag) {
     if (!set.FindDataElement(tag))
         return {};
     const gdcm::ByteValue* value = set.GetDataElement(tag).GetByteValue();
@@ -77,6 +60,10 @@ std::string DicomTags::text(const gdcm::Tag& tag) const {
     return as_utf8(std::string(trimmed(text)));
 }
 
+std::string DicomTags::bytes(const gdcm::PrivateTag& tag) const {
+    return bytes_of(set_, tag);
+}
+
 std::vector<double> DicomTags::numbers(const gdcm::Tag& tag) const {
     const std::string bytes = bytes_of(set_, tag);
     if (bytes.empty())
@@ -86,7 +73,8 @@ std::vector<double> DicomTags::numbers(const gdcm::Tag& tag) const {
         kind = implied(tag);
     switch (kind) {
     case gdcm::VR::US:
-    case gdcm::VR::US_SS: return binary<std::uint16_t>(bytes);
+    case gdcm::VR::US_SS:
+    case gdcm::VR::AT: return binary<std::uint16_t>(bytes);
     case gdcm::VR::SS: return binary<std::int16_t>(bytes);
     case gdcm::VR::UL: return binary<std::uint32_t>(bytes);
     case gdcm::VR::SL: return binary<std::int32_t>(bytes);
@@ -98,6 +86,16 @@ std::vector<double> DicomTags::numbers(const gdcm::Tag& tag) const {
     std::ranges::replace(words, '\\', ' ');
     return numbers_of(words, fmt::format("({:04x},{:04x})", tag.GetGroup(), tag.GetElement()),
                       file_);
+}
+
+double DicomTags::rounding(const gdcm::Tag& tag) const {
+    const std::string words = text(tag);
+    std::size_t most = 0;
+    for (std::size_t at = words.find('.'); at != words.npos; at = words.find('.', at + 1)) {
+        const std::size_t end = words.find_first_not_of("0123456789", at + 1);
+        most = std::max(most, std::min(end, words.size()) - at - 1);
+    }
+    return most == 0 ? 0 : 0.5 * std::pow(10.0, -static_cast<double>(most));
 }
 
 std::optional<double> DicomTags::number(const gdcm::Tag& tag) const {
@@ -115,6 +113,13 @@ DicomTags DicomTags::within(const gdcm::Tag& sequence, std::size_t item) const {
 std::size_t DicomTags::items(const gdcm::Tag& sequence) const {
     const auto items = sequence_of(set_, sequence);
     return items ? items->GetNumberOfItems() : 0;
+}
+
+std::string keyword_of(const gdcm::Tag& tag) {
+    const char* keyword =
+        gdcm::Global::GetInstance().GetDicts().GetPublicDict().GetKeywordFromTag(tag);
+    return keyword && *keyword ? keyword
+                               : fmt::format("({:04x},{:04x})", tag.GetGroup(), tag.GetElement());
 }
 
 } // namespace isochron::index

@@ -129,6 +129,33 @@ void orient(const MetaImageHeader& header, std::size_t dimensions, const std::st
     }
 }
 
+/// [s] of the frames that PLUS and 3D Slicer list; empty: they are not said.
+std::vector<double> times_of_frames(const MetaImageHeader& header, std::size_t frames) {
+    std::vector<double> times;
+    while (times.size() < frames) {
+        const std::string key = fmt::format("Seq_Frame{:04}_Timestamp", times.size());
+        const auto time = header.numbers({key.c_str()}, 1);
+        if (time.empty())
+            return {};
+        times.push_back(time.front());
+    }
+    const std::set<double> different(times.begin(), times.end());
+    return different.size() == frames ? times : std::vector<double>();
+}
+
+/// The third axis of a film is its frames, which lie nowhere behind each other.
+void expect_slices(const MetaImageHeader& header, std::int64_t frames, const std::string& name,
+                   const ReadOptions& options) {
+    const auto kinds = words_of(lower_case(header.find({"Kinds"}).value_or("")));
+    const bool film = header.find({"Seq_Frame0000_Timestamp", "Seq_Frame0000_Status"}) ||
+                      (kinds.size() == 3 && (kinds[2] == "list" || kinds[2] == "time"));
+    if (film && !options.spacing)
+        throw Error(
+            fmt::format("{}: a film, {} frames of one slice, expected slices; --spacing X Y "
+                        "Z takes the frames for slices, Z apart",
+                        name, frames));
+}
+
 void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_t vertices,
                StoredLayout& layout) {
     const std::string name = path.string();
@@ -213,7 +240,19 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
         "ElementDataFile",
         "DistanceUnits",
     };
+    if (sizes.size() == 3)
+        expect_slices(header, sizes[2], name, options);
+    else
+        info.times =
+            times_of_frames(header, static_cast<std::size_t>(std::max<std::int64_t>(sizes[3], 0)));
     std::vector<std::string> unread = header.others(kRead);
+    if (!info.times.empty()) {
+        info.time_unit = "s";
+        info.notes.emplace_back("steps by Seq_Frame Timestamp");
+        std::erase_if(unread, [](const std::string& field) {
+            return field.starts_with("Seq_Frame") && field.find("_Timestamp ") != field.npos;
+        });
+    }
     if (header.find({"ElementSpacing"}) && header.find({"ElementSize"}))
         unread.emplace_back("ElementSize (ElementSpacing counts)");
     // Where a matrix turns space, the center only says about which point: Offset has it in already.

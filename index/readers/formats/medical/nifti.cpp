@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 struct NiftiHeader {
     std::int64_t dim[8];
     double pixdim[8];
-    std::int32_t datatype, xyzt_units, qform_code, sform_code;
+    std::int32_t datatype, intent, xyzt_units, qform_code, sform_code;
     double vox_offset, scl_slope, scl_inter, toffset;
     double quatern[3], qoffset[3];
     double srow[3][4];
@@ -82,8 +82,8 @@ void read_geometry(const Fields& f, std::size_t quatern, NiftiHeader& h) {
 
 /// Where fields are that nothing is done with.
 struct UnreadPlaces {
-    std::size_t dim_info, intent_code, intent_name, slice_start, slice_end, slice_code, cal_max,
-        cal_min, slice_duration, descrip, aux_file;
+    std::size_t dim_info, intent_name, slice_start, slice_end, slice_code, cal_max, cal_min,
+        slice_duration, descrip, aux_file;
 };
 
 /// @tparam Whole of codes @tparam Index of slices @tparam Real of the others
@@ -99,7 +99,6 @@ std::vector<std::string> unread_in(const Fields& f, const UnreadPlaces& at) {
             unread.push_back(fmt::format("{} {}", name, excerpt(value)));
     };
     number("dim_info", f.at<std::uint8_t>(at.dim_info));
-    number("intent_code", f.at<Whole>(at.intent_code));
     text("intent_name", f.text(at.intent_name, 16));
     number("slice_start", static_cast<double>(f.at<Index>(at.slice_start)));
     number("slice_end", static_cast<double>(f.at<Index>(at.slice_end)));
@@ -115,11 +114,12 @@ std::vector<std::string> unread_in(const Fields& f, const UnreadPlaces& at) {
 NiftiHeader header_1(const Fields& f) {
     NiftiHeader h{};
     h.unread = unread_in<std::int16_t, std::int16_t, float>(
-        f, {39, 68, 328, 74, 120, 122, 124, 128, 132, 148, 228});
+        f, {39, 328, 74, 120, 122, 124, 128, 132, 148, 228});
     for (std::size_t i = 0; i < 8; ++i) {
         h.dim[i] = f.at<std::int16_t>(40 + 2 * i);
         h.pixdim[i] = f.at<float>(76 + 4 * i);
     }
+    h.intent = f.at<std::int16_t>(68);
     h.datatype = f.at<std::int16_t>(70);
     h.vox_offset = f.at<float>(108);
     h.scl_slope = f.at<float>(112);
@@ -135,11 +135,12 @@ NiftiHeader header_1(const Fields& f) {
 NiftiHeader header_2(const Fields& f) {
     NiftiHeader h{};
     h.unread = unread_in<std::int32_t, std::int64_t, double>(
-        f, {524, 504, 508, 224, 232, 496, 192, 200, 208, 240, 320});
+        f, {524, 508, 224, 232, 496, 192, 200, 208, 240, 320});
     for (std::size_t i = 0; i < 8; ++i) {
         h.dim[i] = f.at<std::int64_t>(16 + 8 * i);
         h.pixdim[i] = f.at<double>(104 + 8 * i);
     }
+    h.intent = f.at<std::int32_t>(504);
     h.datatype = f.at<std::int16_t>(12);
     h.vox_offset = static_cast<double>(f.at<std::int64_t>(168));
     h.scl_slope = f.at<double>(176);
@@ -163,7 +164,7 @@ NiftiHeader analyze_header(const Fields& f, bool swapped) {
             h.unread.emplace_back("originator, the origin by SPM (--origin)");
             break;
         }
-    h.qform_code = h.sform_code = 0;
+    h.intent = h.qform_code = h.sform_code = 0;
     h.scl_inter = h.toffset = 0;
     h.vox_offset = std::abs(h.vox_offset); // negative: of each volume
     h.xyzt_units = f.at<char>(56) == 'm' && f.at<char>(57) == 'm' ? 2 : 0;
@@ -311,6 +312,15 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     info.grid.vertices = checked_vertices({h.dim[1], h.dim[2], h.dim[3]}, name);
     orient(h, name, info);
     std::vector<std::string> unread = h.unread;
+    const NiftiIntent intent = nifti_intent(h.intent);
+    const std::string stated = fmt::format(
+        "intent_code {}{}", h.intent, intent.name.empty() ? "" : fmt::format(" ({})", intent.name));
+    // Components are to be on the fifth axis, but many programs write them on the fourth.
+    const bool fourth = intent.components && dimensions == 4 && h.dim[4] > 1;
+    if (fourth)
+        info.notes.push_back(stated + ": its fourth axis is not time but components");
+    else if (h.intent != 0 && !(intent.components && dimensions > 4) && h.intent != 2001)
+        unread.push_back(stated);
     if (h.sform_code > 0 && h.qform_code > 0 && differ(h))
         unread.emplace_back("qform, which differs from the sform");
     std::error_code ignored;
@@ -341,18 +351,25 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     layout.first_time = h.toffset;
     layout.time_step = h.pixdim[4];
     info.time_unit = nifti_time_unit(h.xyzt_units);
-    if (dimensions < 5 || h.dim[5] <= 1)
+    constexpr int kUnitOfFourth = 56, kHertz = 32; // this and those above are no times
+    if (layout.steps > 1 && !fourth && (h.xyzt_units & kUnitOfFourth) >= kHertz)
+        info.notes.push_back(fmt::format(
+            "its fourth axis is in {}, no time: its steps are along it", info.time_unit));
+    const int axis = fourth ? 4 : 5;
+    if (dimensions < axis || h.dim[axis] <= 1 || (fourth && options.extra_axis_is_time))
         return open_stored(path, std::move(info), layout, options);
+    if (fourth)
+        layout.steps = 1;
     constexpr std::int64_t kMostComponents = 4096;
-    if (h.dim[5] > kMostComponents)
-        throw Error(
-            fmt::format("{}: {} components, expected at most {}", name, h.dim[5], kMostComponents));
+    if (h.dim[axis] > kMostComponents)
+        throw Error(fmt::format("{}: {} components, expected at most {}", name, h.dim[axis],
+                                kMostComponents));
     if (options.extra_axis_is_time && layout.steps == 1) {
         layout.steps = static_cast<std::size_t>(h.dim[5]);
         layout.time_step = h.pixdim[5];
         return open_stored(path, std::move(info), layout, options);
     }
-    layout.array.components = static_cast<std::uint32_t>(h.dim[5]);
+    layout.array.components = static_cast<std::uint32_t>(h.dim[axis]);
     layout.array.maybe_steps = layout.steps == 1;
     return open_stacked_components(path, std::move(info), layout, false, options);
 }

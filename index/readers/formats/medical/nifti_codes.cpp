@@ -38,6 +38,30 @@ StoredType nifti_type(std::int32_t datatype, const std::string& file) {
                             file, datatype, what));
 }
 
+NiftiIntent nifti_intent(std::int32_t code) {
+    switch (code) {
+    case 1002: return {"labels"};
+    case 1003: return {"names of neurons"};
+    case 1004: return {"matrices", true};
+    case 1005: return {"symmetric matrices", true};
+    case 1006: return {"displacement vectors", true};
+    case 1007: return {"vectors", true};
+    case 1008: return {"points", true};
+    case 1009: return {"triangles", true};
+    case 1010: return {"quaternions", true};
+    case 2001: return {"series in time"};
+    case 2003: return {"vectors of colors, RGB", true};
+    case 2004: return {"vectors of colors, RGBA", true};
+    case 2006: return {"displacement vectors of FSL", true};
+    case 2007:
+    case 2008:
+    case 2009:
+    case 2016:
+    case 2017: return {"coefficients of FSL", true};
+    default: return {code >= 2 && code <= 24 ? "statistics" : ""};
+    }
+}
+
 std::string nifti_length_unit(std::int32_t units) {
     switch (units & 7) {
     case 1: return "m";

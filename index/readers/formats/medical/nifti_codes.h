@@ -13,6 +13,13 @@ StoredType nifti_type(std::int32_t datatype, const std::string& file);
 
 /// The unit that `xyzt_units` names; empty where it names none.
 std::string nifti_length_unit(std::int32_t units);
+/// What an intent says of the values at a place.
+struct NiftiIntent {
+    std::string_view name;   ///< empty: unknown
+    bool components = false; ///< they are components of one value
+};
+NiftiIntent nifti_intent(std::int32_t code);
+
 std::string nifti_time_unit(std::int32_t units);
 
 } // namespace isochron::index

@@ -180,6 +180,13 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
         layout.time_step = spacings[*axes.time];
     if (!minima.empty() && std::isfinite(minima[*axes.time]))
         layout.first_time = minima[*axes.time];
+    if (axes.listed) {
+        info.notes.push_back("steps by " + axes.listed->by);
+        info.times = axes.listed->times;
+        info.time_unit = axes.listed->unit;
+        if (!info.times.empty())
+            return;
+    }
     if (axes.time_is_guessed)
         info.notes.push_back("its slowest axis is taken for time: it gives no kinds");
     if (!axes.units.empty())
@@ -194,14 +201,16 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
 }
 
 /// What is not said elsewhere: fields of the format that nothing is done with.
-void note_unread(const NrrdHeader& header, SeriesInfo& info) {
-    static const std::set<std::string_view> kRead{
+void note_unread(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info) {
+    std::set<std::string_view> read{
         "dimension",   "type",     "encoding", "endian",         "space",
         "sizes",       "spacings", "axismins", "axismaxs",       "centers",
         "centerings",  "units",    "kinds",    "spacedimension", "spaceunits",
         "spaceorigin", "lineskip", "byteskip", "datafile",       "spacedirections",
         "sampleunits", "labels",   "number"};
-    if (auto note = note_on_unread(header.others(kRead)))
+    if (axes.listed && !axes.listed->times.empty())
+        read.insert(axes.listed->keys.begin(), axes.listed->keys.end());
+    if (auto note = note_on_unread(header.others(read)))
         info.notes.push_back(std::move(*note));
 }
 
@@ -293,7 +302,7 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
         {axes.sizes[axes.space[0]], axes.sizes[axes.space[1]], axes.sizes[axes.space[2]]}, file);
     StoredLayout layout;
     orient(header, axes, info, layout);
-    note_unread(header, info);
+    note_unread(header, axes, info);
 
     const std::string type = lower_case(header.need("type"));
     const auto known =

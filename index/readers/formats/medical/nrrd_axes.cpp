@@ -10,6 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
 #include <utility>
 
 namespace isochron::index {
@@ -39,9 +42,7 @@ bool is_unknown(const std::string& kind) {
 /// The axes of space in a file without directions.
 std::vector<bool> spatial_by_kind(const std::vector<std::string>& kinds) {
     const std::size_t count = kinds.size();
-    std::vector<bool> spatial(count, count == 3);
-    if (count == 3)
-        return spatial;
+    std::vector<bool> spatial(count);
     const bool told = std::ranges::count_if(kinds, is_space) >= 3;
     std::size_t left = 3;
     for (std::size_t axis = 0; axis < count; ++axis) {
@@ -51,12 +52,57 @@ std::vector<bool> spatial_by_kind(const std::vector<std::string>& kinds) {
     return spatial;
 }
 
+/// What 3D Slicer says of a list of volumes (MultiVolume, or a sequence); none: nothing.
+std::optional<NrrdTimes> listed_times(const NrrdHeader& header, std::size_t axis,
+                                      const std::vector<std::string>& units, std::size_t count) {
+    const auto words = [](std::string text) {
+        std::ranges::replace(text, ',', ' ');
+        return words_of(text);
+    };
+    const std::string multi = "MultiVolume.Frame", index = fmt::format("axis {} index ", axis);
+    NrrdTimes listed;
+    std::vector<std::string> labels;
+    if (const auto tag = header.own(multi + "IdentifyingDICOMTagName")) {
+        // Echoes, flip angles and the like are no times.
+        if (tag->find("Temporal") == tag->npos &&
+            (!tag->ends_with("Time") || *tag == "EchoTime" || *tag == "InversionTime" ||
+             *tag == "RepetitionTime"))
+            return std::nullopt;
+        listed = {.by = *tag,
+                  .unit = header.own(multi + "IdentifyingDICOMTagUnits").value_or(""),
+                  .keys = {multi + "IdentifyingDICOMTagName", multi + "IdentifyingDICOMTagUnits",
+                           multi + "Labels", "MultiVolume.NumberOfFrames"}};
+        labels = words(header.own(multi + "Labels").value_or(""));
+    } else if (header.own(index + "type") || header.own(index + "values")) {
+        const auto names = quoted_in(header.find("labels").value_or(""));
+        listed = {.by = axis < names.size() && !names[axis].empty() ? names[axis] : "index",
+                  .unit = axis < units.size() ? units[axis] : "",
+                  .keys = {index + "type", index + "values"}};
+        labels = words(header.own(index + "values").value_or(""));
+    } else {
+        return std::nullopt;
+    }
+    for (const std::string& label : labels) {
+        double time = 0;
+        const char* end = label.data() + label.size();
+        if (std::from_chars(label.data(), end, time).ptr == end && std::isfinite(time))
+            listed.times.push_back(time);
+    }
+    const std::set<double> different(listed.times.begin(), listed.times.end());
+    if (labels.size() != count || different.size() != count)
+        listed.times.clear();
+    return listed;
+}
+
 enum class Role : std::uint8_t { components, time };
 
 /// The role of an axis that is not an axis of space.
-Role role_of(std::size_t axis, const std::string& kind, NrrdAxes& axes, const ReadOptions& options,
-             const std::string& file) {
-    if (kind == "time" || options.extra_axis_is_time)
+Role role_of(const NrrdHeader& header, std::size_t axis, const std::string& kind, NrrdAxes& axes,
+             const ReadOptions& options) {
+    if (kind == "time" || kind == "list" || is_unknown(kind))
+        axes.listed =
+            listed_times(header, axis, axes.units, static_cast<std::size_t>(axes.sizes[axis]));
+    if (kind == "time" || axes.listed || options.extra_axis_is_time)
         return Role::time;
     if (axis < axes.units.size() && times_in("s", axes.units[axis], {}))
         return Role::time;
@@ -70,7 +116,7 @@ Role role_of(std::size_t axis, const std::string& kind, NrrdAxes& axes, const Re
     throw Error(fmt::format("{}: axis {}, of {}, is neither space nor said to be time (its kind is "
                             "{}): --extra-axis-is-time reads it as time, --component N takes one "
                             "of it",
-                            file, axis, axes.sizes[axis], kind));
+                            header.file(), axis, axes.sizes[axis], kind));
 }
 
 } // namespace
@@ -173,7 +219,7 @@ NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options) {
             throw Error(fmt::format("{}: axis {} is not one of space; expected that of the slowest "
                                     "axes or the fastest one only",
                                     file, axis));
-        const Role role = role_of(axis, kinds[axis], axes, options, file);
+        const Role role = role_of(header, axis, kinds[axis], axes, options);
         std::optional<std::size_t>& place = role == Role::time ? axes.time : axes.components;
         if (place)
             throw Error(fmt::format("{}: axes {} and {} are both {}, expected one", file, *place,

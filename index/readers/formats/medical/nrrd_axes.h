@@ -15,6 +15,14 @@
 
 namespace isochron::index {
 
+/// The times of a list of volumes, as 3D Slicer writes them.
+struct NrrdTimes {
+    std::string by;                 ///< what they are: `TriggerTime`
+    std::vector<double> times = {}; ///< one for each; empty: they are not said
+    std::string unit = {};
+    std::vector<std::string> keys = {}; ///< that say so
+};
+
 /// The axes, fastest first, and their roles.
 struct NrrdAxes {
     std::vector<std::int64_t> sizes;
@@ -25,11 +33,12 @@ struct NrrdAxes {
     std::array<std::size_t, 3> space{};
     /// The fastest or the slowest axis, if any.
     std::optional<std::size_t> components, time;
-    bool time_is_guessed = false; ///< by the order of the axes, as the file gives no kinds
+    std::optional<NrrdTimes> listed; ///< times of a list
+    bool time_is_guessed = false;    ///< by the order of the axes, as the file gives no kinds
 };
 
 /// Finds the roles of axes by their kinds: `time` is time; `list`, `vector`, `3-color` and similar
-/// kinds are components. An axis of another kind is time if its unit or `options` say so. In a file
+/// kinds are components, except for lists that name times. An axis of another kind is time if its unit or `options` say so. In a file
 /// without kinds and with more than three axes, the slowest is time and the fastest components.
 /// @throws Error when the role of an axis stays open: it names the options that decide
 NrrdAxes axes_of(const NrrdHeader& header, const ReadOptions& options);

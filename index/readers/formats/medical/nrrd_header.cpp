@@ -31,7 +31,7 @@ NrrdHeader::NrrdHeader(const std::filesystem::path& path) : file_(path.string())
             continue;
         const std::string spelled(trimmed(std::string_view(line).substr(0, colon)));
         if (line.compare(colon, 2, ":=") == 0) {
-            own_.push_back(spelled);
+            own_[spelled] = trimmed(std::string_view(line).substr(colon + 2));
             continue;
         }
         std::string key = lower_case(spelled);
@@ -52,12 +52,19 @@ std::optional<std::string> NrrdHeader::find(const std::string& key) const {
     return found == fields_.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::optional<std::string> NrrdHeader::own(const std::string& key) const {
+    const auto found = own_.find(key);
+    return found == own_.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::vector<std::string> NrrdHeader::others(const std::set<std::string_view>& keys) const {
     std::vector<std::string> others;
     for (const auto& [key, spelled] : spelled_)
         if (!keys.contains(key))
             others.push_back(fmt::format("{} {}", spelled, excerpt(fields_.at(key))));
-    others.insert(others.end(), own_.begin(), own_.end());
+    for (const auto& [key, value] : own_)
+        if (!keys.contains(key))
+            others.push_back(key);
     return others;
 }
 

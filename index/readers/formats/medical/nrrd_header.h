@@ -20,9 +20,11 @@ class NrrdHeader {
 
     /// A field. @param key in lower case, without blanks, since the spelling in files varies
     std::optional<std::string> find(const std::string& key) const;
+    /// The value of a key of the user, `MultiVolume.FrameLabels`, as it is spelled.
+    std::optional<std::string> own(const std::string& key) const;
     /// A field that must be there. @throws Error when it is missing
     std::string need(const std::string& key) const;
-    /// Fields that none of these keys are, and the user's own keys, as the file has them.
+    /// Fields that none of these keys are, as the file has them; the user's own without values.
     std::vector<std::string> others(const std::set<std::string_view>& keys) const;
     /// Names that follow `data file: LIST`.
     const std::vector<std::string>& listed() const { return listed_; }
@@ -36,7 +38,7 @@ class NrrdHeader {
     std::string file_;
     std::map<std::string, std::string> fields_;
     std::map<std::string, std::string> spelled_; ///< keys as the file has them
-    std::vector<std::string> own_;               ///< keys of the user
+    std::map<std::string, std::string> own_;     ///< keys of the user
     std::vector<std::string> listed_;
     std::uint64_t bytes_ = 0;
 };

@@ -90,12 +90,12 @@ class ZarrVolume final : public DecodedFile {
   public:
     ZarrVolume(std::unique_ptr<ZarrStore> store, const ReadOptions& options)
         : store_(std::move(store)), name_(store_->name()) {
-        const json attributes = attributes_of_group(*store_, "");
         ReadOptions asked = options;
-        const json image = multiscale_of(attributes);
+        ZarrLevel level;
         try {
-            open_array(image, asked);
-            place(image);
+            open_array(multiscale_of(attributes_of_group(*store_, "")), asked);
+            level = level_of(*store_, array_->path());
+            place(level);
         } catch (const json::exception& error) {
             throw Error(fmt::format("{}: damaged description: {}", name_, error.what()));
         }
@@ -105,8 +105,8 @@ class ZarrVolume final : public DecodedFile {
             throw Error(fmt::format("{}: {} ({}): {}", name_, array_name(),
                                     fmt::join(array_->shape(), " x "), why));
         layout_ = *layout;
-        describe(attributes, asked);
-        if (image.is_null())
+        describe(level.attributes, asked);
+        if (level.image.is_null())
             place_by_coordinates(*store_, *array_, layout_.space, layout_.time, asked, info_);
         part_ = crop_description(info_, options, name_);
     }
@@ -206,7 +206,8 @@ class ZarrVolume final : public DecodedFile {
     }
 
     /// Names, scales and units of the dimensions.
-    void place(const json& image) {
+    void place(const ZarrLevel& level) {
+        const json& image = level.image;
         axes_.resize(array_->shape().size());
         for (std::size_t i = 0; i < std::min(axes_.size(), array_->names().size()); ++i)
             axes_[i].name = array_->names()[i];
@@ -220,7 +221,7 @@ class ZarrVolume final : public DecodedFile {
                 if (axis.is_object())
                     axes_[i].unit = tidy_unit_of_ome(axis.value("unit", ""));
             }
-        for (const json* object : {&image.at("datasets").at(0), &image})
+        for (const json* object : {&level.dataset, &image})
             if (const auto all = object->find("coordinateTransformations"); all != object->end())
                 for (const json& transformation : *all)
                     transform(transformation);

@@ -125,8 +125,10 @@ const Format* told_by_content(FileStart& start) {
 bool is_of_format(const Format& format, const KnownFile& file) {
     if (file.format == &format)
         return true;
+    if (!format.recognize || (file.format && !(file.format->join && format.join)))
+        return false; // told already
     FileStart start(file.path);
-    return format.recognize && format.recognize(start);
+    return format.recognize(start);
 }
 
 bool has_known_end(const std::string& name, bool folder) {

@@ -111,7 +111,7 @@ bool begins_as(const Format& format, FileStart& start);
 /// The format that the first bytes of a file tell; null: none.
 const Format* told_by_content(FileStart& start);
 
-/// Whether a file is of a format by its name, or by its first bytes, whatever its name says.
+/// Whether a file is of a format, as known or told; dual files of TIFF and DICOM are of both.
 bool is_of_format(const Format& format, const KnownFile& file);
 
 /// Whether a file, or a folder that is one volume, can be read as far as its name tells.

@@ -56,9 +56,13 @@ bool is_nifti(FileStart& start) {
            bytes.substr(std::min<std::size_t>(bytes.size(), 4)).starts_with("n+2\0\r\n\x1a\n"sv);
 }
 
+bool is_compressed(FileStart& start) {
+    return start.bytes(2) == "\x1f\x8b"sv;
+}
+
 /// Whether it is NIfTI or the values of a pair.
 bool may_be_nifti(FileStart& start) {
-    return is_nifti(start) || has_nifti_header_beside(start.path());
+    return is_nifti(start) || is_compressed(start) || has_nifti_header_beside(start.path());
 }
 
 bool is_tiff_or_dual(FileStart& start) {
@@ -137,7 +141,7 @@ bool is_named_mrc(FileStart& start) {
 
 /// Other programs' files end like MRC, too, so that content decides.
 bool is_any_mrc(FileStart& start) {
-    return start.bytes(2) == "\x1f\x8b"sv || is_mrc(std::string(start.bytes(kMrcHeader)));
+    return is_compressed(start) || is_mrc(std::string(start.bytes(kMrcHeader)));
 }
 
 bool is_tiff(FileStart& start) {
@@ -285,7 +289,10 @@ std::vector<Format> table() {
          .recognize = is_named_mrc,
          .may_begin = is_any_mrc,
          .open = open_mrc},
-        {.name = "mgh", .ends = {{".mgh"}, {".mgz"}, {".mgh.gz"}}, .open = open_mgh},
+        {.name = "mgh",
+         .ends = {{".mgh"}, {".mgz"}, {".mgh.gz"}},
+         .may_begin = is_compressed,
+         .open = open_mgh},
         {.name = "gaussian cube", .ends = {{".cube"}, {".cub"}}, .open = open_gaussian_cube},
 
         {.name = "bov", .ends = {{".bov"}}, .open = open_bov, .names_files = true},

@@ -200,7 +200,7 @@ add("TIFF", "ModelPixelScale", plain, tiff(extratags=[(33550, "d", 3, (2., 2., 2
 add("TIFF", "ModelTiepoint", plain, tiff(extratags=[(33922, "d", 6, (0., 0., 0., 1., 2., 3.), True)]))
 add("TIFF", "GDAL_NODATA", plain, tiff(extratags=[(42113, "s", 0, "7", True)]))
 lsm = bytearray(500)
-struct.pack_into("<2I7i6d", lsm, 0, 0x0400494C, 500, 6, 5, 4, 1, 1, 2, 1, 3, 1e-6, 2e-6, 3e-6, 0, 0, 0)
+struct.pack_into("<2I8i6d", lsm, 0, 0x0400494C, 500, 6, 5, 4, 1, 1, 2, 3, 3, 1e-6, 2e-6, 3e-6, 0, 0, 0)
 add("TIFF", "CZ_LSMINFO", plain, tiff(extratags=[(34412, "B", 500, bytes(lsm), True)]))
 add("TIFF", "Software of ScanImage", plain, tiff(metadata=None, software="SI.hChannels.channelSave = 1\nSI.hFastZ.enable = true\n"
                                                  "SI.hStackManager.numSlices = 2\n"))

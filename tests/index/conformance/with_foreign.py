@@ -88,7 +88,8 @@ for name, content, what in [
         ("a.dm3", b"\0\0\0\x03" + bytes(99), "Gatan DM3, expected"), ("a.oib", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "bfconvert"),
         ("a.par", b"# === DATA DESCRIPTION FILE ===", "dcm2niix"), ("a.rda", b">>> Begin of header <<<", "spec2nii"),
         ("a.head", b"type = string-attribute", "3dAFNItoNIFTI"), ("attributes.json", b"{}", "N5"),
-        ("a.dat.gz", b"\x1f\x8b\x08" + bytes(99), "gunzip -k IN"),
+        ("a.dat.gz", b"\x1f\x8b\x08" + bytes(99), "gzip -dc IN > OUT"),
+        ("a.nrrd", b"\x1f\x8b\x08" + bytes(99), "nrrd by its name, its content is compressed by gzip"),
         # A known end, and another program's content: both are said.
         ("picture.tif", b"\x89PNG\r\n\x1a\n" + bytes(999), "tiff by its name, its content is a PNG picture"),
         ("picture.raw", b"\x89PNG\r\n\x1a\n" + bytes(999), "raw by its name, its content is a PNG picture"),
@@ -107,6 +108,15 @@ for block in (1024, 2048):
     with h5py.File(path(f"block{block}"), "w", userblock_size=block) as file:
         file["v"] = values
     expect(f"block{block}", values)
+
+# NetCDF under the name of HDF5, without coordinates.
+for form in ("NETCDF3_CLASSIC", "NETCDF3_64BIT_DATA", "NETCDF4"):
+    file = netCDF4.Dataset(path(form + ".h5"), "w", format=form)
+    for name, length in zip("zyx", values.shape):
+        file.createDimension(name, length)
+    file.createVariable("rho", "f4", tuple("zyx"))[:] = values
+    file.close()
+    expect(form + ".h5", values)
 
 # Within HDF5 and NetCDF.
 for name, what, fill in [

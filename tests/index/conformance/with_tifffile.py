@@ -126,7 +126,8 @@ with tifffile.TiffWriter(path("places.ome.tif"), ome=True) as out:
 expect("places.ome.tif", places[0], spacing=(.25, .5, 1))
 for i, named in [(0, "Pos0"), (0, "Image:0"), (1, "Pos1"), (1, "Image:1")]:
     expect("places.ome.tif", places[i], spacing=(.25 * (i + 1), .5, 1), array=named)
-expect("places.ome.tif", places[2][:, :, 1], spacing=(.75, .5, 1), array="Pos2/channel 1")
+for named in ("Pos2/channel 1", "Image:2/channel 1"):
+    expect("places.ome.tif", places[2][:, :, 1], spacing=(.75, .5, 1), array=named)
 refuse("places.ome.tif", "Pos2/channel 0 (f32), Pos2/channel 1 (f32)", array="Image:2")
 ome = ('<?xml version="1.0" encoding="UTF-8"?><OME xmlns="http://www.openmicroscopy.org/Schemas/OME/2016-06"><Image ID="Image:0">'
        '<Pixels ID="Pixels:0" DimensionOrder="XYZCT" Type="uint16" SizeX="7" SizeY="6" SizeZ="4" SizeC="1" SizeT="5" '
@@ -140,6 +141,18 @@ for name, there, told, steps in [("promised", 10, range(20), (0, 1)), ("describe
 tifffile.imwrite(path("hopeless.ome.tif"), hyper[0, :3, 0], photometric="minisblack", metadata=None, description=ome.format(
     "".join(f'<TiffData IFD="{i}" FirstZ="{i}" PlaneCount="1"/>' for i in range(3))))
 refuse("hopeless.ome.tif", "17 of 20 planes are missing, as of a stopped run: none of its 5 steps is whole")
+
+# A file for each image, each of which describes all: the one that is opened has its own.
+described = '<?xml version="1.0"?><OME xmlns="http://www.openmicroscopy.org/Schemas/OME/2016-06">' + "".join(
+    f'<Image ID="Image:{i}" Name="At{i}"><Pixels ID="Pixels:{i}" DimensionOrder="XYZCT" Type="uint16" SizeX="7" SizeY="6" SizeZ="4" '
+    f'SizeC="1" SizeT="1"><Channel ID="Channel:{i}:0" SamplesPerPixel="1"/><TiffData IFD="0" PlaneCount="4"><UUID '
+    f'FileName="at{i}.ome.tif">urn:uuid:{i}</UUID></TiffData></Pixels></Image>' for i in range(2)) + "</OME>"
+for i in range(2):
+    tifffile.imwrite(path(f"at{i}.ome.tif"), hyper[i, :, 0], photometric="minisblack", metadata=None, description=described)
+for i in range(2):
+    expect(f"at{i}.ome.tif", hyper[i, :, 0])
+    for other in range(2):
+        expect(f"at{i}.ome.tif", hyper[other, :, 0], array=f"At{other}")
 
 # Slices and stacks of their own files.
 for i in range(4):

@@ -101,9 +101,12 @@ class Placing {
         const auto found = file_.dataset(path);
         if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{length})
             return false;
-        axis.unit = unit_of(file_, path);
         if (axis.label.empty())
             axis.label = last_name(path);
+        // NetCDF-4 gives a dimension without coordinates a scale of zeros.
+        if (file_.text(path, "NAME").starts_with("This is a netCDF dimension but not"))
+            return false;
+        axis.unit = unit_of(file_, path);
         try {
             axis.at = file_.values(*found);
             axis.spread = spread_of(axis.at, path, axis.unit, file_.name());

@@ -148,11 +148,15 @@ class TiffVolume final : public DecodedFile {
         ReadOptions asked = options;
         if (!stack_.images.empty()) {
             const std::string& image = stack_.images[stack_.image];
-            for (StoredArray& each : offered)
+            // By the image's name or identifier before the channel's, or by the channel's alone.
+            const std::string said = options.array.value_or("");
+            const std::string channel = said.substr(said.rfind('/') + 1);
+            for (StoredArray& each : offered) {
+                const bool is_meant = offered.size() == 1 || each.name == channel;
                 each.name = offered.size() == 1 ? image : image + "/" + each.name;
-            // By the image's identifier, or without a name where there is but one channel.
-            if (offered.size() == 1)
-                asked.array = image;
+                if (is_meant)
+                    asked.array = each.name;
+            }
         }
         chosen_ = choose_scalar(offered, asked, name);
         channel_ = static_cast<std::size_t>(

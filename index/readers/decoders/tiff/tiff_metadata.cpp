@@ -15,6 +15,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <sstream>
@@ -216,15 +217,31 @@ std::vector<std::string> names_of_images(const tinyxml2::XMLElement& root) {
     return names;
 }
 
-/// The image that an array's name means, `Pos1` or `Image:1`, also before a channel: `Pos1/GFP`.
+/// Whether planes of an image are in a file, as far as it says where they are.
+bool has_planes_in(const tinyxml2::XMLElement& image, const std::string& file) {
+    const auto* pixels = child(&image, "Pixels");
+    for (const auto* data = pixels ? child(pixels, "TiffData") : nullptr; data; data = next(data))
+        if (const auto* uuid = child(data, "UUID");
+            uuid && text_of_ome(*uuid, "FileName", "") == file)
+            return true;
+    return false;
+}
+
+/// The image that an array's name means, `Pos1` or `Image:1`, also before a channel: `Pos1/GFP`. Else
+/// the first one with planes in the file, or the first.
 std::size_t image_named(const tinyxml2::XMLElement& root, const std::vector<std::string>& names,
-                        const std::string& array) {
+                        const std::string& array, const std::string& file) {
     const auto means = [&](const std::string& name) {
         return array == name || array.starts_with(name + "/");
     };
     std::size_t number = 0;
     for (const auto* image = child(&root, "Image"); image; image = next(image), ++number)
         if (means(names[number]) || means(text_of_ome(*image, "ID", names[number])))
+            return number;
+    number = 0;
+    const std::string name = std::filesystem::path(file).filename().string();
+    for (const auto* image = child(&root, "Image"); image; image = next(image), ++number)
+        if (has_planes_in(*image, name))
             return number;
     return 0;
 }
@@ -241,7 +258,7 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples, const
     TiffStack stack;
     if (image && next(image)) {
         stack.images = names_of_images(*root);
-        stack.image = image_named(*root, stack.images, array);
+        stack.image = image_named(*root, stack.images, array, file);
         for (std::size_t i = 0; i < stack.image; ++i)
             image = next(image);
     }

@@ -273,9 +273,13 @@ bool has_nifti_header_beside(const fs::path& path) {
 }
 
 std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions& options) {
-    const fs::path path = header_of_pair(given);
-    if (path.empty())
-        throw Error(fmt::format("{}: its .hdr is not beside it", given.string()));
+    fs::path path = header_of_pair(given);
+    if (path.empty()) { // one file for all, or no pair
+        path = given;
+        const std::string head = head_of(given, kBytes1);
+        if (head.size() < kBytes1 || !head.substr(kBytes1 - 4).starts_with("n+1"))
+            throw Error(fmt::format("{}: its .hdr is not beside it", given.string()));
+    }
     const std::string name = path.string();
     const NiftiHeader h = read_header(path);
     const std::int64_t dimensions = h.dim[0];

@@ -7,6 +7,7 @@
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/reader_service.h"
 #include "index/readers/decoders/tiff/tiff_metadata.h"
+#include "index/readers/decoders/tiff/tiff_microscopes.h"
 #include "index/readers/decoders/zarr/zarr_store.h"
 
 #include <algorithm>
@@ -128,18 +129,45 @@ void fuzz_xdmf(Bytes input) {
         input);
 }
 
+void expect_whole(const index::TiffStack& stack) {
+    claim(stack.channels > 0 && stack.slices > 0 && stack.frames > 0, "a stack has pages");
+    claim(stack.planes.empty() ||
+              stack.planes.size() == stack.channels * stack.slices * stack.frames,
+          "every plane has a page");
+    claim(std::isfinite(stack.time_step), "times are finite");
+    claim(stack.times.empty() || stack.times.size() == stack.frames, "every frame has a time");
+}
+
 /// A TIFF of 1 to 64 pages, as many as the input's length leaves.
 void fuzz_tiff_description(Bytes input) {
     const std::string text(input.begin(), input.end());
     const std::size_t pages = 1 + input.size() % 64;
     const auto samples = static_cast<std::uint32_t>(1 + input.size() % 3);
     try {
-        const index::TiffStack stack = index::stack_of(text, pages, samples, 300, 300, "t.tif");
-        claim(stack.channels > 0 && stack.slices > 0 && stack.frames > 0, "a stack has pages");
-        claim(stack.planes.empty() ||
-                  stack.planes.size() == stack.channels * stack.slices * stack.frames,
-              "every plane has a page");
-        claim(std::isfinite(stack.time_step), "times are finite");
+        index::TiffStack stack = index::stack_of(text, pages, samples, 300, 300,
+                                                 input.size() % 2 == 0 ? "" : "Image:1", "t.tif");
+        keep_whole_frames(
+            stack, [&](const index::TiffPlane& plane) { return plane.page < pages; }, "t.tif");
+        expect_whole(stack);
+    } catch (const index::Error& error) {
+        claim_one_line(index::in_one_line(error.what()));
+    }
+}
+
+/// The record of Zeiss LSM, ScanImage's lines, or the start of a file of MetaMorph.
+void fuzz_tiff_microscopes(Bytes input) {
+    const std::string text(input.begin(), input.end());
+    const std::size_t pages = 1 + input.size() % 64;
+    const auto bytes_at = [&](std::uint64_t offset, std::size_t count) {
+        return offset < text.size() ? text.substr(offset, count) : std::string();
+    };
+    try {
+        if (const auto stack = index::scanimage_stack(text, pages))
+            expect_whole(*stack);
+        if (const auto stack = index::lsm_stack(text, pages, bytes_at, "t.lsm"))
+            expect_whole(*stack);
+        if (const auto stack = index::metamorph_stack(bytes_at))
+            expect_whole(*stack);
     } catch (const index::Error& error) {
         claim_one_line(index::in_one_line(error.what()));
     }
@@ -150,7 +178,8 @@ void fuzz_tiff_description(Bytes input) {
 std::span<const Target> decoder_targets() {
     static constexpr std::array kTargets{
         Target{"zarr", fuzz_zarr}, Target{"zarr_zip", fuzz_zarr_zip}, Target{"xdmf", fuzz_xdmf},
-        Target{"tiff_description", fuzz_tiff_description}};
+        Target{"tiff_description", fuzz_tiff_description},
+        Target{"tiff_microscopes", fuzz_tiff_microscopes}};
     return kTargets;
 }
 

@@ -82,6 +82,18 @@ void fuzz_nifti(Bytes input) {
     read_all(input, index::open_nifti, options_for(input));
 }
 
+void fuzz_mrc(Bytes input) {
+    read_all(input, index::open_mrc, options_for(input));
+}
+
+void fuzz_mgh(Bytes input) {
+    read_all(input, index::open_mgh, options_for(input));
+}
+
+void fuzz_cube(Bytes input) {
+    read_all(input, index::open_gaussian_cube, options_for(input));
+}
+
 void fuzz_raw(Bytes input) {
     index::ReadOptions options = options_for(input);
     if (input.size() < 4)
@@ -129,6 +141,9 @@ std::span<const Target> volume_targets() {
     static constexpr std::array kTargets{Target{"nrrd", fuzz_nrrd},
                                          Target{"metaimage", fuzz_metaimage},
                                          Target{"nifti", fuzz_nifti},
+                                         Target{"mrc", fuzz_mrc},
+                                         Target{"mgh", fuzz_mgh},
+                                         Target{"cube", fuzz_cube},
                                          Target{"raw", fuzz_raw},
                                          Target{"time_unit", fuzz_time_unit},
                                          Target{"reader", fuzz_reader},

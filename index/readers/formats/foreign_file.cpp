@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/readers/formats/cropped_file.h"
+#include "index/readers/formats/foreign_names.h"
 #include "index/readers/formats/reader_lease.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/system/huge_pages.h"
@@ -168,8 +169,17 @@ std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, const Format& form
 std::unique_ptr<VolumeFile> open_in_format(const Format& format, const fs::path& path,
                                            const ReadOptions& options) {
     const auto open = [&](const ReadOptions& how) {
-        return format.open ? format.open(path, how)
-                           : open_foreign(readers_of_this_process(), format, path, how);
+        try {
+            return format.open ? format.open(path, how)
+                               : open_foreign(readers_of_this_process(), format, path, how);
+        } catch (const Error&) {
+            FileStart start(path);
+            const std::string other = foreign_format_of(start);
+            if (other.empty() || (format.headerless && options.dims) || begins_as(format, start))
+                throw;
+            throw Error(fmt::format("{}: {} by its name, its content is {}", path.string(),
+                                    format.name, other));
+        }
     };
     if (!options.crop && !options.stride)
         return open(options);

@@ -12,4 +12,7 @@ namespace isochron::index {
 /// they do not tell.
 std::string foreign_format_of(FileStart& start);
 
+/// What a file of an unknown format is, by its first bytes or by its name; empty: they do not tell.
+std::string foreign_format_or_name(FileStart& start);
+
 } // namespace isochron::index

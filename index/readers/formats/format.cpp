@@ -29,13 +29,14 @@ void recognize(KnownFile& file) {
         if (const NameEnd* end = end_in(format, name, start)) {
             file.format = &format;
             file.end = end;
-            return;
+            break;
         }
-    for (const Format& format : all_formats())
-        if (format.recognize && format.recognize(start)) {
-            file.format = &format;
-            return;
-        }
+    if (file.format && (file.format->headerless || begins_as(*file.format, start)))
+        return;
+    if (const Format* told = told_by_content(start)) {
+        file.format = told;
+        file.end = nullptr;
+    }
 }
 
 /// The file that describes a folder; without a format if none does.
@@ -57,7 +58,7 @@ KnownFile description_in(const fs::path& folder) {
 
 std::string_view FileStart::bytes(std::size_t count) {
     if (count > asked_) {
-        asked_ = std::max<std::size_t>(count, 512); // what all but one format look at
+        asked_ = std::max<std::size_t>(count, 4096); // what all but one format look at
         bytes_.resize(asked_);
         try {
             const InputFile file(path_);
@@ -109,11 +110,25 @@ fs::path described_folder(const fs::path& file) {
     return {};
 }
 
+bool begins_as(const Format& format, FileStart& start) {
+    const auto decide = format.may_begin ? format.may_begin : format.recognize;
+    return decide && decide(start);
+}
+
+const Format* told_by_content(FileStart& start) {
+    const auto told = std::ranges::find_if(all_formats(), [&](const Format& format) {
+        return format.recognize && format.recognize(start);
+    });
+    return told == all_formats().end() ? nullptr : &*told;
+}
+
 bool is_of_format(const Format& format, const KnownFile& file) {
     if (file.format == &format)
         return true;
+    if (!format.recognize || (file.format && !(file.format->join && format.join)))
+        return false; // told already
     FileStart start(file.path);
-    return format.recognize && format.recognize(start);
+    return format.recognize(start);
 }
 
 bool has_known_end(const std::string& name, bool folder) {

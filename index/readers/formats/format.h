@@ -46,8 +46,11 @@ struct Format {
     /// By which its reader knows it, too.
     std::string_view name;
     std::vector<NameEnd> ends;
-    /// Whether a file that no end tells is of this format; null: no such file is.
+    /// Whether the first bytes tell that a file is of this format, whatever its name; null: they
+    /// never do.
     bool (*recognize)(FileStart& start) = nullptr;
+    /// Whether a file with one of the ends may begin as another format does; null: `recognize`.
+    bool (*may_begin)(FileStart& start) = nullptr;
 
     /// How one file is opened; null: by a reader.
     std::unique_ptr<VolumeFile> (*open)(const std::filesystem::path& path,
@@ -98,11 +101,17 @@ struct KnownFile {
     const NameEnd* end = nullptr;   ///< ending of its name; null: its content told
 };
 
-/// Asks the formats for a file, by the end of its name in upper or lower case, and then by its first
-/// bytes: simulations and scanners write files under names without an extension.
+/// Asks the formats for a file, by the end of its name in upper or lower case, and by its first
+/// bytes: they count where they tell another format than the name.
 KnownFile known_file(const std::filesystem::path& given);
 
-/// Whether a file is of a format by its name, or by its first bytes, whatever its name says.
+/// Whether the first bytes are such that a file with one of the format's ends is of it.
+bool begins_as(const Format& format, FileStart& start);
+
+/// The format that the first bytes of a file tell; null: none.
+const Format* told_by_content(FileStart& start);
+
+/// Whether a file is of a format, as known or told; dual files of TIFF and DICOM are of both.
 bool is_of_format(const Format& format, const KnownFile& file);
 
 /// Whether a file, or a folder that is one volume, can be read as far as its name tells.

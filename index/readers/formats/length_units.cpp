@@ -2,10 +2,13 @@
 #include "index/readers/formats/length_units.h"
 
 #include "index/lower_case.h"
+#include "index/readers/formats/text_header.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <string_view>
 
 namespace isochron::index {
@@ -17,7 +20,7 @@ struct LengthUnit {
     double meters;
 };
 
-constexpr std::array<LengthUnit, 21> kLengthUnits{{
+constexpr std::array<LengthUnit, 22> kLengthUnits{{
     {"m", "|meter|metre|meters|metres|", 1},
     {"km", "|kilometer|kilometre|kilometers|kilometres|", 1e3},
     {"Mm", "|megameter|megametre|megameters|megametres|", 1e6},
@@ -25,12 +28,14 @@ constexpr std::array<LengthUnit, 21> kLengthUnits{{
     {"cm", "|centimeter|centimetre|centimeters|centimetres|", 1e-2},
     {"mm", "|millimeter|millimetre|millimeters|millimetres|", 1e-3},
     {"um",
-     "|micron|microns|micrometer|micrometre|micrometers|micrometres|\u00b5m|\u03bcm|\\u00b5m|"
-     "\xb5m|&#181;m|",
+     "|micron|microns|micrometer|micrometre|micrometers|micrometres|\u00b5m|\u03bcm|\xb5m|\u00b5|"
+     "\u03bc|",
      1e-6},
     {"nm", "|nanometer|nanometre|nanometers|nanometres|", 1e-9},
     {"pm", "|picometer|picometre|picometers|picometres|", 1e-12},
-    {"angstrom", "|angstroms|\u00c5|\u212b|ang|\u00e5ngstr\u00f6m|", 1e-10},
+    {"angstrom",
+     "|angstroms|\u00c5|\u212b|\u00e5|\xc5|A|ang|\u00e5ngstr\u00f6m|\u00c5ngstr\u00f6m|", 1e-10},
+    {"bohr", "|bohrs|a0|", 5.29177210903e-11}, // CODATA 2018
     {"in", "|inch|inches|", 0.0254},
     {"ft", "|foot|feet|", 0.3048},
     {"yd", "|yard|yards|", 0.9144},
@@ -44,7 +49,42 @@ constexpr std::array<LengthUnit, 21> kLengthUnits{{
     {"ly", "|light year|light years|", 9.4607304725808e15},
 }};
 
-const LengthUnit* known_unit(std::string_view unit) {
+/// The text with the characters in place of `\u00B5`, `&#181;` and `&#xB5;`.
+std::string without_escapes(const std::string& text) {
+    std::string plain;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view rest = std::string_view(text).substr(at);
+        const bool by_code = rest.starts_with("\\u"), by_entity = rest.starts_with("&#");
+        const bool by_hex = by_code || rest.starts_with("&#x") || rest.starts_with("&#X");
+        const std::size_t begin = by_entity && by_hex ? 3 : 2;
+        std::uint32_t code = 0;
+        const char* const first = rest.data() + std::min(begin, rest.size());
+        const char* const last = by_code ? rest.data() + std::min<std::size_t>(6, rest.size())
+                                         : rest.data() + rest.size();
+        const auto [end, failure] = std::from_chars(first, last, code, by_hex ? 16 : 10);
+        const bool whole = by_code ? end == first + 4 : end != last && *end == ';';
+        constexpr std::uint32_t kOneByte = 0x80, kTwoBytes = 0x800, kThreeBytes = 0x10000;
+        if ((!by_code && !by_entity) || failure != std::errc() || !whole || code >= kThreeBytes) {
+            plain += text[at++];
+            continue;
+        }
+        if (code < kOneByte) {
+            plain += static_cast<char>(code);
+        } else if (code < kTwoBytes) {
+            plain += static_cast<char>(0xc0 | code >> 6);
+            plain += static_cast<char>(0x80 | (code & 0x3f));
+        } else {
+            plain += static_cast<char>(0xe0 | code >> 12);
+            plain += static_cast<char>(0x80 | (code >> 6 & 0x3f));
+            plain += static_cast<char>(0x80 | (code & 0x3f));
+        }
+        at = static_cast<std::size_t>(end - text.data()) + (by_code ? 0 : 1);
+    }
+    return plain;
+}
+
+const LengthUnit* known_unit(std::string_view escaped) {
+    const std::string unit = without_escapes(std::string(trimmed(escaped)));
     // Signs differ in case: Mm is no mm.
     if (const auto by_sign = std::ranges::find(kLengthUnits, unit, &LengthUnit::sign);
         by_sign != kLengthUnits.end())
@@ -61,7 +101,8 @@ const LengthUnit* known_unit(std::string_view unit) {
 /// Whether it is none at all.
 bool counts_vertices(const std::string& unit) {
     const std::string lower = lower_case(unit);
-    return lower == "pixel" || lower == "pixels" || lower == "reference frame" || lower == "px";
+    return lower == "pixel" || lower == "pixels" || lower == "voxel" || lower == "voxels" ||
+           lower == "reference frame" || lower == "px";
 }
 
 } // namespace

@@ -30,13 +30,18 @@ namespace fs = std::filesystem;
 SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                        std::optional<double> time = {}) {
     file_bytes(file.path);
-    if (file.format && !file.format->list)
-        return {file.path, opener_of(*file.format), time};
-    // Raw data may have any name; giving dimensions says that a file is raw.
-    if (options.dims)
+    // Raw data may have any name and any first bytes; giving dimensions says that a file is raw.
+    const bool is_named = file.end || file.given != file.path;
+    if (options.dims && !is_named)
         return {file.path, opener_of(format_named("raw")), time};
     FileStart start(file.path);
-    if (const std::string foreign = foreign_format_of(start); !foreign.empty())
+    const Format* format = file.format;
+    if (format && format->headerless && !options.dims)
+        if (const Format* told = told_by_content(start))
+            format = told;
+    if (format && !format->list)
+        return {file.path, opener_of(*format), time};
+    if (const std::string foreign = foreign_format_or_name(start); !foreign.empty())
         throw Error(fmt::format("{}: {}", file.path.string(), foreign));
     throw Error(fmt::format("{}: unknown format, expected one of {}, or raw values with --dims and "
                             "--type",
@@ -112,12 +117,10 @@ std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& opti
 /// The format that puts all the files together; null: none does.
 const Format* joining_format(const std::vector<KnownFile>& files, const ReadOptions& options) {
     for (const Format& format : all_formats()) {
-        if (!format.join)
-            continue;
-        const bool by_content = format.recognize != nullptr;
         // Dimensions say that files are raw, whatever the first bytes look like.
-        if (!(by_content && options.dims) && std::ranges::all_of(files, [&](const KnownFile& file) {
-                return is_of_format(format, file);
+        if (format.join && std::ranges::all_of(files, [&](const KnownFile& file) {
+                return options.dims ? file.format == &format && file.end
+                                    : is_of_format(format, file);
             }))
             return &format;
     }

@@ -27,4 +27,21 @@ std::unique_ptr<VolumeFile> open_nrrd(const std::filesystem::path& path,
 std::unique_ptr<VolumeFile> open_nifti(const std::filesystem::path& path,
                                        const ReadOptions& options);
 
+/// Whether a file is the `.img` of a pair, and its `.hdr` beside it.
+bool has_nifti_header_beside(const std::filesystem::path& path);
+
+/// Whether the first 1,024 bytes may be the header of an MRC file.
+bool is_mrc(const std::string& head);
+
+/// MRC and CCP4 maps, tomograms and stacks (.mrc, .map, .rec): either byte order, axes in any order.
+std::unique_ptr<VolumeFile> open_mrc(const std::filesystem::path& path, const ReadOptions& options);
+
+/// FreeSurfer's .mgh and .mgz. Space is RAS.
+std::unique_ptr<VolumeFile> open_mgh(const std::filesystem::path& path, const ReadOptions& options);
+
+/// Gaussian's cubes of values: axes slowest first, in bohr or angstrom; several values a point are
+/// components.
+std::unique_ptr<VolumeFile> open_gaussian_cube(const std::filesystem::path& path,
+                                               const ReadOptions& options);
+
 } // namespace isochron::index

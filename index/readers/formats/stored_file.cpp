@@ -2,6 +2,7 @@
 #include "index/readers/formats/stored_file.h"
 
 #include "index/error.h"
+#include "index/readers/formats/half_float.h"
 #include "index/readers/formats/text_values.h"
 
 #include <fmt/format.h>
@@ -61,7 +62,7 @@ class StoredFile final : public VolumeFile {
     void read_at(std::size_t step, std::size_t first, std::span<std::byte> out) override {
         if (as_they_are())
             return load(step, first, out);
-        tuples_.resize(out.size() / size_of(chosen_.value_type()) * tuple_bytes());
+        tuples_.resize(out.size() / size_of(chosen_.value_type()) * tuple_bytes_in_memory());
         load(step, first, tuples_);
         convert(chosen_, tuples_, info_.grid, out, layout_.data.string());
     }
@@ -71,12 +72,13 @@ class StoredFile final : public VolumeFile {
   private:
     /// Values that need no conversion are read directly into their final place.
     bool as_they_are() const {
-        return layout_.array.components == 1 &&
+        return layout_.array.components == 1 && !layout_.half &&
                stored_type_of(chosen_.value_type()) == *layout_.array.type &&
                chosen_.component != ChosenScalar::kMagnitude;
     }
 
-    std::size_t tuple_bytes() const {
+    std::size_t tuple_bytes() const { return layout_.array.components * stored_bytes(layout_); }
+    std::size_t tuple_bytes_in_memory() const {
         return layout_.array.components * size_of(*layout_.array.type);
     }
 
@@ -92,15 +94,16 @@ class StoredFile final : public VolumeFile {
     /// uses the same memory
     void stream_to(std::size_t step, std::span<std::byte> out, const TakePiece& take) {
         const std::size_t value = size_of(chosen_.value_type()), all = info_.grid.vertex_count();
-        const std::size_t at_once = std::min(all, kPiece / std::max(tuple_bytes(), value));
+        const std::size_t tuple = tuple_bytes_in_memory();
+        const std::size_t at_once = std::min(all, kPiece / std::max(tuple, value));
         const bool as_they_are = this->as_they_are();
-        tuples_.resize(as_they_are ? 0 : at_once * tuple_bytes());
+        tuples_.resize(as_they_are ? 0 : at_once * tuple);
         values_.resize(out.empty() ? at_once * value : 0);
         for (std::size_t first = 0; first < all; first += at_once) {
             const std::size_t count = std::min(at_once, all - first);
             const auto to = out.empty() ? std::span(values_).first(count * value)
                                         : out.subspan(first * value, count * value);
-            const auto tuples = as_they_are ? to : std::span(tuples_).first(count * tuple_bytes());
+            const auto tuples = as_they_are ? to : std::span(tuples_).first(count * tuple);
             load(step, first, tuples);
             if (!as_they_are)
                 convert(chosen_, tuples, info_.grid, to, layout_.data.string());
@@ -122,9 +125,13 @@ class StoredFile final : public VolumeFile {
         }
         if (!stream_)
             stream_ = open_values();
-        stream_->read(layout_.skip + tuple * std::uint64_t{tuple_bytes()}, out);
+        halves_.resize(layout_.half ? out.size() / 2 : 0);
+        const std::span<std::byte> stored = layout_.half ? std::span(halves_) : out;
+        stream_->read(layout_.skip + tuple * std::uint64_t{tuple_bytes()}, stored);
         if (layout_.big_endian)
-            swap_bytes(out, size_of(*layout_.array.type));
+            swap_bytes(stored, stored_bytes(layout_));
+        if (layout_.half)
+            widen_halves(halves_, out);
     }
 
     /// @throws Error when more values follow: they may be steps that the header does not count
@@ -149,6 +156,7 @@ class StoredFile final : public VolumeFile {
     std::unique_ptr<DataStream> stream_;
     std::optional<TextValues> text_;
     std::vector<std::byte> tuples_, values_; ///< a piece, before and after it is converted
+    std::vector<std::byte> halves_;
 };
 
 } // namespace
@@ -163,11 +171,13 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     info.type = chosen.value_type();
     for (std::string& note : chosen.notes())
         info.notes.push_back(std::move(note));
+    if (layout.half)
+        info.notes.emplace_back("float16 values converted to f32");
     // A value as text takes at least a digit and a blank; the last value needs no blank.
     const double values = static_cast<double>(info.grid.vertex_count()) * layout.array.components *
                           static_cast<double>(layout.steps);
     const double bytes = layout.ascii ? values * 2 - 1
-                                      : values * static_cast<double>(size_of(*layout.array.type)) +
+                                      : values * static_cast<double>(stored_bytes(layout)) +
                                             static_cast<double>(layout.skip);
     constexpr double kMost = 1e18; // beyond any file, within 64 bits
     const auto whole = static_cast<std::uint64_t>(std::min(bytes, kMost));
@@ -184,6 +194,10 @@ std::unique_ptr<VolumeFile> open_stored(const std::filesystem::path& header, Ser
     give_times(info, layout, layout.steps);
     return std::make_unique<StoredFile>(header, std::move(info), layout, chosen,
                                         options.allow_surplus);
+}
+
+std::size_t stored_bytes(const StoredLayout& layout) {
+    return layout.half ? 2 : size_of(*layout.array.type);
 }
 
 void give_times(SeriesInfo& info, const StoredLayout& layout, std::size_t steps) {

@@ -1,4 +1,4 @@
-// A file whose values are one plain array after a header: raw, MetaImage, NRRD, NIfTI.
+// A file whose values are one plain array after a header: raw, MetaImage, NRRD, NIfTI, MRC.
 #pragma once
 
 #include "index/readers/formats/data_parts.h"
@@ -19,10 +19,14 @@ struct StoredLayout {
     bool ascii = false; ///< numbers as text, separated by blanks or commas
     bool big_endian = false;
     StoredArray array;
+    bool half = false;     ///< stored as float16, of type f32
     std::size_t steps = 1; ///< step after step, each [z][y][x][component]
     double first_time = 0;
     double time_step = 0; ///< between steps; 0 when the file does not say
 };
+
+/// Bytes that a value takes in the file.
+std::size_t stored_bytes(const StoredLayout& layout);
 
 /// @param info grid, scaling, units and times; array, type and notes are set from the layout
 /// @throws Error when the data are too short for the layout

@@ -39,6 +39,10 @@ ReadOptions options_in(const json& given) {
         options.spacing =
             glm::dvec3(double(given["spacing_given"][0]), double(given["spacing_given"][1]),
                        double(given["spacing_given"][2]));
+    if (given.contains("origin_given"))
+        options.origin =
+            glm::dvec3(double(given["origin_given"][0]), double(given["origin_given"][1]),
+                       double(given["origin_given"][2]));
     if (given.value("first_step", false))
         options.steps = {0, 0, 1};
     options.allow_surplus = given.value("allow_surplus", false);
@@ -278,10 +282,10 @@ TEST_P(DamagedFolders, AreReadOrRefusedInOneLine) {
     EXPECT_FALSE(seen.empty());
 }
 
-const auto kOfFiles =
-    testing::Values("with_files.py", "with_foreign.py", "with_h5py.py", "with_meshes.py",
-                    "with_netcdf4.py", "with_nibabel.py", "with_numpy.py", "with_pydicom.py",
-                    "with_tifffile.py", "with_vtk.py", "with_xdmf.py", "with_zarr.py");
+const auto kOfFiles = testing::Values(
+    "with_bytes.py", "with_files.py", "with_foreign.py", "with_h5py.py", "with_meshes.py",
+    "with_netcdf4.py", "with_nibabel.py", "with_numpy.py", "with_pydicom.py", "with_tifffile.py",
+    "with_vtk.py", "with_xdmf.py", "with_zarr.py");
 const auto kOfFolders = testing::Values("with_meshes.py", "with_tifffile.py", "with_zarr.py");
 std::string library_name(const testing::TestParamInfo<const char*>& script) {
     const std::string name = script.param;

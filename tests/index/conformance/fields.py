@@ -151,6 +151,35 @@ for field, value in [("TIME", "3.5"), ("DATA_FILE", "w.raw"), ("DATA_SIZE", "5 6
 add("BOV", "BYTE_OFFSET", plain, bov(BYTE_OFFSET="4"), refused=True)
 
 
+# ---- MRC
+def mrc(drop=(), data=None, **change):
+    name = path(".mrc")
+    at = {"NX": (0, "3i", 6, 5, 4), "MODE": (12, "i", 2), "NXSTART": (16, "3i", 0, 0, 0), "MX": (28, "3i", 6, 5, 4),
+          "CELLA": (40, "3f", 12, 10, 8), "CELLB": (52, "3f", 90, 90, 90), "MAPC": (64, "3i", 1, 2, 3), "ISPG": (88, "i", 1),
+          "NSYMBT": (92, "i", 0), "IMOD": (152, "2i", 0, 0), "ORIGIN": (196, "3f", 0, 0, 0), "MAP": (208, "4s", b"MAP "),
+          "NLABL": (220, "i80s", 0, b"")}
+    head = bytearray(1024)
+    for key, (offset, kind, *default) in at.items():
+        struct.pack_into("<" + kind, head, offset, *change.get(key, default))
+    with open(full(name), "wb") as out:
+        out.write(bytes(head) + b"e" * change.get("NSYMBT", [0])[0] + (values.astype("f4") if data is None else data).tobytes())
+    return name
+
+
+plain = mrc()
+for field, value in [("NX", (5, 6, 4)), ("NXSTART", (1, 2, 3)), ("MX", (12, 5, 4)), ("CELLA", (24, 10, 8)),
+                     ("CELLB", (90, 90, 120)), ("MAPC", (3, 2, 1)), ("ORIGIN", (1, 2, 3))]:
+    add("MRC", field, plain, mrc(**{field: value}))
+add("MRC", "MODE", plain, mrc(MODE=[1], data=values.astype("i2")))
+add("MRC", "NSYMBT", plain, mrc(NSYMBT=[80]), same=True)
+add("MRC", "ISPG 401", plain, mrc(ISPG=[401], MX=(6, 5, 2)))
+small = values.astype("u1")
+add("MRC", "imodFlags", mrc(MODE=[0], data=small), mrc(MODE=[0], data=small, IMOD=(1146047817, 0)))
+add("MRC", "NXSTART beside ORIGIN", mrc(ORIGIN=(1, 2, 3)), mrc(ORIGIN=(1, 2, 3), NXSTART=(1, 2, 3)))
+add("MRC", "LABEL", plain, mrc(NLABL=(1, b"Created by a test")))
+add("MRC", "extended header", plain, mrc(NSYMBT=[80]))
+
+
 # ---- TIFF: tags, ImageJ's lines, OME-XML
 def tiff(end=".tif", data=None, **how):
     name = path(end)
@@ -170,7 +199,11 @@ add("TIFF", "YPosition", plain, tiff(extratags=[(287, "2I", 1, (5, 1), True)]))
 add("TIFF", "ModelPixelScale", plain, tiff(extratags=[(33550, "d", 3, (2., 2., 2.), True)]))
 add("TIFF", "ModelTiepoint", plain, tiff(extratags=[(33922, "d", 6, (0., 0., 0., 1., 2., 3.), True)]))
 add("TIFF", "GDAL_NODATA", plain, tiff(extratags=[(42113, "s", 0, "7", True)]))
-add("TIFF", "CZ_LSMINFO", plain, tiff(extratags=[(34412, "B", 4, b"LI@\0", True)]))
+lsm = bytearray(500)
+struct.pack_into("<2I8i6d", lsm, 0, 0x0400494C, 500, 6, 5, 4, 1, 1, 2, 3, 3, 1e-6, 2e-6, 3e-6, 0, 0, 0)
+add("TIFF", "CZ_LSMINFO", plain, tiff(extratags=[(34412, "B", 500, bytes(lsm), True)]))
+add("TIFF", "Software of ScanImage", plain, tiff(metadata=None, software="SI.hChannels.channelSave = 1\nSI.hFastZ.enable = true\n"
+                                                 "SI.hStackManager.numSlices = 2\n"))
 add("TIFF", "SampleFormat", plain, tiff(data=values.astype("i2")))
 add("TIFF", "BitsPerSample", plain, tiff(data=values.astype("u1")))
 add("TIFF", "SamplesPerPixel", plain, tiff(data=np.stack([values + 1] * 3, -1).astype("u2"), photometric="rgb"), component="0")
@@ -195,6 +228,7 @@ hyper = "ImageJ=1.53t\nimages=4\nunit=um\n"
 stack = tiff(description=hyper)
 add("ImageJ", "slices, frames and channels", stack, tiff(description=hyper + "slices=2\nframes=2\n"))
 frames = hyper + "slices=2\nframes=2\n"
+add("ImageJ", "order", tiff(description=frames), tiff(description=frames + "order=tcz\n"))
 add("ImageJ", "finterval", tiff(description=frames), tiff(description=frames + "finterval=0.5\n"))
 add("ImageJ", "tunit", tiff(description=frames + "finterval=0.5\n"),
     tiff(description=frames + "finterval=0.5\ntunit=min\n"))

@@ -25,7 +25,7 @@ def follow(name, what, advice, expected, **places):
     expect(name, expected, **places, dims=[int(d) for d in options["dims"]], type=options["type"][0],
            header_bytes=int(options["header_bytes"][0]), big_endian="big_endian" in options,
            allow_surplus="allow_surplus" in options, first_step="steps" in options,
-           **({"spacing_given": [float(v) for v in options["spacing"]]} if "spacing" in options else {}))
+           **{key + "_given": [float(v) for v in options[key]] for key in ("spacing", "origin") if key in options})
 
 
 # NumPy
@@ -37,6 +37,12 @@ for name, array, advice in [
     follow(name, "a NumPy array", advice, array.T if name == "columns.npy" else array)
 np.save(path("flat.npy"), values[0])
 refuse("flat.npy", "a NumPy array, expected a format that is read")
+truth = field(4, 5, 6, dtype="u1") > 99
+np.save(path("truth.npy"), truth)
+follow("truth.npy", "a NumPy array", "--dims 6 5 4 --type u8 --header-bytes 128", truth)
+moving = field(3, 4, 5, 6)
+np.save(path("steps.npy"), moving)
+follow("steps.npy", "a NumPy array", "--dims 6 5 4 --type f32 --header-bytes 128", moving)
 np.savez(path("a.npz"), v=values)
 refuse("a.npz", "unknown format")
 
@@ -53,56 +59,69 @@ PADDED = "--header-bytes 2880 --big-endian --allow-surplus --steps 0:0"
 follow(fits("a.fits", values.astype(">f4"), -32), "FITS", "--dims 6 5 4 --type f32 " + PADDED, values)
 odd = field(7, 5, 9)
 follow(fits("odd.fits", odd.astype(">f4"), -32), "FITS", "--dims 9 5 7 --type f32 " + PADDED, odd)
+where = dict(CDELT1=2.0, CDELT2=3.0, CDELT3=0.5, CRVAL1=10.0, CRVAL2=-20.0, CRVAL3=30.0, CRPIX1=1.0, CRPIX2=2.0, CRPIX3=0.5)
+follow(fits("placed.fits", values.astype(">f4"), -32, **where), "FITS",
+       "--dims 6 5 4 --type f32 " + PADDED + " --spacing 2 3 0.5 --origin 10 -23 30.25", values, spacing=(2, 3, .5),
+       origin=(10, -23, 30.25))
+follow(fits("meters.fits", values.astype(">f4"), -32, **where, CUNIT1="'mm'", CUNIT2="'mm'", CUNIT3="'mm'"), "FITS",
+       "--dims 6 5 4 --type f32 " + PADDED + " --spacing 2 3 0.5 --origin 10 -23 30.25 --length-unit mm", values,
+       spacing=(2, 3, .5), origin=(10, -23, 30.25))
+refuse(fits("left.fits", values.astype(">f4"), -32, **{**where, "CDELT1": -2.0}),
+       PADDED + " reads, without its CDELT1 CDELT2 CDELT3 CRPIX1 CRPIX2 CRPIX3 CRVAL1 CRVAL2 CRVAL3")
+refuse(fits("turned.fits", values.astype(">f4"), -32, CD1_1=1.0, PC1_2=0.5, BLANK=-1), "reads, without its BLANK CD1_1 PC1_2")
 short = field(4, 5, 6, dtype=">i2")
 follow(fits("a.fit", short, 16), "FITS", "--dims 6 5 4 --type i16 " + PADDED, short)
 refuse(fits("scaled.fits", short, 16, BZERO=32768), "FITS, expected a format that is read")
 
 
-# MRC
-def mrc(name, data, mode, extended=0, order=(1, 2, 3)):
-    head = bytearray(1024 + extended)
-    struct.pack_into("<4i", head, 0, *data.shape[::-1], mode)
-    struct.pack_into("<3i", head, 28, *data.shape[::-1])
-    struct.pack_into("<3f", head, 40, *[2. * n for n in data.shape[::-1]])
-    struct.pack_into("<3i", head, 64, *order)
-    struct.pack_into("<i", head, 92, extended)
-    head[208:214] = b"MAP \x44\x44"
-    return write(name, bytes(head) + data.tobytes())
-
-
-follow(mrc("a.mrc", values, 2), "MRC", "--dims 6 5 4 --type f32 --header-bytes 1024 --spacing 2 2 2 --length-unit angstrom",
-       values, spacing=(2, 2, 2))
-signed = field(4, 5, 6, dtype="i1")
-follow(mrc("a.map", signed, 0, 512), "MRC", "--dims 6 5 4 --type i8 --header-bytes 1536 --spacing 2 2 2 --length-unit angstrom",
-       signed, spacing=(2, 2, 2))
-refuse(mrc("turned.mrc", values, 2, order=(3, 2, 1)), "MRC, expected a format that is read")
-
 # Those that are only named.
 for name, content, what in [
-        ("a.hdf", b"\x0e\x03\x13\x01" + bytes(99), "HDF4, not HDF5: h4toh5"), ("a.grib2", b"GRIB\0\0\0\x02" + bytes(99), "GRIB"),
+        ("a.hdf", b"\x0e\x03\x13\x01" + bytes(99), "h4toh5 IN OUT.h5 makes HDF5 of it"),
+        ("a.grib2", b"GRIB\0\0\0\x02" + bytes(99), "cdo -f nc copy IN OUT.nc makes NetCDF of it"),
         ("a.mat", b"MATLAB 5.0 MAT-file".ljust(200), "a MATLAB file before version 7.3"), ("a.root", b"root\0" + bytes(99), "ROOT"),
-        ("a.czi", b"ZISRAWFILE" + bytes(99), "Zeiss CZI"), ("a.lif", b"\x70\0\0\0" + bytes(99), "Leica LIF"),
+        ("a.czi", b"ZISRAWFILE" + bytes(99), "Zeiss CZI, expected a format that is read: NRRD, NIfTI, VTK, HDF5 or another one of the guide's; bfconvert"), ("a.lif", b"\x70\0\0\0" + bytes(99), "Leica LIF"),
         ("a.nd2", b"\xda\xce\xbe\x0a" + bytes(99), "Nikon ND2"), ("a.png", b"\x89PNG\r\n\x1a\n" + bytes(99), "a PNG picture"),
         ("a.jpg", b"\xff\xd8\xff\xe0" + bytes(99), "a JPEG picture"), ("a.vdb", b" BDV" + bytes(99), "OpenVDB"),
         ("a.jp2", b"\0\0\0\x0cjP  \r\n" + bytes(99), "a JPEG 2000 picture"), ("a.plt", b"#!TDV112" + bytes(99), "Tecplot"),
         ("a.msh", b"$MeshFormat\n", "Gmsh"), ("a.am", b"# AmiraMesh BINARY-LITTLE-ENDIAN 2.1\n", "Amira"),
         ("a.ply", b"ply\nformat ascii 1.0\n", "PLY, a surface and no volume"), ("a.stl", b"solid a\n", "STL, a surface"),
-        ("a.mgz", b"\x1f\x8b\x08" + bytes(99), "MGZ"), ("a.lsm", b"II*\0" + bytes(99), "TIFF under another name: name it .tif")]:
+        ("a.dm3", b"\0\0\0\x03" + bytes(99), "Gatan DM3, expected"), ("a.oib", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "bfconvert"),
+        ("a.par", b"# === DATA DESCRIPTION FILE ===", "dcm2niix"), ("a.rda", b">>> Begin of header <<<", "spec2nii"),
+        ("a.head", b"type = string-attribute", "3dAFNItoNIFTI"), ("attributes.json", b"{}", "N5"),
+        ("a.dat.gz", b"\x1f\x8b\x08" + bytes(99), "gzip -dc IN > OUT"),
+        ("a.nrrd", b"\x1f\x8b\x08" + bytes(99), "nrrd by its name, its content is compressed by gzip"),
+        # A known end, and another program's content: both are said.
+        ("picture.tif", b"\x89PNG\r\n\x1a\n" + bytes(999), "tiff by its name, its content is a PNG picture"),
+        ("picture.raw", b"\x89PNG\r\n\x1a\n" + bytes(999), "raw by its name, its content is a PNG picture"),
+        ("lens.nii", b"ZISRAWFILE" + bytes(999), "nifti by its name, its content is Zeiss CZI"),
+        ("weather.nc", b"GRIB\0\0\0\x02" + bytes(999), "netcdf by its name, its content is GRIB"),
+        ("cells.mha", b"\xda\xce\xbe\x0a" + bytes(999), "metaimage by its name, its content is Nikon ND2")]:
     refuse(write(name, content), what)
 with h5py.File(path("seven.mat"), "w", userblock_size=512) as file:
     file["v"] = values
 with open(path("seven.mat"), "r+b") as file:
     file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\0\x02IM")
-refuse("seven.mat", "a MATLAB 7.3 file, which is HDF5: name it .h5")
+expect("seven.mat", values)
 with open(path("seven.mat"), "rb") as file:
     expect(write("seven.h5", file.read()), values)
+for block in (1024, 2048):
+    with h5py.File(path(f"block{block}"), "w", userblock_size=block) as file:
+        file["v"] = values
+    expect(f"block{block}", values)
+
+# NetCDF under the name of HDF5, without coordinates.
+for form in ("NETCDF3_CLASSIC", "NETCDF3_64BIT_DATA", "NETCDF4"):
+    file = netCDF4.Dataset(path(form + ".h5"), "w", format=form)
+    for name, length in zip("zyx", values.shape):
+        file.createDimension(name, length)
+    file.createVariable("rho", "f4", tuple("zyx"))[:] = values
+    file.close()
+    expect(form + ".h5", values)
 
 # Within HDF5 and NetCDF.
 for name, what, fill in [
         ("enzo.h5", "Enzo's boxes", {"Grid00000001/Density": values, "Grid00000002/Density": values}),
         ("silo.h5", "Silo", {".silo/#000001": values, "_silolibinfo": 1}),
-        ("bdv.h5", "BigDataViewer's", {"t00000/s00/0/cells": values, "s00/resolutions": np.ones((1, 3)),
-                                       "s00/subdivisions": np.ones((1, 3))}),
         ("imaris.h5", "an Imaris file", {"DataSet/ResolutionLevel 0/TimePoint 0/Channel 0/Data": values})]:
     with h5py.File(path(name), "w") as file:
         for key, data in fill.items():
@@ -110,7 +129,26 @@ for name, what, fill in [
         if "imaris" in name:
             file.attrs["ImarisDataSet"] = np.array(list("ImarisDataSet"), "S1")
     refuse(name, what)
-expect("bdv.h5", values, array="/t00000/s00/0/cells")
+# BigDataViewer: time points, setups and levels; the .xml beside it has the size of the voxels.
+views, half = field(3, 4, 6, 8, dtype="u2"), field(3, 2, 3, 4, dtype="u2")
+for name, setups, xml in [("bdv", 1, True), ("bdv_setups", 2, True), ("bdv_alone", 1, False)]:
+    with h5py.File(path(name + ".h5"), "w") as file:
+        for setup in range(setups):
+            file[f"s{setup:02}/resolutions"] = np.array([[1, 1, 1], [2, 2, 2]], "f8")
+            file[f"s{setup:02}/subdivisions"] = np.array([[16, 16, 16]] * 2, "i4")
+            for time in range(3):
+                file[f"t{time:05}/s{setup:02}/0/cells"] = views[time] // (setup + 1)
+                file[f"t{time:05}/s{setup:02}/1/cells"] = half[time]
+    if xml:
+        write(name + ".xml", ('<?xml version="1.0"?><SpimData version="0.2"><SequenceDescription><ViewSetups>' + "".join(
+            f"<ViewSetup><id>{setup}</id><size>8 6 4</size><voxelSize><unit>\u00b5m</unit><size>{setup + .25} 0.5 1.5</size></voxelSize>"
+            "</ViewSetup>" for setup in range(setups)) + "</ViewSetups></SequenceDescription></SpimData>").encode())
+expect("bdv.h5", views, spacing=(.25, .5, 1.5))
+expect("bdv.h5", half, spacing=(.5, 1, 3), origin=(.125, .25, .75), array="/t*/s00/1/cells")
+expect("bdv.h5", views[1], spacing=(.25, .5, 1.5), array="/t00001/s00/0/cells")
+refuse("bdv_setups.h5", "choose one with --array: '/t*/s00/0/cells', '/t*/s01/0/cells'")
+expect("bdv_setups.h5", views // 2, spacing=(1.25, .5, 1.5), array="/t*/s01/0/cells")
+expect("bdv_alone.h5", views)
 with h5py.File(path("cgns.h5"), "w") as file:
     file.attrs["label"] = np.bytes_("Root Node of HDF5 File")
     file["Base/Density/ data"] = values

@@ -236,4 +236,34 @@ refuse("flat", "a plotfile of 2 dimensions, expected 3", resample=[4, 4, 4])
 write_zone(path("zone.cgns"), 2, linear)
 expect("zone.cgns", grid_values((9, 4, 5), (1, 1, 0.5)), spacing=(1, 1, 0.5), kind="within", array="Density",
        resample=[9, 4, 5])
+# EnSight Gold: a block of one part, two times, as text and binary.
+def ensight(case, binary):
+    size, spacing = (9, 4, 5), (1, 1, 0.5)
+
+    def written(*parts):
+        out = b""
+        for part in parts:
+            if isinstance(part, str):
+                out += part.encode().ljust(80) if binary else part.encode() + b"\n"
+            elif np.asarray(part).dtype.kind == "i":
+                out += np.asarray(part, "<i4").tobytes() if binary else " ".join(f"{v:10d}" for v in part).encode() + b"\n"
+            else:
+                out += np.asarray(part, "<f4").tobytes() if binary else b"".join(b"%12.5e\n" % v for v in np.ravel(part))
+        return out
+
+    head = ("C Binary",) if binary else ()
+    write(case + "/run.geo", written(*head, "a block", "of one part", "node id off", "element id off", "part", [1], "block",
+                                     "block rectilinear", list(size), *[np.arange(n) * float(s) for n, s in zip(size, spacing)]))
+    for number, time in enumerate((0.25, 0.75)):
+        write(f"{case}/temp_{number}.scl", written("temp", "part", [1], "block", grid_values(size, spacing, time=time)))
+    write(case + "/run.case", "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: run.geo\n\nVARIABLE\nscalar per node: 1 temp temp_*.scl"
+          "\n\nTIME\ntime set: 1\nnumber of steps: 2\nfilename start number: 0\nfilename increment: 1\ntime values: 0.25 0.75\n")
+    expect(case + "/run.case", np.array([grid_values(size, spacing, time=t) for t in (0.25, 0.75)]), times=[0.25, 0.75],
+           spacing=spacing, kind="within", array="temp", resample=list(size))
+
+
+for binary in (False, True):
+    ensight("ensight_binary" if binary else "ensight_text", binary)
+write("notes.case", "a case of something else\n")
+refuse("notes.case", "unknown format")
 done()

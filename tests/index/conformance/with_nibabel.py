@@ -1,4 +1,5 @@
 """NIfTI-1 and -2, pairs and Analyze 7.5 by nibabel."""
+import gzip
 import warnings
 
 import nibabel
@@ -98,4 +99,11 @@ for name, kind, dtype in [("plain", nibabel.AnalyzeImage, "u1"), ("spm", nibabel
 with open(path("alone.img"), "wb") as f:
     f.write(bytes(100))
 refuse("alone.img", "alone.img: its .hdr is not beside it")
+nibabel.Nifti1Image(np.asarray(field(4, 5, 6)).transpose(2, 1, 0), np.eye(4)).to_filename(path("whole.nii"))
+with open(path("whole.nii"), "rb") as file:
+    whole = file.read()
+for name, content in [("whole.img", whole), ("whole.dat", whole), ("packed.nii", gzip.compress(whole)), ("packed.img", gzip.compress(whole))]:
+    with open(path(name), "wb") as file:
+        file.write(content)
+    expect(name, np.asanyarray(nibabel.load(path("whole.nii")).dataobj).transpose(2, 1, 0))
 done()

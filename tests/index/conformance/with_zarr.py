@@ -173,6 +173,47 @@ for name in ["ome4.zarr", "ome5.zarr"]:
     refuse(name, "choose one with --array: dapi (u16), gfp (u16)")
     expect(name, image[:, 1], array="gfp", **where)
 
+# Each array of an image, named by its path, is placed by the group around it: bioformats2raw's images, levels, labels.
+def image_in(where, scale, version, path_of_level="0", labels=("dapi", "gfp")):
+    said = dict(multiscales=[dict(axes=multiscales[0]["axes"], datasets=[
+        dict(path=path_of_level, coordinateTransformations=[dict(type="scale", scale=[1, 1, *scale])]),
+        dict(path="half", coordinateTransformations=[dict(type="scale", scale=[1, 1, *(2 * s for s in scale)]),
+                                                     dict(type="translation", translation=[0, 0, 1, 2, 3])])])],
+        omero=dict(channels=[dict(label=label) for label in labels]))
+    if version == 2:
+        write(f"{where}/.zgroup", dict(zarr_format=2))
+        write(f"{where}/.zattrs", said)
+    else:
+        write(f"{where}/zarr.json", dict(zarr_format=3, node_type="group", attributes=dict(ome=dict(version="0.5", **said))))
+
+
+for version in (2, 3):
+    root = f"bioformats2raw_{version}.zarr"
+    if version == 2:
+        write(f"{root}/.zgroup", dict(zarr_format=2))
+        write(f"{root}/.zattrs", {"bioformats2raw.layout": 3})
+    else:
+        write(f"{root}/zarr.json", dict(zarr_format=3, node_type="group", attributes=dict(ome={"version": "0.5", "bioformats2raw.layout": 3})))
+    for group, scale in (("0", (1.5, .5, .25)), ("1", (3, 2, 1)), ("A/1/0", (4, 5, 6))):
+        for part in range(len(group.split("/")) - 1):
+            inner = "/".join(group.split("/")[:part + 1])
+            write(f"{root}/{inner}/" + (".zgroup" if version == 2 else "zarr.json"),
+                  dict(zarr_format=2) if version == 2 else dict(zarr_format=3, node_type="group", attributes={}))
+        image_in(f"{root}/{group}", scale, version)
+        for level in ("0", "half"):
+            place = f"{root}/{group}/{level}"
+            if version == 2:
+                save(place, image, (1, 1, 2, 5, 6))
+            else:
+                version_3(place, image, (1, 2, 4, 4, 4), ["little"])
+            put = dict(spacing=[s * (2 if level == "half" else 1) for s in scale[::-1]],
+                       origin=(3, 2, 1) if level == "half" else (0, 0, 0))
+            if group != "1":
+                refuse(root, f"{group}/{level} (u16, 3 x 2 x 4 x 5 x 6)")
+            expect(root, image[:, 0], array=f"{group}/{level}", component="0", **put)
+            expect(f"{root}/{group}", image[:, 1], array=f"{level}" if level == "half" else "gfp",
+                   **(dict(component="1") if level == "half" else {}), **put)
+
 # Damage: in what describes, and in chunks.
 for name, key, text, message in [
         ("bad_json", ".zarray", b"{", "is no JSON object"), ("bad_shape", ".zarray", dict(zarr_format=2), "damaged description"),

@@ -1,6 +1,7 @@
 // Opens HDF5 datasets by their path.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/hdf5/bigdataviewer.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/decoders/hdf5/hdf5_volume.h"
 #include "index/readers/decoders/hdf5/vtkhdf.h"
@@ -25,7 +26,7 @@ void expect_no_other_format(const Hdf5File& file) {
                "mnc2nii of the MINC tools makes NIfTI of it");
     if (!file.texts("/", "ImarisDataSet").empty() || file.holds("/DataSetInfo/Image"))
         refuse("an Imaris file, whose datasets are padded",
-               "Fiji (Bio-Formats) saves its image as OME-TIFF");
+               "bfconvert IN OUT.ome.tif of Bio-Formats makes OME-TIFF of it");
     if (file.holds("/bounding box") && file.holds("/refine level"))
         refuse("FLASH's blocks of a refined grid",
                "yt's covering_grid makes a regular grid of them");
@@ -40,9 +41,6 @@ void expect_no_other_format(const Hdf5File& file) {
     if (!file.text("/", "nwb_version").empty())
         refuse("NWB, whose pictures follow each other in time", "--array /PATH reads one of its "
                                                                 "datasets all the same");
-    if (file.holds("/s00/resolutions") && file.holds("/s00/subdivisions"))
-        refuse("BigDataViewer's, whose places are in the .xml beside it",
-               "--array /t00000/s00/0/cells --spacing X Y Z reads one of its views");
     if (file.holds("/Chombo_global"))
         refuse("Chombo's boxes of a refined grid",
                "yt's covering_grid makes a regular grid of them");
@@ -57,7 +55,11 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
         expect_no_other_format(*file);
     if (is_vtkhdf(*file) && !(options.array && options.array->starts_with('/')))
         return decode_vtkhdf(std::move(file), options);
-    const Hdf5Array array = choose_array(*file, options);
+    const bool of_views = is_bigdataviewer(*file);
+    ReadOptions asked = options;
+    if (of_views && !options.array)
+        asked.array = view_of_bigdataviewer(*file);
+    const Hdf5Array array = choose_array(*file, asked);
     const Hdf5Dataset& first = array.steps.front();
     if (!first.type)
         throw Error(
@@ -82,6 +84,8 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     const std::size_t steps = layout.time ? first.dimensions[*layout.time] : array.steps.size();
     expect_few_steps(steps, file->name());
     place_axes(record, layout, options, volume.info);
+    if (of_views)
+        place_bigdataviewer(*file, first, volume.info);
     time_hdf5(*file, array, record, layout, steps, volume.info);
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }

@@ -156,8 +156,6 @@ Hdf5File::Hdf5File(const fs::path& path, bool parts) : name_(path.string()) {
     file_bytes(path);
     register_hdf5_filters();
     const htri_t is = H5Fis_hdf5(name_.c_str());
-    if (is == 0 && head_of(path, 4) == "\x0e\x03\x13\x01")
-        throw Error(fmt::format("{}: HDF4, not HDF5: h4toh5 makes HDF5 of it", name_));
     if (is == 0)
         throw Error(fmt::format("{}: not HDF5: it does not start as HDF5 does", name_));
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);

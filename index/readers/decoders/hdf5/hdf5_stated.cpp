@@ -52,6 +52,9 @@ std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string
     const auto found = file.dataset(path);
     if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{length})
         return std::nullopt;
+    // NetCDF-4 gives a dimension without coordinates a scale of zeros.
+    if (file.text(path, "NAME").starts_with("This is a netCDF dimension but not"))
+        return std::nullopt;
     StatedAxis axis;
     axis.coordinate = last_name(path);
     axis.length = length;

@@ -1,4 +1,5 @@
-// Sets up vtkExodusIIReader, vtkCGNSReader, vtkOpenFOAMReader and vtkAMReXGridReader.
+// Sets up vtkExodusIIReader, vtkCGNSReader, vtkOpenFOAMReader, vtkAMReXGridReader and
+// vtkGenericEnSightReader.
 #include "index/readers/decoders/mesh/mesh_source.h"
 
 #include "index/error.h"
@@ -14,6 +15,7 @@
 #include <vtkDataArraySelection.h>
 #include <vtkDummyController.h>
 #include <vtkExodusIIReader.h>
+#include <vtkGenericEnSightReader.h>
 #include <vtkNew.h>
 #include <vtkPOpenFOAMReader.h>
 
@@ -150,6 +152,14 @@ MeshSource amrex_source(const fs::path& path) {
     return {reader.GetPointer(), select, "", "", {}, [path] { return unread_of_amrex(path); }};
 }
 
+/// EnSight Gold and 6, as text and binary.
+MeshSource ensight_source(const fs::path& path) {
+    const vtkNew<vtkGenericEnSightReader> reader;
+    reader->SetCaseFileName(path.c_str());
+    reader->ReadAllVariablesOn();
+    return {reader.GetPointer(), [] {}, "", "", {}};
+}
+
 } // namespace
 
 MeshSource open_mesh_source(const fs::path& path) {
@@ -161,6 +171,8 @@ MeshSource open_mesh_source(const fs::path& path) {
         return openfoam_source(path);
     if (name == "Header")
         return amrex_source(path);
+    if (extension == ".case")
+        return ensight_source(path);
     return exodus_source(path);
 }
 

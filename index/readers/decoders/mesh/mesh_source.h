@@ -27,7 +27,7 @@ struct MeshSource {
 };
 
 /// The reader for an Exodus (.e, .exo, .ex2, .exii) or CGNS file, an OpenFOAM case (.foam,
-/// controlDict) or an AMReX plotfile (Header). Reads only what is needed to tell them apart.
+/// controlDict), an AMReX plotfile (Header) or an EnSight case (.case). Reads only what is needed to tell them apart.
 /// @throws Error naming the file, when it is none of these
 MeshSource open_mesh_source(const std::filesystem::path& path);
 

@@ -4,6 +4,8 @@
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/tiff/tiff_file.h"
 #include "index/readers/decoders/tiff/tiff_metadata.h"
+#include "index/readers/decoders/tiff/tiff_microscopes.h"
+#include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/system/input_file.h"
 
@@ -43,32 +45,49 @@ std::string full_description(const TiffFile& file, const fs::path& path) {
     return read_text(beside, kLargest);
 }
 
+/// @throws Error naming the file
+TiffStack stack_in(const TiffFile& file, const fs::path& path, const ReadOptions& options) {
+    const std::string name = path.string();
+    const BytesAt bytes_at = [&](std::uint64_t offset, std::size_t count) {
+        return file.bytes_at(offset, count);
+    };
+    if (auto stack = lsm_stack(file.lsm_record(), file.pages(), bytes_at, name)) {
+        constexpr std::uint64_t kMost = std::uint64_t{1} << 32;
+        if (file_bytes(path) >= kMost)
+            throw Error(fmt::format("{}: LSM of 4 GiB or more, whose places have wrapped, expected "
+                                    "less; bfconvert IN OUT.ome.tif of Bio-Formats makes OME-TIFF "
+                                    "of it",
+                                    name));
+        return *stack;
+    }
+    if (auto stack = metamorph_stack(bytes_at))
+        return *stack;
+    std::string said = full_description(file, path);
+    if (file.software().starts_with("SI."))
+        said = file.software() + "\n" + said;
+    return stack_of(said, file.pages(), file.shape().samples, file.resolution(0),
+                    file.resolution(1), options.array.value_or(""), name);
+}
+
 class TiffVolume final : public DecodedFile {
   public:
     TiffVolume(const fs::path& path, const ReadOptions& options)
         : path_(path), slices_(options.slices), first_(path),
           stack_(slices_.empty()
-                     ? stack_of(full_description(first_, path), first_.pages(),
-                                first_.shape().samples, first_.resolution(0), first_.resolution(1),
-                                path.string())
+                     ? stack_in(first_, path, options)
                      : TiffStack{.slices = slices_.size(),
                                  // Files of other channels have been left out by this name.
                                  .channel_names = {options.array.value_or("intensity")}}) {
         const std::string name = path.string();
         if (stack_.appended)
             first_.take_appended(stack_.slices * stack_.frames * stack_.channels);
-        if (slices_.empty() && stack_.planes.empty() &&
-            first_.pages() < stack_.slices * stack_.frames * stack_.channels)
-            throw Error(fmt::format("{}: truncated: {} pages, its description has {}", name,
-                                    first_.pages(),
-                                    stack_.slices * stack_.frames * stack_.channels));
+        if (slices_.empty())
+            keep_whole_frames(
+                stack_, [&](const TiffPlane& plane) { return is_there(plane); }, name);
+        if (!stack_.planes.empty() && is_in_first(stack_.planes.front()))
+            first_.take_shape_of(stack_.planes.front().page);
+        choose(options, name);
         const TiffShape& shape = first_.shape();
-        std::vector<StoredArray> offered;
-        for (const std::string& channel : names_of_channels(stack_))
-            offered.push_back({.name = channel, .type = shape.type, .components = shape.samples});
-        chosen_ = choose_scalar(offered, options, name);
-        channel_ = static_cast<std::size_t>(
-            std::ranges::find(offered, chosen_.array.name, &StoredArray::name) - offered.begin());
         if (stack_.slices == 1 && stack_.frames > 1) {
             std::swap(stack_.slices, stack_.frames); // a volume of it shows more than nothing
             info_.notes.push_back("frames of one slice each: they are taken for slices");
@@ -82,6 +101,10 @@ class TiffVolume final : public DecodedFile {
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.length_unit = stack_.length_unit;
+        if (stack_.field_of_view.x > 0 && stack_.field_of_view.y > 0) {
+            stack_.spacing.x = stack_.field_of_view.x / shape.width;
+            stack_.spacing.y = stack_.field_of_view.y / shape.height;
+        }
         info_.grid.spacing = stack_.spacing;
         info_.grid.origin = stack_.origin;
         calibrate();
@@ -116,6 +139,45 @@ class TiffVolume final : public DecodedFile {
     }
 
   private:
+    /// Chooses among the channels; of a file with several images also among these.
+    void choose(const ReadOptions& options, const std::string& name) {
+        const TiffShape& shape = first_.shape();
+        std::vector<StoredArray> offered;
+        for (const std::string& channel : names_of_channels(stack_))
+            offered.push_back({.name = channel, .type = shape.type, .components = shape.samples});
+        ReadOptions asked = options;
+        if (!stack_.images.empty()) {
+            const std::string& image = stack_.images[stack_.image];
+            // By the image's name or identifier before the channel's, or by the channel's alone.
+            const std::string said = options.array.value_or("");
+            const std::string channel = said.substr(said.rfind('/') + 1);
+            for (StoredArray& each : offered) {
+                const bool is_meant = offered.size() == 1 || each.name == channel;
+                each.name = offered.size() == 1 ? image : image + "/" + each.name;
+                if (is_meant)
+                    asked.array = each.name;
+            }
+        }
+        chosen_ = choose_scalar(offered, asked, name);
+        channel_ = static_cast<std::size_t>(
+            std::ranges::find(offered, chosen_.array.name, &StoredArray::name) - offered.begin());
+        for (std::size_t i = 0; i < stack_.images.size(); ++i)
+            if (i != stack_.image)
+                chosen_.offered.push_back(fmt::format("{} (another image)", stack_.images[i]));
+    }
+
+    bool is_in_first(const TiffPlane& plane) const {
+        return plane.file.empty() || fs::path(plane.file).filename() == path_.filename();
+    }
+
+    /// Whether the page of a plane is there; of other files, whether these are.
+    bool is_there(const TiffPlane& plane) const {
+        if (is_in_first(plane))
+            return plane.page < first_.pages();
+        std::error_code ignored;
+        return fs::exists(path_.parent_path() / fs::path(plane.file).filename(), ignored);
+    }
+
     /// ImageJ calibrates 8 and 16 bits only.
     void calibrate() {
         if (stack_.scaling == Scaling{} && stack_.value_unit.empty())
@@ -168,7 +230,7 @@ class TiffVolume final : public DecodedFile {
     }
 
     TiffFile& file_of(const TiffPlane& plane) {
-        if (plane.file.empty() || fs::path(plane.file).filename() == path_.filename())
+        if (is_in_first(plane))
             return first_;
         const fs::path path = slices_.empty()
                                   ? path_.parent_path() / fs::path(plane.file).filename()

@@ -108,6 +108,8 @@ TiffFile::TiffFile(const std::filesystem::path& path) : name_(path.string()) {
         const char* text = nullptr;
         if (TIFFGetField(file_, TIFFTAG_IMAGEDESCRIPTION, &text) && text)
             description_ = text;
+        if (TIFFGetField(file_, TIFFTAG_SOFTWARE, &text) && text)
+            software_ = text;
         note_tags();
         resolution_[0] = field<float>(file_, TIFFTAG_XRESOLUTION, 0);
         resolution_[1] = field<float>(file_, TIFFTAG_YRESOLUTION, 0);
@@ -120,11 +122,12 @@ TiffFile::TiffFile(const std::filesystem::path& path) : name_(path.string()) {
 
 TiffFile::TiffFile(TiffFile&& other) noexcept
     : name_(std::move(other.name_)), file_(std::exchange(other.file_, nullptr)),
-      shape_(other.shape_),
-      description_(std::move(other.description_)), resolution_{other.resolution_[0],
-                                                               other.resolution_[1]},
-      offsets_(std::move(other.offsets_)), appended_at_(other.appended_at_), page_(other.page_),
-      piece_(std::move(other.piece_)), halves_(std::move(other.halves_)),
+      shape_(other.shape_), description_(std::move(other.description_)),
+      software_(std::move(other.software_)),
+      lsm_record_(std::move(other.lsm_record_)), resolution_{other.resolution_[0],
+                                                             other.resolution_[1]},
+      offsets_(std::move(other.offsets_)), shaped_(other.shaped_), appended_at_(other.appended_at_),
+      page_(other.page_), piece_(std::move(other.piece_)), halves_(std::move(other.halves_)),
       resolution_unit_(other.resolution_unit_), notes_(std::move(other.notes_)) {}
 
 TiffFile::~TiffFile() {
@@ -182,7 +185,6 @@ void TiffFile::note_tags() {
          {std::pair(kModelPixelScale, "ModelPixelScale"),
           std::pair(kModelTiepoint, "ModelTiepoint"),
           std::pair(kModelTransformation, "ModelTransformation"), std::pair(kNoData, "GDAL_NODATA"),
-          std::pair(kZeissLsm, "CZ_LSMINFO (--spacing)"),
           std::pair(kImageJMetadata, "IJMetadata (labels, overlays, properties)")})
         if (TIFFFindField(file_, tag, TIFF_ANY)) {
             // The library keeps tags that it does not know: their count, and where they are.
@@ -193,10 +195,28 @@ void TiffFile::note_tags() {
         }
     if (auto note = note_on_unread(unread))
         notes_.push_back(std::move(*note));
+    if (TIFFFindField(file_, kZeissLsm, TIFF_ANY)) {
+        std::uint32_t count = 0;
+        const char* data = nullptr;
+        constexpr std::uint32_t kMost = 1 << 16;
+        if (TIFFGetField(file_, kZeissLsm, &count, &data) && data)
+            lsm_record_.assign(data, std::min(count, kMost));
+    }
+}
+
+std::string TiffFile::bytes_at(std::uint64_t offset, std::size_t count) const {
+    const std::uint64_t size = file_bytes(name_);
+    std::string bytes(offset > size ? 0 : std::min<std::uint64_t>(count, size - offset), '\0');
+    std::ifstream file(name_, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(offset));
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+    return bytes;
 }
 
 void TiffFile::list_pages() {
     std::size_t smaller = 0;
+    double bytes = 0; // that the pages have; they may be of several images
     do {
         const auto kind = field<std::uint32_t>(file_, TIFFTAG_SUBFILETYPE, 0);
         if (!offsets_.empty() && (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0) {
@@ -204,6 +224,10 @@ void TiffFile::list_pages() {
             continue;
         }
         offsets_.push_back(TIFFCurrentDirOffset(file_));
+        bytes += static_cast<double>(field<std::uint32_t>(file_, TIFFTAG_IMAGEWIDTH, 0)) *
+                 field<std::uint32_t>(file_, TIFFTAG_IMAGELENGTH, 0) *
+                 field<std::uint16_t>(file_, TIFFTAG_SAMPLESPERPIXEL, 1) *
+                 field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE, 1) / 8;
         if (offsets_.size() > kMostPages)
             throw Error(fmt::format("{}: more than {} pages", name_, kMostPages));
     } while (TIFFReadDirectory(file_));
@@ -214,9 +238,18 @@ void TiffFile::list_pages() {
             fmt::format("{} smaller pictures or masks beside the pages are left out", smaller));
     page_ = offsets_.size(); // none is current
     go_to(0);
-    expect_room(name_, 0, at_best(file_),
-                std::uint64_t{offsets_.size()} * shape_.width * shape_.height * shape_.samples *
-                    shape_.stored_bytes() / (is_bilevel(file_) ? 8 : 1));
+    constexpr double kMost = 1e18; // beyond any file, within 64 bits
+    expect_room(name_, 0, at_best(file_), static_cast<std::uint64_t>(std::min(bytes, kMost)));
+}
+
+void TiffFile::take_shape_of(std::size_t page) {
+    words_of_libtiff().clear();
+    if (!TIFFSetSubDirectory(file_, offsets_.at(page)))
+        fail(fmt::format("page {} is damaged", page));
+    shape_ = shape_of_page();
+    shaped_ = page;
+    page_ = offsets_.size(); // none is current
+    go_to(page);
 }
 
 void TiffFile::take_appended(std::size_t pages) {
@@ -246,8 +279,8 @@ void TiffFile::go_to(std::size_t page) {
         fail(fmt::format("page {} is damaged", page));
     page_ = page;
     if (const TiffShape is = shape_of_page(); is != shape_)
-        throw Error(
-            fmt::format("{}: page {} is {}, the first {}", name_, page, text(is), text(shape_)));
+        throw Error(fmt::format("{}: page {} is {}, page {} {}", name_, page, text(is), shaped_,
+                                text(shape_)));
     if (field<std::uint16_t>(file_, TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_JPEG)
         TIFFSetField(file_, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
 }

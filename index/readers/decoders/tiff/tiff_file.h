@@ -37,9 +37,14 @@ class TiffFile {
     TiffFile& operator=(TiffFile&&) = delete;
 
     const std::string& name() const { return name_; }
-    /// Shape of the first page.
+    /// Shape of the pages that are read: of the first, until `take_shape_of` another.
     const TiffShape& shape() const { return shape_; }
+    void take_shape_of(std::size_t page);
     const std::string& description() const { return description_; }
+    const std::string& software() const { return software_; }
+    const std::string& lsm_record() const { return lsm_record_; } ///< tag 34412 of Zeiss LSM
+    /// Bytes of the file, fewer where it ends.
+    std::string bytes_at(std::uint64_t offset, std::size_t count) const;
     /// Pixels for each unit of length along x (axis 0) or y (axis 1); 0 if the file does not give
     /// it. The description may say what the unit is.
     double resolution(int axis) const { return resolution_[axis]; }
@@ -73,9 +78,10 @@ class TiffFile {
     std::string name_;
     tiff* file_ = nullptr;
     TiffShape shape_;
-    std::string description_;
+    std::string description_, software_, lsm_record_;
     double resolution_[2]{};
     std::vector<std::uint64_t> offsets_; ///< offsets of the pages' directories
+    std::size_t shaped_ = 0;             ///< page that has the shape
     std::uint64_t appended_at_ = 0;      ///< [bytes] where pages lie without directories; 0: none
     std::size_t page_ = 0;
     std::vector<std::byte> piece_;

@@ -2,6 +2,7 @@
 #include "index/readers/decoders/tiff/tiff_metadata.h"
 
 #include "index/error.h"
+#include "index/readers/decoders/tiff/tiff_microscopes.h"
 #include "index/readers/formats/length_units.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -14,6 +15,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <set>
@@ -75,10 +77,6 @@ class OmePlanes {
             fill({}, 0, 0, planes_.size());
         for (; data; data = next(data))
             take(*data);
-        if (!std::ranges::all_of(planes_, &TiffPlane::there))
-            throw Error(fmt::format("{}: {} of {} planes are described", file,
-                                    std::ranges::count_if(planes_, &TiffPlane::there),
-                                    planes_.size()));
     }
 
     std::vector<TiffPlane> take_all() { return std::move(planes_); }
@@ -207,17 +205,68 @@ std::string ome_metadata_file(const std::string& description) {
     return only ? text_of_ome(*only, "MetadataFile", "") : "";
 }
 
-TiffStack ome_stack(const std::string& description, std::uint32_t samples,
+namespace {
+
+/// Names of images: those that several have are given by the images' identifiers.
+std::vector<std::string> names_of_images(const tinyxml2::XMLElement& root) {
+    std::vector<std::string> names;
+    for (const auto* image = child(&root, "Image"); image; image = next(image)) {
+        std::string name = text_of_ome(*image, "Name", "");
+        if (name.empty() || std::ranges::find(names, name) != names.end())
+            name = text_of_ome(*image, "ID", fmt::format("Image:{}", names.size()));
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
+/// Whether planes of an image are in a file, as far as it says where they are.
+bool has_planes_in(const tinyxml2::XMLElement& image, const std::string& file) {
+    const auto* pixels = child(&image, "Pixels");
+    for (const auto* data = pixels ? child(pixels, "TiffData") : nullptr; data; data = next(data))
+        if (const auto* uuid = child(data, "UUID");
+            uuid && text_of_ome(*uuid, "FileName", "") == file)
+            return true;
+    return false;
+}
+
+/// The image that an array's name means, `Pos1` or `Image:1`, also before a channel: `Pos1/GFP`. Else
+/// the first one with planes in the file, or the first.
+std::size_t image_named(const tinyxml2::XMLElement& root, const std::vector<std::string>& names,
+                        const std::string& array, const std::string& file) {
+    const auto means = [&](const std::string& name) {
+        return array == name || array.starts_with(name + "/");
+    };
+    std::size_t number = 0;
+    for (const auto* image = child(&root, "Image"); image; image = next(image), ++number)
+        if (means(names[number]) || means(text_of_ome(*image, "ID", names[number])))
+            return number;
+    number = 0;
+    const std::string name = std::filesystem::path(file).filename().string();
+    for (const auto* image = child(&root, "Image"); image; image = next(image), ++number)
+        if (has_planes_in(*image, name))
+            return number;
+    return 0;
+}
+
+} // namespace
+
+TiffStack ome_stack(const std::string& description, std::uint32_t samples, const std::string& array,
                     const std::string& file) {
     tinyxml2::XMLDocument document;
     if (document.Parse(description.c_str(), description.size()) != tinyxml2::XML_SUCCESS)
         throw Error(fmt::format("{}: damaged OME-XML: {}", file, document.ErrorName()));
     const auto* root = document.RootElement();
     const auto* image = root ? child(root, "Image") : nullptr;
+    TiffStack stack;
+    if (image && next(image)) {
+        stack.images = names_of_images(*root);
+        stack.image = image_named(*root, stack.images, array, file);
+        for (std::size_t i = 0; i < stack.image; ++i)
+            image = next(image);
+    }
     const auto* pixels = image ? child(image, "Pixels") : nullptr;
     if (!pixels)
         throw Error(fmt::format("{}: its OME-XML has no pixels", file));
-    TiffStack stack;
     const auto size = [&](const char* name) {
         return checked_count(attribute_of_ome(*pixels, name, 1), name, file);
     };
@@ -251,8 +300,11 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples,
     for (const auto* channel = child(pixels, "Channel"); channel; channel = next(channel))
         stack.channel_names.push_back(text_of_ome(*channel, "Name", ""));
     take_planes_of_ome(*pixels, *image, stack);
-    if (next(image))
-        stack.notes.push_back("holds several images: the first one is read");
+    if (!stack.images.empty()) {
+        const std::string& other = stack.images[stack.image == 0 ? 1 : 0];
+        stack.notes.push_back(fmt::format("holds {} images: {} is read, --array '{}' reads another",
+                                          stack.images.size(), stack.images[stack.image], other));
+    }
     stack.planes = OmePlanes(*pixels, stack, file).take_all();
     return stack;
 }
@@ -292,6 +344,35 @@ void take_calibration(const std::map<std::string, std::string>& values, const au
 
 } // namespace
 
+namespace {
+
+/// Pages that follow each other along other axes than `czt`, fastest first.
+void order_planes(const std::string& order, TiffStack& stack) {
+    std::string sorted = order;
+    std::ranges::sort(sorted);
+    if (sorted != "ctz") {
+        if (order != "default" && order != "xyczt(default)")
+            stack.notes.push_back(
+                fmt::format("stated and not used: order {}, expected czt or another one of the "
+                            "three",
+                            excerpt(order)));
+        return;
+    }
+    std::map<char, std::size_t> stride;
+    std::size_t pages = 1;
+    for (const char axis : order) {
+        stride[axis] = pages;
+        pages *= axis == 'c' ? stack.channels : axis == 'z' ? stack.slices : stack.frames;
+    }
+    for (std::size_t t = 0; t < stack.frames; ++t)
+        for (std::size_t z = 0; z < stack.slices; ++z)
+            for (std::size_t c = 0; c < stack.channels; ++c)
+                stack.planes.push_back(
+                    {"", c * stride['c'] + z * stride['z'] + t * stride['t'], true});
+}
+
+} // namespace
+
 TiffStack imagej_stack(const std::string& description, std::size_t pages, double x_resolution,
                        double y_resolution, const std::string& file) {
     const auto values = lines_of(description);
@@ -313,6 +394,8 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
         stack.slices = images;
     }
     stack.appended = pages == 1 && images > 1;
+    if (const auto order = values.find("order"); order != values.end() && order->second != "czt")
+        order_planes(order->second, stack);
     const auto text = [&](const char* key, const std::string& otherwise) {
         const auto found = values.find(key);
         return found == values.end() || found->second.empty() ? otherwise : found->second;
@@ -347,14 +430,59 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
 }
 
 TiffStack stack_of(const std::string& description, std::size_t pages, std::uint32_t samples,
-                   double x_resolution, double y_resolution, const std::string& file) {
+                   double x_resolution, double y_resolution, const std::string& array,
+                   const std::string& file) {
     if (description.find("<OME") != std::string::npos)
-        return ome_stack(description.substr(description.find('<')), samples, file);
+        return ome_stack(description.substr(description.find('<')), samples, array, file);
     if (description.starts_with("ImageJ="))
         return imagej_stack(description, pages, x_resolution, y_resolution, file);
     if (auto stack = shaped_stack(description, pages, samples))
         return *stack;
+    if (auto stack = scanimage_stack(description, pages))
+        return *stack;
     return TiffStack{.slices = pages};
+}
+
+void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlane&)>& is_there,
+                       const std::string& file) {
+    const std::size_t of_frame = stack.channels * stack.slices, all = of_frame * stack.frames;
+    if (stack.planes.empty())
+        for (std::size_t page = 0; page < all; ++page)
+            stack.planes.push_back({"", page, true});
+    const auto lacks = [&](const TiffPlane& plane) { return !plane.there || !is_there(plane); };
+    const auto missing = static_cast<std::size_t>(std::ranges::count_if(stack.planes, lacks));
+    if (missing == 0)
+        return;
+    const bool timed = stack.times.size() == stack.frames;
+    TiffStack whole = stack;
+    whole.planes.clear();
+    whole.times.clear();
+    whole.frames = 0;
+    bool gap = false;
+    for (std::size_t frame = 0; frame < stack.frames; ++frame) {
+        const auto begin = stack.planes.begin() + static_cast<std::ptrdiff_t>(frame * of_frame),
+                   end = begin + static_cast<std::ptrdiff_t>(of_frame);
+        if (std::any_of(begin, end, lacks))
+            continue;
+        gap = gap || frame != whole.frames;
+        whole.planes.insert(whole.planes.end(), begin, end);
+        whole.times.push_back(timed ? stack.times[frame]
+                                    : static_cast<double>(frame) * stack.time_step);
+        ++whole.frames;
+    }
+    const std::string lacking =
+        fmt::format("{} of {} planes are missing, as of a stopped run", missing, all);
+    if (whole.frames == 0)
+        throw Error(fmt::format("{}: {}: none of its {} step{} is whole", file, lacking,
+                                stack.frames, stack.frames == 1 ? "" : "s"));
+    if (!timed && !(gap && stack.time_step > 0))
+        whole.times.clear();
+    else
+        whole.time_step = 0;
+    whole.notes.push_back(fmt::format("{}: the {} whole step{} of {} {} read", lacking,
+                                      whole.frames, whole.frames == 1 ? "" : "s", stack.frames,
+                                      whole.frames == 1 ? "is" : "are"));
+    stack = std::move(whole);
 }
 
 } // namespace isochron::index

@@ -37,22 +37,23 @@ class ZarrVolume final : public DecodedFile {
   public:
     ZarrVolume(std::unique_ptr<ZarrStore> store, const ReadOptions& options)
         : store_(std::move(store)), name_(store_->name()) {
-        const json attributes = attributes_of_group(*store_, "");
         ReadOptions asked = options;
-        const json image = multiscale_of(attributes);
+        ZarrLevel level;
         try {
-            open_array(image, asked);
+            open_array(multiscale_of(attributes_of_group(*store_, "")), asked);
+            level = level_of(*store_, array_->path());
             stated_ = {.file = name_,
                        .name = array_name(),
-                       .axes =
-                           image.is_null() ? axes_of(*store_, *array_) : axes_of(image, *array_)};
+                       .axes = level.image.is_null()
+                                   ? axes_of(*store_, *array_)
+                                   : axes_of(level.image, level.dataset, *array_)};
         } catch (const json::exception& error) {
             throw Error(fmt::format("{}: damaged description: {}", name_, error.what()));
         }
         const std::vector<StatedAttributes> objects = objects_of(*store_, *array_);
         layout_ = lay_out(stated_, objects, asked, info_.notes);
         member_ = member_of(stated_, layout_, asked);
-        describe(attributes, objects.front(), asked);
+        describe(level.attributes, objects.front(), asked);
         part_ = crop_description(info_, options, name_);
     }
 

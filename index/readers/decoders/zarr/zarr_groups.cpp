@@ -39,6 +39,25 @@ json multiscale_of(const json& attributes) {
     return {};
 }
 
+ZarrLevel level_of(const ZarrStore& store, const std::string& array) {
+    for (std::string group = array; !group.empty();) {
+        const std::size_t end = group.rfind('/');
+        group.resize(end == group.npos ? 0 : end);
+        ZarrLevel level{
+            .attributes = attributes_of_group(store, group), .image = {}, .dataset = {}};
+        level.image = multiscale_of(level.attributes);
+        const json datasets =
+            level.image.is_object() ? level.image.value("datasets", json::array()) : json::array();
+        for (const json& dataset : datasets)
+            if (dataset.is_object() &&
+                (group.empty() ? "" : group + "/") + dataset.value("path", "") == array) {
+                level.dataset = dataset;
+                return level;
+            }
+    }
+    return {.attributes = attributes_of_group(store, ""), .image = {}, .dataset = {}};
+}
+
 void find_arrays(const ZarrStore& store, const std::string& group, int depth,
                  std::vector<std::string>& paths) {
     constexpr int kDeepest = 6;

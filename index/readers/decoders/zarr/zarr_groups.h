@@ -16,6 +16,15 @@ nlohmann::json attributes_of_group(const ZarrStore& store, const std::string& gr
 /// What describes the image in the attributes of OME-Zarr; null: none.
 nlohmann::json multiscale_of(const nlohmann::json& attributes);
 
+/// What describes an array as a level of an image.
+struct ZarrLevel {
+    nlohmann::json attributes;     ///< of the group with the image; of the root where there is none
+    nlohmann::json image, dataset; ///< null: the array is of no image
+};
+
+/// Asks the groups around an array, from the nearest on: `1` and the root for `1/0`.
+ZarrLevel level_of(const ZarrStore& store, const std::string& array);
+
 /// Adds the paths of the arrays below a group, at most 1000.
 /// @param depth of the group
 void find_arrays(const ZarrStore& store, const std::string& group, int depth,

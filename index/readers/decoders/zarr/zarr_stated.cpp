@@ -218,7 +218,7 @@ std::vector<StatedAxis> axes_of(const ZarrStore& store, const ZarrArray& array) 
     return axes;
 }
 
-std::vector<StatedAxis> axes_of(const json& image, const ZarrArray& array) {
+std::vector<StatedAxis> axes_of(const json& image, const json& dataset, const ZarrArray& array) {
     std::vector<StatedAxis> axes(array.shape().size());
     for (std::size_t i = 0; i < axes.size(); ++i) {
         axes[i].length = array.shape()[i];
@@ -235,7 +235,7 @@ std::vector<StatedAxis> axes_of(const json& image, const ZarrArray& array) {
                 axes[i].unit = tidy_unit_of_ome(axis.value("unit", ""));
             }
         }
-    for (const json* object : {&image.at("datasets").at(0), &image})
+    for (const json* object : {&dataset, &image})
         if (const auto all = object->find("coordinateTransformations"); all != object->end())
             for (const json& transformation : *all)
                 transform(transformation, axes);

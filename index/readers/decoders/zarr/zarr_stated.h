@@ -19,9 +19,10 @@ std::vector<StatedAttributes> objects_of(const ZarrStore& store, const ZarrArray
 std::vector<StatedAxis> axes_of(const ZarrStore& store, const ZarrArray& array);
 
 /// The axes of an array as an OME-Zarr image states them: names, units, scales, translations.
-/// @param image an entry of `multiscales` @param array its finest level
+/// @param image an entry of `multiscales` @param dataset the entry of its `datasets` that is the array
 /// @throws nlohmann::json::exception: damaged
-std::vector<StatedAxis> axes_of(const nlohmann::json& image, const ZarrArray& array);
+std::vector<StatedAxis> axes_of(const nlohmann::json& image, const nlohmann::json& dataset,
+                                const ZarrArray& array);
 
 /// The time of a step that is alone, by an array `time` of one value beside the array; none.
 std::optional<StatedAxis> time_alone(const ZarrStore& store, const ZarrArray& array);

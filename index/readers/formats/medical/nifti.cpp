@@ -4,6 +4,7 @@
 // Cox et al., "A (sort of) new image data format standard: NIfTI-1", NeuroImage 22, 2004;
 // field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
 #include "index/error.h"
+#include "index/readers/formats/binary_header.h"
 #include "index/readers/formats/medical/nifti_codes.h"
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/reordered_file.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -41,32 +41,7 @@ struct NiftiHeader {
     bool big_endian, pair;
 };
 
-/// Fields at byte offsets of the header, in its byte order.
-class Fields {
-  public:
-    Fields(const std::string& head, bool swapped) : head_(head), swapped_(swapped) {}
-
-    template <class T>
-    T at(std::size_t offset) const {
-        char bytes[sizeof(T)];
-        std::memcpy(bytes, head_.data() + offset, sizeof(T));
-        if (swapped_)
-            std::reverse(bytes, bytes + sizeof(T));
-        T value;
-        std::memcpy(&value, bytes, sizeof(T));
-        return value;
-    }
-
-    /// Up to its zero byte.
-    std::string text(std::size_t offset, std::size_t most) const {
-        const std::string whole = head_.substr(offset, most);
-        return std::string(trimmed(whole.substr(0, whole.find('\0'))));
-    }
-
-  private:
-    const std::string& head_;
-    bool swapped_;
-};
+using Fields = BinaryHeader;
 
 constexpr std::size_t kBytes1 = 348, kBytes2 = 540;
 
@@ -266,7 +241,7 @@ bool differ(const NiftiHeader& h) {
     return false;
 }
 
-/// `scan.hdr` of `scan.img`, which may be given in its place.
+/// `scan.hdr` of `scan.img`, which may be given in its place; empty: it is not there.
 fs::path header_of_pair(const fs::path& path) {
     const std::string name = path.string();
     const std::size_t image = name.rfind(".img");
@@ -276,7 +251,7 @@ fs::path header_of_pair(const fs::path& path) {
     for (const char* extension : {".hdr", ".hdr.gz"})
         if (fs::path header = name.substr(0, image) + extension; fs::exists(header, ignored))
             return header;
-    throw Error(fmt::format("{}: its .hdr is not beside it", name));
+    return {};
 }
 
 fs::path image_beside(const fs::path& header) {
@@ -293,8 +268,19 @@ fs::path image_beside(const fs::path& header) {
 
 } // namespace
 
+bool has_nifti_header_beside(const fs::path& path) {
+    const fs::path header = header_of_pair(path);
+    return !header.empty() && header != path;
+}
+
 std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions& options) {
-    const fs::path path = header_of_pair(given);
+    fs::path path = header_of_pair(given);
+    if (path.empty()) { // one file for all, or no pair
+        path = given;
+        const std::string head = head_of(given, kBytes1);
+        if (head.size() < kBytes1 || !head.substr(kBytes1 - 4).starts_with("n+1"))
+            throw Error(fmt::format("{}: its .hdr is not beside it", given.string()));
+    }
     const std::string name = path.string();
     const NiftiHeader h = read_header(path);
     const std::int64_t dimensions = h.dim[0];

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/lower_case.h"
+#include "index/readers/formats/foreign_names.h"
 #include "index/readers/formats/series/numbered_name.h"
 
 #include <fmt/format.h>
@@ -225,9 +226,26 @@ std::optional<FoundFiles> list_in(const fs::path& folder, const Lists& lists) {
                                 lists.usable.front().given.filename().string(), some_of(left)))};
 }
 
+/// @throws Error naming a file in the folder of a format that is known and not read
+void expect_no_foreign(const fs::path& folder) {
+    constexpr int kMost = 100;
+    int seen = 0;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+        FileStart start(entry.path());
+        if (entry.is_regular_file(ignored))
+            if (const std::string foreign = foreign_format_or_name(start); !foreign.empty())
+                throw Error(fmt::format("{}: {}", entry.path().string(), foreign));
+        if (++seen > kMost)
+            return;
+    }
+}
+
 /// @throws Error naming the folder
 FoundFiles series_in(const fs::path& folder, const ReadOptions& options) {
     std::vector<KnownFile> files = values_within(folder, options);
+    if (files.empty() && !options.dims)
+        expect_no_foreign(folder);
     if (files.empty())
         throw Error(fmt::format("{}: a folder without {}", folder.string(),
                                 options.dims ? "a file as large as --dims and --type say"

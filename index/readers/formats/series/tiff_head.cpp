@@ -24,7 +24,9 @@ class TiffHead {
     std::optional<bool> flat() {
         if (!find_first_page())
             return std::nullopt;
-        if (number(first_ + entries_ * entry_bytes(), wide_ ? 8 : 4) != 0)
+        constexpr std::uint64_t kMetaMorphPlanes = 33629; // they follow the page
+        if (number(first_ + entries_ * entry_bytes(), wide_ ? 8 : 4) != 0 ||
+            entry_of(kMetaMorphPlanes))
             return false;
         return !describes_more(description(1 << 16));
     }
@@ -33,19 +35,23 @@ class TiffHead {
     std::string description(std::uint64_t most) {
         if (!find_first_page())
             return {};
-        for (std::uint64_t i = 0; i < entries_; ++i) {
-            constexpr std::uint64_t kImageDescription = 270;
-            const std::uint64_t entry = first_ + i * entry_bytes();
-            if (number(entry, 2) != kImageDescription)
-                continue;
-            const std::uint64_t count = number(entry + 4, wide_ ? 8 : 4);
-            const std::uint64_t inside = wide_ ? 8 : 4, value = entry + (wide_ ? 12 : 8);
-            return text_at(count <= inside ? value : number(value, inside), std::min(count, most));
-        }
-        return {};
+        constexpr std::uint64_t kImageDescription = 270;
+        const auto entry = entry_of(kImageDescription);
+        if (!entry)
+            return {};
+        const std::uint64_t count = number(*entry + 4, wide_ ? 8 : 4);
+        const std::uint64_t inside = wide_ ? 8 : 4, value = *entry + (wide_ ? 12 : 8);
+        return text_at(count <= inside ? value : number(value, inside), std::min(count, most));
     }
 
   private:
+    std::optional<std::uint64_t> entry_of(std::uint64_t tag) {
+        for (std::uint64_t i = 0; i < entries_; ++i)
+            if (const std::uint64_t entry = first_ + i * entry_bytes(); number(entry, 2) == tag)
+                return entry;
+        return std::nullopt;
+    }
+
     std::uint64_t entry_bytes() const { return wide_ ? 20 : 12; }
 
     bool find_first_page() {

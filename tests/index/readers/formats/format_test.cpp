@@ -63,6 +63,69 @@ TEST(Format, IsToldByFirstBytesWhereNoNameDoes) {
     EXPECT_EQ(name_of_format(folder.write("header", "HyperCLaw-V1.1\n")), "");
 }
 
+/// The first bytes of a file of each format that has a signature.
+std::map<std::string, std::string> signatures() {
+    const std::string hdf5 = "\x89HDF\r\n\x1a\n", block(512, '.');
+    const auto number = [](std::int32_t value) {
+        return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    std::string mrc(1024, '\0');
+    for (const auto& [at, value] :
+         {std::pair(0, 6), {4, 5}, {8, 4}, {12, 2}, {64, 1}, {68, 2}, {72, 3}})
+        mrc.replace(static_cast<std::size_t>(at), 4, number(value));
+    mrc.replace(208, 4, "MAP ");
+    return {{"hdf5", hdf5},
+            {"hdf5 behind a block", "MATLAB 7.3 MAT-file" + block.substr(19) + hdf5},
+            {"netcdf", "CDF\x01"},
+            {"netcdf of 64 bits", "CDF\x02"},
+            {"nrrd", "NRRD0005\n"},
+            {"nifti", number(348) + std::string(340, '\0') + std::string("n+1\0", 4)},
+            {"nifti 2", number(540) + std::string("n+2\0\r\n\x1a\n", 8)},
+            {"vtk", "# vtk DataFile Version 3.0\n"},
+            {"vti", "<?xml version='1.0'?>\n<VTKFile type='ImageData' version='0.1'>"},
+            {"vtk data", "<VTKFile version=\"0.1\" type=\"RectilinearGrid\">"},
+            {"pvd", "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\">"},
+            {"xdmf", "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">"},
+            {"dicom", std::string(128, '\0') + "DICM"},
+            {"tiff", std::string("II*\0", 4)},
+            {"tiff, big-endian", std::string("MM\0*", 4)},
+            {"tiff beyond 4 GB", std::string("II+\0", 4)},
+            {"mrc", mrc}};
+}
+
+// Each content under each end: it is of its format, but for containers under the ends of formats
+// that are made of them, for lists of steps under any name, and for raw values, which may begin in
+// any way.
+TEST(Format, IsToldByContentBeforeTheName) {
+    const std::map<std::string_view, std::set<std::string_view>> containers{
+        {"netcdf", {"netcdf", "hdf5"}},
+        {"mesh", {"netcdf", "hdf5"}},
+        {"vtk data", {"vtk data", "vti", "pvd"}}};
+    const TestFolder folder;
+    std::size_t cells = 0;
+    for (const auto& [content, bytes] : signatures()) {
+        const std::string_view told =
+            content == "vtk data"
+                ? content
+                : std::string_view(content).substr(0, content.find_first_of(" ,"));
+        for (const Format& format : all_formats())
+            for (const NameEnd& end : format.ends) {
+                const fs::path file = folder.write("file" + std::string(end.end), bytes);
+                const auto held = containers.find(format.name);
+                const bool is_held = held != containers.end() && held->second.contains(told);
+                FileStart start(file);
+                const bool by_name =
+                    format.headerless || (is_held && (!end.only_if || end.only_if(start)));
+                EXPECT_EQ(name_of_format(file), by_name ? format.name : told)
+                    << content << " under " << end.end;
+                fs::remove(file);
+                ++cells;
+            }
+        EXPECT_EQ(name_of_format(folder.write("output", bytes)), told) << content;
+    }
+    EXPECT_GT(cells, 900u);
+}
+
 TEST(Format, OfAFolderIsThatOfTheFileThatDescribesIt) {
     const TestFolder folder;
     fs::create_directories(folder.path() / "t_1.zarr");
@@ -82,7 +145,8 @@ TEST(Format, OfAFolderIsThatOfTheFileThatDescribesIt) {
 // Dual files are TIFF by their name, and DICOM together.
 TEST(Format, OfContentHoldsWhateverTheNameSays) {
     const TestFolder folder;
-    const KnownFile dual = known_file(folder.write("scan.tif", std::string(128, '\0') + "DICM"));
+    const KnownFile dual = known_file(
+        folder.write("scan.tif", std::string("II*\0", 4) + std::string(124, '\0') + "DICM"));
     EXPECT_EQ(dual.format, &format_named("tiff"));
     EXPECT_TRUE(is_of_format(format_named("dicom"), dual));
     EXPECT_FALSE(is_of_format(format_named("nrrd"), dual));

@@ -3,6 +3,7 @@
 // J. Moore and others, "Next-generation file formats (NGFF)", versions 0.4 and 0.5,
 // https://ngff.openmicroscopy.org.
 #include "index/error.h"
+#include "index/json_mistake.h"
 #include "index/lower_case.h"
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/zarr/zarr_array.h"
@@ -97,7 +98,7 @@ class ZarrVolume final : public DecodedFile {
             open_array(image, asked);
             place(image);
         } catch (const json::exception& error) {
-            throw Error(fmt::format("{}: damaged description: {}", name_, error.what()));
+            throw Error(fmt::format("{}: damaged description: {}", name_, json_mistake(error)));
         }
         std::string why;
         const auto layout = layout_by_names(*array_, axes_, asked, why);

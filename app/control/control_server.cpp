@@ -1,7 +1,7 @@
 // The thread of the control socket.
 #include "app/control/control_server.h"
 
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 

@@ -30,32 +30,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// Control characters as `\x1b`, but for those of `stay`. Terminals also obey those of eight bits,
-/// U+0080 to U+009F, of which the second byte alone is a control character in older encodings.
-/// @param start of what stands for a control character, before its two digits
-std::string without_control(std::string_view text, std::string_view stay,
-                            std::string_view start = "\\x") {
-    std::string safe;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto code = static_cast<unsigned char>(text[i]);
-        const bool of_eight_bits = code == 0xc2 && i + 1 < text.size() &&
-                                   (static_cast<unsigned char>(text[i + 1]) & 0xe0) == 0x80;
-        if (stay.find(text[i]) != stay.npos)
-            safe += text[i];
-        else if (text[i] == '\n')
-            safe += "\\n";
-        else if (text[i] == '\t')
-            safe += "\\t";
-        else if (of_eight_bits)
-            safe += fmt::format("{}{:02x}", start, static_cast<unsigned char>(text[++i]));
-        else if (code < 0x20 || code == 0x7f)
-            safe += fmt::format("{}{:02x}", start, code);
-        else
-            safe += text[i];
-    }
-    return safe;
-}
-
 } // namespace
 
 std::string grid_words(const index::SeriesInfo& info) {
@@ -89,26 +63,6 @@ std::string grouped(std::uint64_t number) {
         text += digits[i];
     }
     return text;
-}
-
-std::string one_line(std::string_view text) {
-    constexpr std::size_t kLongest = 2000, kEnd = 500;
-    if (text.size() > kLongest)
-        return one_line(text.substr(0, kLongest - kEnd)) + " ... " +
-               one_line(text.substr(text.size() - kEnd));
-    return without_control(text, "");
-}
-
-std::string safe_lines(std::string_view text) {
-    return without_control(text, "\n");
-}
-
-void print_safely(std::string_view text, std::FILE* out) {
-    fmt::print(out, "{}", safe_lines(text));
-}
-
-void print_data(std::string_view text) {
-    fmt::print("{}", without_control(text, "\n", "\\u00"));
 }
 
 std::string human_number(double number) {

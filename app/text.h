@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,18 +28,6 @@ std::string with_unit(double value, const std::string& unit);
 
 /// `64 x 64 x 64, 10 steps`: the vertices along each axis.
 std::string grid_words(const index::SeriesInfo& info);
-
-/// Text as one line that is safe for a terminal: line ends and other control characters, those of
-/// eight bits too, become `\n`, `\x1b`; of a very long text only beginning and end remain.
-std::string one_line(std::string_view text);
-/// A text of lines made safe: line ends stay, and all of its length.
-std::string safe_lines(std::string_view text);
-/// Prints a text of lines in which files and configurations have a say. Whatever the program says
-/// is printed by this function or the next one: `tests/house` checks it.
-void print_safely(std::string_view text, std::FILE* out = stdout);
-/// Prints JSON or TOML. A control character that is left in it is between quotes, where `\u009b`
-/// stands for it.
-void print_data(std::string_view text);
 
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);

@@ -1,6 +1,8 @@
 // Messages that the processes of a cluster exchange in a frame, coded as CBOR.
 #include "app/cluster/cluster_messages.h"
 
+#include "index/json_mistake.h"
+
 #include "app/cluster/cbor_nesting.h"
 #include "app/frame/cell_resolutions.h"
 #include "interaction/recording/commands_json.h"
@@ -31,7 +33,8 @@ json decoded(std::span<const std::byte> bytes) {
     try {
         return json::from_cbor(first, first + bytes.size());
     } catch (const json::exception& error) {
-        throw interaction::Error(fmt::format("message: expected CBOR: {}", error.what()));
+        throw interaction::Error(
+            fmt::format("message: expected CBOR: {}", index::json_mistake(error)));
     }
 }
 

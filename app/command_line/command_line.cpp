@@ -1,9 +1,12 @@
 // The command line, through CLI11; besides command_help.cpp the only source that includes it.
 #include "app/command_line/command_line.h"
 
+#include "index/json_mistake.h"
+
 #include "app/command_line/cancel.h"
 #include "app/command_line/command_help.h"
 #include "app/command_line/memory_shortage.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "app/version.h"
 
@@ -214,7 +217,7 @@ CommandReference Command::reference() const {
 namespace {
 
 int fail(const char* program, const std::string& what, int status) {
-    print_safely(fmt::format("{}: {}\n", program, one_line(what)), stderr);
+    print_safely(stderr, "{}: {}\n", program, what);
     return status;
 }
 
@@ -382,6 +385,8 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
             return fail(text.name, error.what(), 1);
         return fail(text.name,
                     fmt::format("a thread cannot be started: {}", index::shortage_of_memory()), 1);
+    } catch (const nlohmann::json::exception& error) {
+        return fail(text.name, index::json_mistake(error), 1);
     } catch (const std::exception& error) {
         return fail(text.name, error.what(), 1);
     }

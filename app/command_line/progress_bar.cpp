@@ -1,6 +1,7 @@
 // Shows the progress of long work on the terminal.
 #include "app/command_line/progress_bar.h"
 
+#include "app/safe_text.h"
 #include "app/text.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,8 @@ ProgressBar::~ProgressBar() {
         std::fputc('\n', out_);
 }
 
-void ProgressBar::show(std::string_view phase, double fraction) {
+void ProgressBar::show(std::string_view name, double fraction) {
+    const std::string phase = one_line(name);
     const bool new_phase = phase != phase_;
     const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
     if (!new_phase && (percent == percent_ || !terminal_))

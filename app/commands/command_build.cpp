@@ -7,6 +7,7 @@
 #include "app/indexing/index_report.h"
 #include "app/indexing/series_report.h"
 #include "app/output/guarded_outputs.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/file/index_states.h"
@@ -30,29 +31,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string summary(const fs::path& out, const index::IndexFile& file) {
+SafeText summary(const fs::path& out, const index::IndexFile& file) {
     const index::SeriesInfo& info = file.info();
     const auto& n = info.grid.vertices;
-    std::string text = fmt::format("{}: {} x {} x {} vertices, {} step{}", out.string(), n[0], n[1],
-                                   n[2], info.steps(), info.steps() == 1 ? "" : "s");
+    SafeText text("{}: {} x {} x {} vertices, {} step{}", out.string(), n[0], n[1], n[2],
+                  info.steps(), info.steps() == 1 ? "" : "s");
     for (std::size_t number = 0; number < file.arrays(); ++number) {
         const index::IndexFile& array = file.array(number);
         const index::SeriesInfo& one = array.info();
         const index::IndexStats& stats = array.stats();
-        text += file.arrays() == 1 ? ", " : fmt::format("\n{}: ", one.array);
-        text += fmt::format("{}, values {} to {}{}\n{}", index::name_of(one.type), stats.low,
-                            stats.high, with_space(one.value_unit), array_sizes(array));
+        text += file.arrays() == 1 ? SafeText(", ") : SafeText("\n{}: ", one.array);
+        text += SafeText("{}, values {} to {}{}\n{}", index::name_of(one.type), stats.low,
+                         stats.high, with_space(one.value_unit), array_sizes(array));
     }
-    text += "\n";
+    text += SafeText("\n");
     for (const std::string& note : info.notes)
-        text += fmt::format("note: {}\n", note);
+        text += SafeText("note: {}\n", note);
     if (const std::string gaps = gaps_text(info); !gaps.empty())
-        text += fmt::format("note: a gap {}\n", gaps);
+        text += SafeText("note: a gap {}\n", gaps);
     const index::IndexStats& stats = file.stats();
     if (const std::uint64_t all = info.grid.vertex_count() * info.steps(); stats.nan_values == all)
-        text += fmt::format("note: all {} values are missing: no surface can be "
-                            "found\n",
-                            grouped(all));
+        text += SafeText("note: all {} values are missing: no surface can be "
+                         "found\n",
+                         grouped(all));
     return text;
 }
 
@@ -65,9 +66,9 @@ BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& ar
     } catch (const index::Error&) {
         const auto names = arrays_to_choose(files, arguments);
         for (const std::string& name : names)
-            print_safely(command.typed_with({"--array", name}) + "\n", stderr);
+            print_safely(stderr, "{}\n", command.typed_with({"--array", name}));
         if (!names.empty() && !arguments.read.component && !arguments.read.value_unit)
-            print_safely(command.typed_with({"--all-arrays"}) + "\n", stderr);
+            print_safely(stderr, "{}\n", command.typed_with({"--all-arrays"}));
         throw;
     }
 }
@@ -75,17 +76,16 @@ BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& ar
 /// Appends in place where that can be, else builds anew.
 /// @param file the index that grows; null where a new one is built
 /// @return what a user should know, or nothing
-std::string write_index(const BuildSources& sources, const BuildArguments& arguments,
-                        const index::BuildOptions& options, const index::IndexFile* held,
-                        index::GrowingFile* file, const index::Progress& progress,
-                        index::Team& team) {
+SafeText write_index(const BuildSources& sources, const BuildArguments& arguments,
+                     const index::BuildOptions& options, const index::IndexFile* held,
+                     index::GrowingFile* file, const index::Progress& progress, index::Team& team) {
     const std::string reason = held ? reason_to_rewrite(*held, options) : std::string();
     if (held && reason.empty()) {
         index::append_index(*sources.volume, *held, *file, arguments.out, options, progress, team);
         return {};
     }
     index::build_index(*sources.volume, arguments.out, options, progress, team);
-    return held ? fmt::format("note: written anew: {}\n", reason) : std::string();
+    return held ? SafeText("note: written anew: {}\n", reason) : SafeText();
 }
 
 /// @param sources opened from `files`; null: not yet
@@ -126,8 +126,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
             arguments = with_held(asked, *held);
         });
     }
-    if (reports)
-        print_safely(former_tiers_note(asked.tiers), stderr);
+    if (const std::string note = former_tiers_note(asked.tiers); reports && !note.empty())
+        print_safely(stderr, "isochron: {}\n", note);
     BuildSources sources;
     index::BuildOptions options;
     team.together([&] {
@@ -148,13 +148,12 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
     });
     if (!sources.volume) { // nothing to append
         if (reports)
-            print_safely(fmt::format("{}: holds every step of these files already\n",
-                                     arguments.out.string()));
+            print_safely("{}: holds every step of these files already\n", arguments.out.string());
         return;
     }
     const index::SeriesInfo& info = sources.volume->info();
     const std::size_t known = held ? held->info().steps() : 0;
-    std::string note;
+    SafeText note;
     try {
         ProgressBar bar(stderr,
                         static_cast<double>(info.step_bytes()) *
@@ -173,17 +172,17 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
             fmt::format("{}: there is not enough memory to build it", arguments.out.string()));
     }
     if (reports)
-        print_safely(summary(arguments.out, *index::IndexFile::open(arguments.out)) + note);
+        print_safely("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)), note);
     if (reports)
         for (const std::string& left_out : sources.notes)
-            print_safely(fmt::format("note: {}\n", left_out));
+            print_safely("note: {}\n", left_out);
 }
 
 /// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.
 void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
     if (cluster.size() == 1)
         return;
-    print_safely(fmt::format("isochron: {}\n", what), stderr);
+    print_safely(stderr, "isochron: {}\n", what);
     cluster.abandon(status);
 }
 

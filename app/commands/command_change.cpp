@@ -4,6 +4,7 @@
 #include "app/commands/id_file.h"
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
@@ -105,20 +106,20 @@ void run_change(const ChangeArguments& arguments) {
                                        {"removed", found.removed.size()},
                                        {"searched_anew", whole},
                                        {"change_ms", middle->count()}};
-        print_data(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        print_safely(SafeText::json(j));
         return;
     }
-    print_safely(fmt::format("isovalue {} at step {} to isovalue {} at step {}\n"
-                             "added            {}\n"
-                             "removed          {}\n"
-                             "found by         {}\n"
-                             "time             {:.4f} ms (median of {})\n",
-                             from.isovalue, index::number_text(from.instant), to.isovalue,
-                             index::number_text(to.instant), grouped(found.added.size()),
-                             grouped(found.removed.size()),
-                             whole ? "a full search of the second set: little stays the same"
-                                   : "a search of only what differs",
-                             middle->count(), times.size()));
+    print_safely("isovalue {} at step {} to isovalue {} at step {}\n"
+                 "added            {}\n"
+                 "removed          {}\n"
+                 "found by         {}\n"
+                 "time             {:.4f} ms (median of {})\n",
+                 from.isovalue, index::number_text(from.instant), to.isovalue,
+                 index::number_text(to.instant), grouped(found.added.size()),
+                 grouped(found.removed.size()),
+                 whole ? "a full search of the second set: little stays the same"
+                       : "a search of only what differs",
+                 middle->count(), times.size());
 }
 
 } // namespace

@@ -4,7 +4,7 @@
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
 #include "app/output/guarded_outputs.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -65,18 +65,17 @@ void import(ImportOptions options) {
         file.write_at(0, std::as_bytes(std::span(text)));
         file.commit();
     } else {
-        print_data(text);
+        print_safely(SafeText::data(text));
     }
     for (const std::string& note : imported.notes)
-        print_safely(fmt::format("note: {}\n", note), stderr);
+        print_safely(stderr, "note: {}\n", note);
     for (const ConfigProblem& problem : problems_of(config))
         if (asks_for_tracker(problem))
-            print_safely(
-                fmt::format("note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
-                            config.name, problem.text),
-                stderr);
+            print_safely(stderr,
+                         "note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
+                         config.name, problem.text);
         else
-            print_safely(fmt::format("{}\n", line_of(problem, config)), stderr);
+            print_safely(stderr, "{}\n", line_of(problem, config));
 }
 
 } // namespace
@@ -112,7 +111,7 @@ void add_config(Command& program) {
         "schema",
         "Print the JSON schema of configurations; editors check and complete files with it.");
     schema.examples({"isochron config schema", "isochron config schema > isochron.schema.json"});
-    schema.on_run([] { print_data(config_schema()); });
+    schema.on_run([] { print_safely(SafeText::data(config_schema())); });
 }
 
 } // namespace isochron::app

@@ -4,7 +4,7 @@
 #include "app/config/tracker_setup.h"
 #include "app/explore/exploration.h"
 #include "app/explore/explore_start.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -24,9 +24,9 @@ bool only_describes(const ExploreOptions& options) {
         return false;
     const Config config = configure(options);
     for (const std::string& line : describe_devices(config))
-        print_safely(fmt::format("{}\n", line));
+        print_safely("{}\n", line);
     for (const std::string& warning : device_warnings(config))
-        print_safely(fmt::format("warning: {}\n", warning));
+        print_safely("warning: {}\n", warning);
     return true;
 }
 

@@ -9,6 +9,7 @@
 #include "app/indexing/open_index.h"
 #include "app/output/export_request.h"
 #include "app/output/guarded_outputs.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/export/surface_export.h"
@@ -215,23 +216,22 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                                  {"empty_steps", count.empty_steps}};
         if (arguments.cuts.simplify)
             j["error"] = moved;
-        print_data(j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        print_safely(SafeText::json(j));
         return;
     }
-    print_safely(fmt::format("wrote {}{}: {} step{}, {}\n", files.front().string(),
-                             files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
-                             request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
-                             sizes_of(count, format)));
+    print_safely("wrote {}{}: {} step{}, {}\n", files.front().string(),
+                 files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
+                 request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
+                 sizes_of(count, format));
     if (arguments.cuts.simplify)
-        print_safely(fmt::format("simplified: the surface has moved by about {}\n",
-                                 with_unit(moved, request.plan.length_unit)));
+        print_safely("simplified: the surface has moved by about {}\n",
+                     with_unit(moved, request.plan.length_unit));
     if (!count.empty_steps.empty())
         print_safely(
-            fmt::format(
-                "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
-                "step {}\n",
-                count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front()),
-            stderr);
+            stderr,
+            "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
+            "step {}\n",
+            count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
 }
 
 /// Steps are visited in turn, once. Of small ones, which are read as a whole, few are kept, so that a step

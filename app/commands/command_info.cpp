@@ -6,12 +6,13 @@
 #include "app/indexing/index_report.h"
 #include "app/indexing/open_index.h"
 #include "app/indexing/series_report.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 
 #include "index/file/index_series.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <optional>
@@ -33,7 +34,7 @@ void describe_sources(BuildArguments arguments, bool in_json) {
     bar.reset(); // its line ends before the description
     const std::string name = fmt::format("{}", fmt::join(arguments.files, " "));
     if (in_json)
-        print_data(source_json(name, *sources.volume));
+        print_safely(SafeText::json(source_json(name, *sources.volume)));
     else
         print_safely(source_text(name, *sources.volume));
 }
@@ -55,7 +56,7 @@ void run_info(const InfoArguments& given) {
     const auto file = array_called(open_index(first), arguments.read.array);
     const IndexReport report{first, *file, given.tree, given.measure_time};
     if (given.json)
-        print_data(as_json(report));
+        print_safely(SafeText::json(as_json(report)));
     else
         print_safely(as_text(report));
 }

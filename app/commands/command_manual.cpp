@@ -4,7 +4,7 @@
 #include "app/command_line/shell_completion.h"
 #include "app/command_line/subcommands.h"
 #include "app/output/guarded_outputs.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "app/version.h"
 #include "index/system/new_file.h"
 
@@ -54,8 +54,9 @@ void add_completion(Command& program) {
     command.option("shell", *shell, "Which shell's").required().one_of(completed_shells());
     command.footer("For one session of bash: source <(isochron completion bash). Installed "
                    "programs are completed without.");
-    command.on_run(
-        [shell, program] { print_safely(shell_completion(program.reference(), *shell)); });
+    command.on_run([shell, program] {
+        print_safely(SafeText::lines(shell_completion(program.reference(), *shell)));
+    });
 }
 
 } // namespace isochron::app

@@ -8,7 +8,7 @@
 #include "app/output/guarded_outputs.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
 #include "index/file/sections/file_layout.h"
@@ -171,7 +171,7 @@ void check_source(const MovieOptions& options, bool of_index) {
 
 /// For the program that started this one: `42 %`.
 void tell(double done) {
-    print_safely(fmt::format("{} %\n", static_cast<int>(100 * done)));
+    print_safely("{} %\n", static_cast<int>(100 * done));
     std::fflush(stdout);
 }
 
@@ -236,7 +236,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
         }
     }
     for (const std::string& line : movies.finish())
-        print_safely(fmt::format("{}\n", line));
+        print_safely("{}\n", line);
 }
 
 } // namespace

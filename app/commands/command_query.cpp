@@ -4,6 +4,7 @@
 #include "app/commands/process_usage.h"
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
@@ -83,9 +84,8 @@ std::string_view name_of(index::SearchMethod method) {
 std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
                                              const index::IndexFile& file) {
     if (index::is_former_tier(arguments.method)) {
-        print_safely(fmt::format("isochron: --method {}: no longer there; searched by {}\n",
-                                 arguments.method, name_of(index::cheapest_method(file))),
-                     stderr);
+        print_safely(stderr, "isochron: --method {}: no longer there; searched by {}\n",
+                     arguments.method, name_of(index::cheapest_method(file)));
         return std::nullopt;
     }
     for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
@@ -101,8 +101,8 @@ std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
     return std::nullopt;
 }
 
-std::string as_json(const QueryArguments& arguments, const index::IndexFile& file,
-                    const Measured& result) {
+nlohmann::ordered_json as_json(const QueryArguments& arguments, const index::IndexFile& file,
+                               const Measured& result) {
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
     const std::uint64_t false_positives = result.set->candidates - active;
@@ -143,37 +143,36 @@ std::string as_json(const QueryArguments& arguments, const index::IndexFile& fil
     }
     if (!arguments.ids.empty())
         j["ids"] = arguments.ids.string();
-    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return j;
 }
 
-std::string as_text(const QueryArguments& arguments, const index::IndexFile& file,
-                    const Measured& result) {
+SafeText as_text(const QueryArguments& arguments, const index::IndexFile& file,
+                 const Measured& result) {
     const index::SeriesInfo& info = file.info();
     const std::uint64_t active = result.set->ids.size();
-    std::string text =
-        fmt::format("isovalue {}{} at step {} (time {}){}\n"
-                    "active cells     {}\n",
-                    arguments.isovalue, with_space(info.value_unit),
-                    index::number_text(result.set->query.instant),
-                    index::instant_text(info.times, result.set->query.instant, info.time_unit),
-                    arguments.level > 0 ? fmt::format(", level of detail {}", arguments.level) : "",
-                    grouped(active));
-    text += fmt::format("found by         {}: {} cells tested, {} of them not active\n",
-                        name_of(result.set->method), grouped(result.set->candidates),
-                        grouped(result.set->candidates - active));
+    SafeText text("isovalue {}{} at step {} (time {}){}\n"
+                  "active cells     {}\n",
+                  arguments.isovalue, with_space(info.value_unit),
+                  index::number_text(result.set->query.instant),
+                  index::instant_text(info.times, result.set->query.instant, info.time_unit),
+                  arguments.level > 0 ? fmt::format(", level of detail {}", arguments.level) : "",
+                  grouped(active));
+    text += SafeText("found by         {}: {} cells tested, {} of them not active\n",
+                     name_of(result.set->method), grouped(result.set->candidates),
+                     grouped(result.set->candidates - active));
     const auto times = [](const Times& t) {
         return fmt::format("search {:.3f} ms, shading {:.3f} ms", t.search.count(),
                            t.shading.count());
     };
-    text += fmt::format("first, cold      {}\n", times(result.cold));
-    text += fmt::format("memory           {} resident, {} read from disk\n",
-                        human_bytes(static_cast<double>(result.usage.resident_bytes)),
-                        human_bytes(static_cast<double>(result.usage.read_bytes)));
+    text += SafeText("first, cold      {}\n", times(result.cold));
+    text += SafeText("memory           {} resident, {} read from disk\n",
+                     human_bytes(static_cast<double>(result.usage.resident_bytes)),
+                     human_bytes(static_cast<double>(result.usage.read_bytes)));
     if (arguments.repeats > 0)
-        text += fmt::format("repeated, warm   {} (medians of {} full searches by {})\n",
-                            times(result.warm), arguments.repeats, name_of(result.repeated_by));
+        text += SafeText("repeated, warm   {} (medians of {} full searches by {})\n",
+                         times(result.warm), arguments.repeats, name_of(result.repeated_by));
     if (!arguments.ids.empty())
-        text += fmt::format("ids              {}\n", arguments.ids.string());
+        text += SafeText("ids              {}\n", arguments.ids.string());
     return text;
 }
 
@@ -194,7 +193,7 @@ void run_query(const QueryArguments& arguments) {
     if (!arguments.ids.empty())
         write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
     if (arguments.json)
-        print_data(as_json(arguments, *file, result));
+        print_safely(SafeText::json(as_json(arguments, *file, result)));
     else
         print_safely(as_text(arguments, *file, result));
 }

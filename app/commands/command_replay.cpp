@@ -8,7 +8,7 @@
 #include "app/loop/pattern_show.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
@@ -51,9 +51,9 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
 int report_differences(const std::vector<std::string>& lines, std::size_t frames) {
     constexpr std::size_t kShown = 20;
     for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
-        print_safely(fmt::format("differs: {}\n", lines[i]), stderr);
-    print_safely(fmt::format("commands recomputed from devices: {} of {} frames differ\n",
-                             lines.size(), frames));
+        print_safely(stderr, "differs: {}\n", lines[i]);
+    print_safely("commands recomputed from devices: {} of {} frames differ\n", lines.size(),
+                 frames);
     return lines.empty() ? 0 : 1;
 }
 
@@ -172,7 +172,7 @@ void replay_test_pattern(const Options& options, ClusterJob& job) {
     show.frames().end();
     show.outputs().pictures().finish();
     for (const fs::path& path : written)
-        print_safely(fmt::format("wrote {}\n", path.string()));
+        print_safely("wrote {}\n", path.string());
     job.finish();
 }
 
@@ -190,7 +190,7 @@ Prepared prepare(const Options& options, const ClusterJob& job) {
     Prepared all;
     all.recording = read_recording(options.recording);
     if (!all.recording.note.empty() && job.leads())
-        print_safely(fmt::format("note: {}\n", one_line(all.recording.note)), stderr);
+        print_safely(stderr, "note: {}\n", all.recording.note);
     all.config = config_of(options, all.recording.header);
     all.names = picture_names(all.config.installation);
     prepare_walls(all.config, job, options.emulate);
@@ -260,13 +260,13 @@ void replay(const Options& options, ClusterJob& job) {
     const std::vector<std::string> different = show(session, all, options, job, done);
     session.outputs().pictures().finish();
     for (const fs::path& path : written)
-        print_safely(fmt::format("wrote {}\n", path.string()));
+        print_safely("wrote {}\n", path.string());
     if (options.report)
         session.log().finish_report(session.drawing(), session.reading());
     job.finish();
     if (!job.leads())
         return;
-    print_safely(fmt::format("{}\n{}", session.drawing(), session.log().table()));
+    print_safely("{}\n{}", session.drawing(), SafeText::lines(session.log().table()));
     if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");

@@ -7,7 +7,7 @@
 #include "app/loop/replay.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
@@ -196,8 +196,8 @@ std::vector<std::string> differences(const PictureNote& note, const MadePicture&
 }
 
 void describe(const std::string& picture, const PictureNote& note) {
-    print_safely(fmt::format("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
-                             note.data_hash, note.program));
+    print_safely("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
+                 note.data_hash, note.program);
 }
 
 void reproduce(const ReproduceOptions& options) {
@@ -222,11 +222,11 @@ void reproduce(const ReproduceOptions& options) {
         index::NewFile file(*options.out);
         file.write_at(0, stereo::encoded_image(made.image, *options.out, text_of(note)));
         file.commit();
-        print_safely(fmt::format("wrote {}\n", *options.out));
+        print_safely("wrote {}\n", *options.out);
     }
     const std::string_view mine(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (mine == there && made.differs.empty()) {
-        print_safely(fmt::format("made again: the same {} bytes\n", there.size()));
+        print_safely("made again: the same {} bytes\n", there.size());
         return;
     }
     // With what the format loses. Alpha is neither written nor compared.
@@ -237,7 +237,7 @@ void reproduce(const ReproduceOptions& options) {
         return;
     }
     for (const std::string& line : lines)
-        print_safely(fmt::format("differs: {}\n", line));
+        print_safely("differs: {}\n", line);
     throw interaction::Error(options.picture + ": made again, it differs");
 }
 

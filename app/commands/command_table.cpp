@@ -4,8 +4,9 @@
 #include "app/kept/session_file.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/known_files.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/error.h"
+#include "index/json_mistake.h"
 #include "index/system/new_file.h"
 #include "interaction/tools/tool_table.h"
 
@@ -28,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 struct TableArguments {
     fs::path file, out;
-    bool json = false, force = false;
+    bool json = false, keep_formulas = false, force = false;
 };
 
 struct Table {
@@ -104,9 +105,9 @@ Json timing_rows(const fs::path& file) {
     Json report;
     try {
         report = Json::parse(in);
-    } catch (const Json::parse_error& mistake) {
-        throw index::Error(fmt::format("{}: not a timing report: not JSON at byte {}",
-                                       file.string(), mistake.byte));
+    } catch (const Json::exception& mistake) {
+        throw index::Error(fmt::format("{}: not a timing report: {}", file.string(),
+                                       index::json_mistake(mistake)));
     }
     if (!report.is_object() || !report.contains("rows") || !report["rows"].is_array())
         throw index::Error(fmt::format("{}: expected a recording, a session or a timing report of "
@@ -142,12 +143,19 @@ Table table_of(const fs::path& file) {
     return {{}, timing_rows(file)};
 }
 
-/// A field as RFC 4180 has it; nothing for null.
-std::string field_of(const Json& value) {
+/// A field as RFC 4180 has it, nothing for null; of a text one line, that spreadsheets of no language
+/// part. One that they would take for a formula gets a `'` in front, which they do not show.
+std::string field_of(const Json& value, bool keep_formulas) {
     if (value.is_null())
         return "";
-    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    if (text.find_first_of(",\"\n\r") == std::string::npos)
+    if (!value.is_string())
+        return value.dump();
+    std::string text = one_line(value.get<std::string>());
+    const bool is_formula =
+        !text.empty() && std::string_view("=+-@").find(text[0]) != std::string_view::npos;
+    if (is_formula && !keep_formulas)
+        text.insert(0, 1, '\'');
+    if (text.find_first_of(",;\"") == std::string::npos)
         return text;
     std::string quoted = "\"";
     for (const char c : text)
@@ -156,21 +164,22 @@ std::string field_of(const Json& value) {
 }
 
 /// @param columns that come first, also where no row has them
-std::string csv_of(const Json& rows, std::vector<std::string> columns) {
+std::string csv_of(const Json& rows, std::vector<std::string> columns, bool keep_formulas) {
     // The others come in the order in which rows have them first.
     for (const Json& row : rows)
         for (const auto& [key, value] : row.items())
             if (std::ranges::find(columns, key) == columns.end())
                 columns.push_back(key);
     std::string text;
+    const auto add = [&](const Json& field) { text += field_of(field, keep_formulas) + ","; };
     const auto end_line = [&] { text.back() = '\n'; };
     for (const std::string& each : columns)
-        text += field_of(each) + ",";
+        add(each);
     if (!columns.empty())
         end_line();
     for (const Json& row : rows) {
         for (const std::string& each : columns)
-            text += (row.contains(each) ? field_of(row[each]) : "") + ",";
+            add(row.value(each, Json()));
         end_line();
     }
     return text;
@@ -178,17 +187,17 @@ std::string csv_of(const Json& rows, std::vector<std::string> columns) {
 
 void run_table(const TableArguments& arguments) {
     const auto [columns, rows] = table_of(arguments.file);
-    const std::string text = arguments.json
-                                 ? rows.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
-                                 : csv_of(rows, columns);
+    const SafeText text = arguments.json
+                              ? SafeText::json(rows, 1)
+                              : SafeText::lines(csv_of(rows, columns, arguments.keep_formulas));
     if (arguments.out.empty())
-        return arguments.json ? print_data(text) : print_safely(text);
+        return print_safely(text);
     guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
                   arguments.force);
     index::NewFile file(arguments.out);
-    file.write_at(0, std::as_bytes(std::span(text)));
+    file.write_at(0, std::as_bytes(std::span(text.str())));
     file.commit();
-    print_safely(fmt::format("wrote {}: {} rows\n", arguments.out.string(), rows.size()));
+    print_safely("wrote {}: {} rows\n", arguments.out.string(), rows.size());
 }
 
 } // namespace
@@ -207,6 +216,9 @@ void add_table(Command& program) {
     command.option("-o,--out", arguments->out, "Output file (default: the terminal)");
     command.flag("--force", arguments->force, "Replace a file that exists");
     command.flag("--json", arguments->json, "A list of JSON objects instead of CSV");
+    command.flag("--keep-formulas", arguments->keep_formulas,
+                 "In CSV, leave texts that begin with = + - or @ as they are; else a ' before them "
+                 "keeps spreadsheets from taking them for formulas");
     std::string made;
     for (const interaction::ToolRow& tool : interaction::tool_table())
         if (tool.rows)

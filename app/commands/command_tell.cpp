@@ -4,7 +4,7 @@
 #include "app/commands/id_file.h"
 #include "app/control/control_client.h"
 #include "app/output/guarded_outputs.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 #include "interaction/recording/commands_json.h"
@@ -116,7 +116,7 @@ void print_events(ControlClient& client) {
         const auto event = client.next();
         if (!event)
             return;
-        print_safely(event->line + '\n');
+        print_safely(SafeText::data(event->line + '\n'));
         std::fflush(stdout);
     }
 }
@@ -150,7 +150,9 @@ void run_tell(const TellArguments& arguments) {
     case ControlVerb::picture: write_picture(answer, *arguments.out); break;
     case ControlVerb::cells: write_cells(answer, *arguments.out); break;
     case ControlVerb::subscribe: print_events(client); break;
-    case ControlVerb::state: print_data(json::parse(answer.line).at("state").dump(2) + '\n'); break;
+    case ControlVerb::state:
+        print_safely(SafeText::json(json::parse(answer.line).at("state")));
+        break;
     default: break;
     }
 }

@@ -3,7 +3,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/indexing/open_index.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/error.h"
 #include "index/file/index_file.h"
 #include "index/file/index_states.h"
@@ -30,8 +30,8 @@ void run_verify(const std::filesystem::path& path) {
     }
     if (const auto lost = index::lost_state(*file))
         throw index::Error(*lost);
-    print_safely(fmt::format("{}: every checksum matches{}\n", path.string(),
-                             file->referral() ? ", in its sources too" : ""));
+    print_safely("{}: every checksum matches{}\n", path.string(),
+                 file->referral() ? ", in its sources too" : "");
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 
 #include "app/config/check/check_parts.h"
 #include "app/config/tracker_setup.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "stereo/nodes.h"
 #include "stereo/screen.h"
 
@@ -232,28 +232,28 @@ std::string place_on_desktop(const stereo::Window& window) {
     return fmt::format("at {}, {}", window.position.x, window.position.y);
 }
 
-std::string describe_viewport(const PlacedViewport& place, const stereo::Viewer& viewer) {
+SafeText describe_viewport(const PlacedViewport& place, const stereo::Viewer& viewer) {
     const stereo::Screen& screen = place.viewport.screen;
     const glm::vec2 low = place.viewport.position * glm::vec2(place.window.size);
     const glm::vec2 pixels = pixels_of(place), size = stereo::size_of(screen);
     const glm::vec2 millimeters = 1000.0f * pixel_size(place);
     const double angle = stereo::corner_angle(screen);
     const glm::vec3 eyes = screen.carried_by_head ? glm::vec3(0.0f) : viewer.position;
-    return fmt::format(
-        "  viewport {}: {:.0f} x {:.0f} pixels at {:.0f}, {:.0f}; for {}\n"
-        "    screen: {:.2f} x {:.2f} m, {}, {}, {}, {:.2f} m from the viewer{}{}\n",
-        place.viewport.name.empty() ? std::to_string(place.number) : place.viewport.name, pixels.x,
-        pixels.y, low.x, low.y, viewer.name, size.x, size.y,
-        screen.carried_by_head ? "carried by the head" : "fixed in the room",
-        std::abs(angle - 90.0) <= stereo::kSquareCorner
-            ? "corners square"
-            : fmt::format("corners of {:.1f} degrees", angle),
-        stereo::faces(screen, eyes) ? "faces the viewer" : "faces away from the viewer",
-        stereo::distance_to(screen, {viewer.position, {1, 0, 0, 0}}),
-        screen.fit_aspect
-            ? "; fitted to the window's shape"
-            : fmt::format("; pixels {:.2f} x {:.2f} mm", millimeters.x, millimeters.y),
-        place.viewport.upside_down ? "; hangs upside down" : "");
+    return SafeText("  viewport {}: {:.0f} x {:.0f} pixels at {:.0f}, {:.0f}; for {}\n"
+                    "    screen: {:.2f} x {:.2f} m, {}, {}, {}, {:.2f} m from the viewer{}{}\n",
+                    place.viewport.name.empty() ? std::to_string(place.number)
+                                                : place.viewport.name,
+                    pixels.x, pixels.y, low.x, low.y, viewer.name, size.x, size.y,
+                    screen.carried_by_head ? "carried by the head" : "fixed in the room",
+                    std::abs(angle - 90.0) <= stereo::kSquareCorner
+                        ? "corners square"
+                        : fmt::format("corners of {:.1f} degrees", angle),
+                    stereo::faces(screen, eyes) ? "faces the viewer" : "faces away from the viewer",
+                    stereo::distance_to(screen, {viewer.position, {1, 0, 0, 0}}),
+                    screen.fit_aspect
+                        ? "; fitted to the window's shape"
+                        : fmt::format("; pixels {:.2f} x {:.2f} mm", millimeters.x, millimeters.y),
+                    place.viewport.upside_down ? "; hangs upside down" : "");
 }
 
 /// Where eyes are whose middle is not the head's origin.
@@ -266,16 +266,16 @@ std::string middle_of_eyes(const stereo::Viewer& viewer) {
 }
 
 /// The windows that each node opens; empty if there is one node.
-std::string describe_nodes(const stereo::Installation& installation) {
-    std::string text;
+SafeText describe_nodes(const stereo::Installation& installation) {
+    SafeText text;
     const int nodes = stereo::node_count(installation);
     for (int node = 0; nodes > 1 && node < nodes; ++node) {
         std::vector<std::string> names;
         for (const std::size_t number : stereo::windows_of(installation, node, nodes))
             names.push_back(installation.windows[number].name);
-        text += fmt::format("node {}: {}\n", node,
-                            names.empty() ? "the operator's window"
-                                          : fmt::to_string(fmt::join(names, ", ")));
+        text += SafeText("node {}: {}\n", node,
+                         names.empty() ? "the operator's window"
+                                       : fmt::to_string(fmt::join(names, ", ")));
     }
     return text;
 }
@@ -317,38 +317,37 @@ void expect_sound(const Config& config) {
 
 std::string describe(const Config& config) {
     const stereo::Installation& installation = config.installation;
-    std::string text;
+    SafeText text;
     for (const stereo::Viewer& viewer : installation.viewers)
         text +=
-            fmt::format("viewer {}: head {}, at {:g} {:g} {:g} m until it is tracked, eyes "
-                        "{:.1f} mm apart{}\n",
-                        viewer.name, viewer.head, viewer.position.x, viewer.position.y,
-                        viewer.position.z, 1000.0f * viewer.eye_separation, middle_of_eyes(viewer));
+            SafeText("viewer {}: head {}, at {:g} {:g} {:g} m until it is tracked, eyes "
+                     "{:.1f} mm apart{}\n",
+                     viewer.name, viewer.head, viewer.position.x, viewer.position.y,
+                     viewer.position.z, 1000.0f * viewer.eye_separation, middle_of_eyes(viewer));
     const stereo::Window* last = nullptr;
     for (const PlacedViewport& place : viewports_of(config)) {
         const stereo::Window& window = place.window;
         if (&window != last)
-            text += fmt::format("window {}: {} x {} pixels, {}, {}\n", window.name, window.size.x,
-                                window.size.y, place_on_desktop(window),
-                                stereo::name_of(window.stereo));
+            text +=
+                SafeText("window {}: {} x {} pixels, {}, {}\n", window.name, window.size.x,
+                         window.size.y, place_on_desktop(window), stereo::name_of(window.stereo));
         last = &window;
         text += describe_viewport(place, installation.viewers[place.viewport.viewer]);
     }
     text += describe_nodes(installation);
     for (const std::string& line : describe_devices(config))
-        text += fmt::format("devices: {}\n", line);
-    return text;
+        text += SafeText("devices: {}\n", line);
+    return text.str();
 }
 
 void check_config(const std::filesystem::path& path) {
     const Config config = read_config(path);
-    print_safely(describe(config));
+    print_safely(SafeText::lines(describe(config)));
     const std::vector<ConfigProblem> problems = problems_of(config);
     for (const ConfigProblem& problem : problems)
-        print_safely(fmt::format("{}\n", line_of(problem, config)));
+        print_safely("{}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
-        print_safely(
-            fmt::format("{}\n", one_line(fmt::format("{}: warning: {}", path.string(), warning))));
+        print_safely("{}: warning: {}\n", path.string(), warning);
     std::fflush(stdout); // before the error
     expect_sound(config);
     print_safely("nothing is wrong\n");

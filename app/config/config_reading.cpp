@@ -4,6 +4,7 @@
 #include "app/config/config_checks.h"
 #include "app/config/config_words.h"
 #include "app/config/shipped_configs.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/input_file.h"

@@ -2,7 +2,7 @@
 #include "app/config/pvx_file.h"
 
 #include "app/config/config_problem.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
 

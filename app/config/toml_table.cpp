@@ -2,6 +2,7 @@
 #include "app/config/toml_table.h"
 
 #include "app/config/config_problem.h"
+#include "app/safe_text.h"
 #include "app/text.h"
 
 #include <fmt/format.h>

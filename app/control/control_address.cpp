@@ -87,7 +87,7 @@ fs::path control_folder() {
 
 /// Removes a socket that nobody listens at any more. @throws interaction::Error: something else
 void remove_left_socket(const fs::path& path) {
-    struct stat there{};
+    struct stat there {};
     if (lstat(path.c_str(), &there) != 0)
         return;
     expect_place_for_socket({.path = path});
@@ -167,7 +167,7 @@ ControlAddress control_address(const std::string& text) {
 }
 
 void expect_place_for_socket(const ControlAddress& address) {
-    struct stat there{};
+    struct stat there {};
     if (!address.is_tcp() && lstat(address.path.c_str(), &there) == 0 && !S_ISSOCK(there.st_mode))
         throw interaction::Error(fmt::format(
             "{}: exists and is no socket; --control=PATH takes the path of a new one, and stands "
@@ -196,6 +196,8 @@ ControlSocket listen_at(ControlAddress& address) {
 
 ControlSocket connect_to(const ControlAddress& address) {
     ControlSocket made = new_socket(address.is_tcp() ? AF_INET : AF_UNIX);
+    constexpr timeval kPatience{.tv_sec = 5, .tv_usec = 0}; // where others wait to be let in
+    setsockopt(made.get(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
     int failed = 0;
     if (address.is_tcp()) {
         const sockaddr_in there = loopback(address.port);
@@ -204,6 +206,9 @@ ControlSocket connect_to(const ControlAddress& address) {
         const sockaddr_un there = unix_address(address.path);
         failed = connect(made.get(), plain(there), sizeof there);
     }
+    if (failed != 0 && (errno == EAGAIN || errno == EINPROGRESS))
+        throw interaction::Error(
+            fmt::format("{}: the session hangs: it lets nobody in", words_of(address)));
     if (failed != 0)
         throw interaction::Error(fmt::format("{}: nobody listens there ({}); isochron explore "
                                              "--control begins a session that does",

@@ -231,7 +231,9 @@ ControlAnswer picture_answer(const std::string& id, const ControlPicture& pictur
     line["height"] = picture.image.height;
     line["format"] = "rgb8";
     line["note"] = picture.note;
-    return with_bytes(std::move(line), Json::object(), std::move(bytes));
+    ControlAnswer answer = with_bytes(std::move(line), Json::object(), std::move(bytes));
+    answer.shared = true;
+    return answer;
 }
 
 ControlAnswer searched_answer(const std::string& id, const ControlRequest& request,

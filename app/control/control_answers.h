@@ -18,6 +18,7 @@ inline constexpr std::size_t kLargestAnswer = std::size_t{256} << 20; ///< [byte
 struct ControlAnswer {
     std::string line;
     std::shared_ptr<const std::vector<std::byte>> bytes = nullptr; ///< null: none
+    bool shared = false;                                           ///< others get the same bytes
 };
 
 /// @param id of the request, as JSON

@@ -45,7 +45,7 @@ Seconds RequestRate::wait() const {
 
 ControlConnection::ControlConnection(std::uint64_t name, ControlSocket socket, bool is_trusted,
                                      Seconds now)
-    : trusted(is_trusted), since(now), name_(name), socket_(std::move(socket)) {
+    : trusted(is_trusted), since(now), took(now), name_(name), socket_(std::move(socket)) {
     fcntl(socket_.get(), F_SETFL, O_NONBLOCK);
 }
 
@@ -89,10 +89,13 @@ void ControlConnection::finish() {
 void ControlConnection::send(ControlAnswer answer) {
     unsent_bytes_ += answer.line.size();
     unsent_behind_ += behind(answer);
+    held_ += answer.shared ? 0 : behind(answer);
     unsent_.push_back(std::move(answer));
 }
 
-void ControlConnection::flush() {
+void ControlConnection::flush(Seconds now) {
+    if (unsent_.empty())
+        took = now;
     while (!unsent_.empty() && !over_) {
         std::array<iovec, kSentTogether> parts;
         std::size_t count = 0, before = sent_; // bytes that the parts have begun with
@@ -120,11 +123,13 @@ void ControlConnection::flush() {
             over_ = errno != EAGAIN && errno != EWOULDBLOCK;
             return;
         }
+        took = now;
         sent_ += static_cast<std::size_t>(sent);
         while (!unsent_.empty() && sent_ >= bytes_of(unsent_.front())) {
             sent_ -= bytes_of(unsent_.front());
             unsent_bytes_ -= unsent_.front().line.size();
             unsent_behind_ -= behind(unsent_.front());
+            held_ -= unsent_.front().shared ? 0 : behind(unsent_.front());
             unsent_.pop_front();
         }
     }

@@ -19,7 +19,9 @@ namespace isochron::app {
 
 inline constexpr std::size_t kMostUnsent = 256 * 1024; ///< [byte] of lines; then nothing is read
 inline constexpr std::size_t kMostBehind = 16 << 20;   ///< [byte] behind lines; likewise
-inline constexpr std::size_t kMostUnanswered = 1024;   ///< requests of a client; likewise
+/// [byte] of cells and meshes that clients have not read; then no more are searched for
+inline constexpr std::size_t kMostHeld = 64 << 20;
+inline constexpr std::size_t kMostUnanswered = 1024; ///< requests of a client; likewise
 /// Requests that a client gets answered; more wait.
 inline constexpr double kMostRequestsASecond = 20'000;
 inline constexpr double kMostAtOnce = 2'000; ///< requests, after a pause
@@ -62,6 +64,8 @@ class ControlConnection {
         return !over_ && unsent_bytes_ < kMostUnsent && unsent_behind_ < kMostBehind &&
                waits.size() < kMostUnanswered;
     }
+    /// Bytes of cells and meshes that are kept to be sent to this client.
+    std::size_t held() const { return held_; }
     /// Whether more bytes may be received.
     bool may_read() const { return has_room() && !ends_ && !has_line(); }
     bool wants_to_write() const { return !unsent_.empty(); }
@@ -75,15 +79,17 @@ class ControlConnection {
     void send(ControlAnswer answer);
     /// Whether events may be added: a client that reads too slowly misses some.
     bool keeps_up() const { return unsent_bytes_ < kMostUnsent / 4; }
-    /// Writes what the socket takes.
-    void flush();
+    /// Writes what the socket takes. @param now of the clock that counts in `took`
+    void flush(interaction::Seconds now);
     /// Ends the connection once all answers are sent. Requests that were received and not read are
     /// dropped.
     void finish();
     void drop() { over_ = true; }
 
     bool trusted = false;          ///< the client has said the token, or needs none
+    bool seated = true;            ///< false: it is only told that there is no seat for it
     interaction::Seconds since{0}; ///< when it connected
+    interaction::Seconds took{0};  ///< when it last took something of what it is sent, or had all
     RequestRate rate;
     std::deque<Unanswered> waits;
     std::array<bool, kControlTopicNames.size()> told_of{};
@@ -99,6 +105,7 @@ class ControlConnection {
     std::deque<ControlAnswer> unsent_;
     std::size_t unsent_bytes_ = 0;  ///< bytes of the lines
     std::size_t unsent_behind_ = 0; ///< bytes behind them
+    std::size_t held_ = 0;          ///< of those, bytes that no other client is sent
     std::size_t sent_ = 0;          ///< bytes sent of the first answer, line and bytes together
     bool ends_ = false, over_ = false;
 };

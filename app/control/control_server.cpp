@@ -1,7 +1,7 @@
 // The thread of the control socket.
 #include "app/control/control_server.h"
 
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 
@@ -81,13 +81,16 @@ void ControlServer::run() {
         delayed_ = false;
         for (const auto& client : connections_) {
             read_requests(*client);
-            if (!client->trusted && options_.clock() - client->since > kTokenWithin)
+            const Seconds now = options_.clock(), open = now - client->since;
+            if ((!client->trusted && open > kTokenWithin) ||
+                (!client->seated && open > kTurnedAway))
                 client->drop();
-            client->flush();
+            client->flush(now);
         }
         std::erase_if(connections_, [](const auto& client) { return client->is_over(); });
         accept_clients();
-        clients_ = connections_.size();
+        clients_ = seated();
+        begin_search();
         desk_.set_interested(std::ranges::any_of(connections_, [](const auto& client) {
             return client->events_a_second > 0 || !client->waits.empty();
         }));
@@ -98,7 +101,7 @@ void ControlServer::run() {
 
 void ControlServer::wait_for_something() {
     std::vector<pollfd> all{{wake_.descriptor(), POLLIN, 0}};
-    if (connections_.size() < kMostClients)
+    if (connections_.size() < kMostClients + kMostTurnedAway)
         all.push_back({listener_.get(), POLLIN, 0});
     Seconds longest = delayed_ ? kLookAgain : kNever;
     for (const auto& client : connections_) {
@@ -109,6 +112,8 @@ void ControlServer::wait_for_something() {
              0});
         if (!client->trusted)
             longest = std::min(longest, kTokenWithin);
+        if (!client->seated || !to_search_.empty())
+            longest = std::min(longest, kTurnedAway);
     }
     if (next_look_ > Seconds(0))
         longest = std::clamp(next_look_ - options_.clock(), Seconds(0), longest);
@@ -125,7 +130,7 @@ void ControlServer::wait_for_something() {
 }
 
 void ControlServer::accept_clients() {
-    while (connections_.size() < kMostClients) {
+    while (connections_.size() < kMostClients + kMostTurnedAway) {
         ControlSocket accepted(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
         if (accepted.get() < 0)
             return;
@@ -133,6 +138,7 @@ void ControlServer::accept_clients() {
             continue;
         connections_.push_back(std::make_unique<Connection>(++named_, std::move(accepted),
                                                             token_.empty(), options_.clock()));
+        connections_.back()->seated = seated() <= kMostClients;
     }
 }
 
@@ -156,6 +162,12 @@ void ControlServer::obey(Connection& client, const std::string& line) {
     std::string id = "null";
     try {
         const ControlRequest request = request_from(line, id);
+        if (!client.seated) {
+            client.send(refused(id, fmt::format("busy: the session has {} clients, as many as it "
+                                                "takes; try again when one has ended",
+                                                kMostClients)));
+            return client.finish();
+        }
         if (!client.trusted) {
             client.trusted =
                 request.verb == ControlVerb::hello && same_token(request.token, token_);
@@ -229,11 +241,36 @@ ControlServer::Found ControlServer::not_found(const Search& search, const std::s
 
 void ControlServer::add_search(Connection& client, const ControlRequest& request,
                                const std::string& id) {
-    if (!searches_.ask({client.name(), id, request, desk_.file(), desk_.shown()->state},
-                       kMostSearches))
+    if (to_search_.size() + (searching_ ? 1 : 0) >= kMostSearches)
         throw interaction::Error(
             fmt::format("busy: {} searches wait already; try again", kMostSearches));
+    to_search_.push_back({client.name(), id, request, desk_.file(), desk_.shown()->state});
     client.waits.push_back({Unanswered::For::search, 0, id});
+}
+
+/// Begins the next search whose client has read what was found for it, while little is kept for all
+/// of them. Whoever keeps others from that, as it takes nothing for long, is closed.
+void ControlServer::begin_search() {
+    std::erase_if(to_search_, [&](const Search& search) { return !client_called(search.client); });
+    if (searching_ || to_search_.empty())
+        return;
+    std::size_t held = 0;
+    for (const auto& client : connections_)
+        held += client->held();
+    const auto next = std::ranges::find_if(to_search_, [&](const Search& search) {
+        return client_called(search.client)->held() == 0;
+    });
+    const bool may_begin = next != to_search_.end();
+    if (may_begin && held < options_.most_held) {
+        searching_ = searches_.ask(*next);
+        to_search_.erase(next);
+        return;
+    }
+    if (!may_begin && to_search_.size() < kMostSearches)
+        return; // it keeps nobody else
+    for (const auto& client : connections_)
+        if (client->held() > 0 && options_.clock() - client->took > kTakesNothing)
+            client->drop();
 }
 
 void ControlServer::tell_frames() {
@@ -246,7 +283,7 @@ void ControlServer::tell_frames() {
     for (const auto& client : connections_) {
         answer_waiting(*client, *shown);
         tell_events(*client, shown);
-        client->flush();
+        client->flush(options_.clock());
     }
 }
 
@@ -299,16 +336,29 @@ void ControlServer::tell_events(Connection& client,
 }
 
 void ControlServer::take_found() {
-    for (Found& found : searches_.take())
-        for (const auto& client : connections_)
-            if (client->name() == found.client) {
-                const auto wait = std::ranges::find_if(client->waits, [](const Unanswered& one) {
-                    return one.what == Unanswered::For::search;
-                });
-                if (wait != client->waits.end())
-                    client->waits.erase(wait);
-                client->send(std::move(found.answer));
-            }
+    for (Found& found : searches_.take()) {
+        searching_ = false;
+        Connection* const client = client_called(found.client);
+        if (!client)
+            continue;
+        const auto wait = std::ranges::find_if(client->waits, [](const Unanswered& one) {
+            return one.what == Unanswered::For::search;
+        });
+        if (wait != client->waits.end())
+            client->waits.erase(wait);
+        client->send(std::move(found.answer));
+    }
+}
+
+ControlServer::Connection* ControlServer::client_called(std::uint64_t name) const {
+    const auto client =
+        std::ranges::find(connections_, name, [](const auto& each) { return each->name(); });
+    return client == connections_.end() ? nullptr : client->get();
+}
+
+std::size_t ControlServer::seated() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(connections_, [](const auto& client) { return client->seated; }));
 }
 
 } // namespace isochron::app

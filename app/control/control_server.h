@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,11 +22,16 @@ struct ControlServerOptions {
     bool only_watches = false; ///< answers `state`, `subscribe` and `picture` alone
     /// Time of a steady clock, for tests; null: the system's.
     std::function<interaction::Seconds()> clock = {};
+    std::size_t most_held = kMostHeld;
 };
 
 class ControlServer {
   public:
     static constexpr std::size_t kMostClients = 16;
+    static constexpr std::size_t kMostTurnedAway = 16;    ///< clients without a seat, at a time
+    static constexpr interaction::Seconds kTurnedAway{1}; ///< then such a client is closed
+    /// A client that takes nothing of what it is sent for so long, while others wait for it, is closed.
+    static constexpr interaction::Seconds kTakesNothing{20};
     static constexpr std::size_t kMostSearches = 8;         ///< that wait, of all clients
     static constexpr interaction::Seconds kTokenWithin{10}; ///< else the connection is closed
 
@@ -64,6 +70,9 @@ class ControlServer {
     void read_requests(Connection& client);
     void obey(Connection& client, const std::string& line);
     void answer(Connection& client, const ControlRequest& request, const std::string& id);
+    void begin_search();
+    Connection* client_called(std::uint64_t name) const; ///< null: it is gone
+    std::size_t seated() const;
     void add_search(Connection& client, const ControlRequest& request, const std::string& id);
     void tell_frames();
     void answer_waiting(Connection& client, const ShownFrame& shown);
@@ -85,6 +94,8 @@ class ControlServer {
     interaction::Seconds next_look_{0};
     std::atomic<std::size_t> clients_{0};
     std::atomic<bool> ends_{false};
+    std::deque<Search> to_search_;
+    bool searching_ = false; ///< one of them
     Asker<Search, Found> searches_{found_by, not_found};
     std::jthread thread_; ///< last: begins when all else is there
 };

@@ -6,7 +6,7 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/subcommands.h"
 #include "app/config/display_config_text.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "app/version.h"
 #include "interaction/recording/commands_json.h"
 #include "render/gl/driver.h"
@@ -36,9 +36,8 @@ void obey_signals(stereo::Cluster& cluster) {
         return;
     // Where one process was lost, mpirun ends the others: the loss has been told by its name.
     if (const char* const name = ::sigabbrev_np(signal); !CancelOnSignal::sent_by_the_launcher())
-        print_safely(fmt::format("isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
-                                 name ? name : "NAL"),
-                     stderr);
+        print_safely(stderr, "isochron: {}: ended by SIG{}\n", cluster.name_of(cluster.rank()),
+                     name ? name : "NAL");
     cluster.abandon(Canceled(signal).status);
 }
 
@@ -191,7 +190,7 @@ void ClusterJob::tell_shared_processors(const render::Gl& gl) {
     }
     if (leads())
         for (const std::string& line : shared_processors(shares))
-            print_safely(fmt::format("isochron: note: {}\n", line), stderr);
+            print_safely(stderr, "isochron: note: {}\n", line);
 }
 
 void ClusterJob::finish() {
@@ -257,7 +256,7 @@ void run_in_cluster(const std::function<void(ClusterJob&)>& command) {
             throw;
         const auto* lost = dynamic_cast<const stereo::ProcessLost*>(&error);
         const std::string where = lost ? "" : cluster.name_of(cluster.rank()) + ": ";
-        print_safely(fmt::format("isochron: {}\n", one_line(where + error.what())), stderr);
+        print_safely(stderr, "isochron: {}\n", where + error.what());
         cluster.abandon(1);
     }
 }

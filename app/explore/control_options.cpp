@@ -1,7 +1,7 @@
 // Opens the control socket of a session.
 #include "app/explore/control_options.h"
 
-#include "app/text.h"
+#include "app/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ std::unique_ptr<SessionControl> opened_control(const std::optional<std::string>&
         return nullptr;
     auto opened =
         std::make_unique<SessionControl>(control_address(*control), session, std::move(options));
-    print_safely(fmt::format("isochron: control socket: {}\n", opened->where()), stderr);
+    print_safely(stderr, "isochron: control socket: {}\n", opened->where());
     return opened;
 }
 

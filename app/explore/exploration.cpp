@@ -16,7 +16,7 @@
 #include "app/loop/new_steps.h"
 #include "app/loop/panel_movies.h"
 #include "app/loop/surface_maker.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
@@ -86,7 +86,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         if (exploration.canceled()) {
             said = fmt::format("canceled: {} is not opened", now.data_name);
             if (!before) {
-                print_safely(fmt::format("isochron: {}\n", said), stderr);
+                print_safely(stderr, "isochron: {}\n", said);
                 return;
             }
             now = *std::exchange(before, std::nullopt);
@@ -344,7 +344,7 @@ void Exploration::keep(LiveLoop& live) {
     auto path = kept_in(options_, *file_);
     const std::string why_not = why_not_kept(path);
     if (!why_not.empty()) {
-        print_safely(fmt::format("isochron: {}\n", why_not), stderr);
+        print_safely(stderr, "isochron: {}\n", why_not);
         session_->show_messages({why_not});
         live.keep_no_session(why_not);
         path.reset();
@@ -362,11 +362,10 @@ void Exploration::offer_earlier() {
         return;
     const auto all = earlier_sessions(options_, *file_);
     if (all.size() > 1)
-        print_safely(
-            fmt::format("isochron: --resume --session FILE goes on with an earlier one, of "
-                        "which there are {} beside it; the newest is {}\n",
-                        all.size() - 1, all[1].path.filename().string()),
-            stderr);
+        print_safely(stderr,
+                     "isochron: --resume --session FILE goes on with an earlier one, of "
+                     "which there are {} beside it; the newest is {}\n",
+                     all.size() - 1, all[1].path.filename().string());
     std::vector<OfferedSession> offers;
     for (const EarlierSession& each : all) {
         try {
@@ -397,7 +396,7 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
         session_->log().finish_report(session_->drawing(), session_->reading());
     job_.finish();
     if (options_.record && job_.leads())
-        print_safely(fmt::format("recording: {}\n", *options_.record), stderr);
+        print_safely(stderr, "recording: {}\n", *options_.record);
 }
 
 /// What there is of a session whose display is gone.
@@ -406,9 +405,9 @@ void Exploration::save(LiveLoop& live) {
         live.finish(*session_);
         session_->outputs().pictures().finish();
         if (options_.record)
-            print_safely(fmt::format("recording: {}\n", *options_.record), stderr);
+            print_safely(stderr, "recording: {}\n", *options_.record);
     } catch (const std::exception& error) {
-        print_safely(fmt::format("isochron: {}\n", one_line(error.what())), stderr);
+        print_safely(stderr, "isochron: {}\n", error.what());
     }
 }
 

@@ -11,8 +11,8 @@
 #include "app/kept/recording_file.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/room_view.h"
+#include "app/safe_text.h"
 #include "app/session/start_state.h"
-#include "app/text.h"
 #include "index/error.h"
 #include "index/file/blend_advice.h"
 #include "index/file/color_source.h"
@@ -217,18 +217,16 @@ void warn_of_colors(const Config& config, const index::IndexFile& file) {
         return;
     const std::vector<std::string> there = index::color_source_names(file);
     if (std::ranges::find(there, wanted) == there.end())
-        print_safely(
-            fmt::format("isochron: warning: {}: no array {} to color by, there {}\n", file.name(),
-                        wanted,
-                        there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", "))),
-            stderr);
+        print_safely(stderr, "isochron: warning: {}: no array {} to color by, there {}\n",
+                     file.name(), wanted,
+                     there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", ")));
 }
 
 void warn(const Config& config) {
     for (const ConfigProblem& problem : problems_of(config))
-        print_safely(fmt::format("isochron: {}\n", line_of(problem, config)), stderr);
+        print_safely(stderr, "isochron: {}\n", line_of(problem, config));
     for (const std::string& warning : device_warnings(config))
-        print_safely(fmt::format("isochron: warning: {}\n", one_line(warning)), stderr);
+        print_safely(stderr, "isochron: warning: {}\n", warning);
 }
 
 } // namespace isochron::app

@@ -2,7 +2,7 @@
 #include "app/explore/kept_session.h"
 
 #include "app/loop/session_keeper.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "app/version.h"
 #include "index/file/index_states.h"
 #include "index/system/new_file.h"
@@ -109,9 +109,7 @@ std::optional<SavedSession> earlier_session(const std::optional<std::filesystem:
     if (resume)
         return read_session(*path);
     if (there)
-        print_safely(
-            fmt::format("isochron: --resume goes on with the session in {}\n", path->string()),
-            stderr);
+        print_safely(stderr, "isochron: --resume goes on with the session in {}\n", path->string());
     return std::nullopt;
 }
 

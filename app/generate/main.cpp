@@ -3,7 +3,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/generate/demo_series.h"
 #include "app/generate/generate_options.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ void make(const Series& series, const std::filesystem::path& dir, bool force) {
             },
             force);
     }
-    print_safely(fmt::format("{}: {} steps{}\n", pvd, series.steps, made ? "" : ", made before"));
+    print_safely("{}: {} steps{}\n", pvd, series.steps, made ? "" : ", made before");
 }
 
 void add_generate(Command& program) {

@@ -1,6 +1,7 @@
 // The arrays among which files leave the choice.
 #include "app/indexing/array_offers.h"
 
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 

@@ -180,8 +180,8 @@ std::string former_tiers_note(const std::string& list) {
     std::istringstream names(list);
     for (std::string name; std::getline(names, name, ',');)
         if (index::is_former_tier(name))
-            return fmt::format(
-                "isochron: --tiers {}: {} is no longer built; bricks take its place\n", list, name);
+            return fmt::format("--tiers {}: {} is no longer built; bricks take its place", list,
+                               name);
     return {};
 }
 

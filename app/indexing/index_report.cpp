@@ -111,26 +111,26 @@ std::string levels_text(const index::IndexFile& file) {
                        by_step ? " (of the last step; each has its own)" : "");
 }
 
-std::string sources_text(const std::vector<std::string>& sources) {
+SafeText sources_text(const std::vector<std::string>& sources) {
     constexpr std::size_t kListed = 8;
-    std::string text;
+    SafeText text;
     for (std::size_t i = 0; i < std::min(kListed, sources.size()); ++i)
-        text += fmt::format("source        {}\n", sources[i]);
+        text += SafeText("source        {}\n", sources[i]);
     if (sources.size() > kListed)
-        text += fmt::format("source        ... {} more, the last {}\n", sources.size() - kListed,
-                            sources.back());
+        text += SafeText("source        ... {} more, the last {}\n", sources.size() - kListed,
+                         sources.back());
     return text;
 }
 
-std::string tree_text(const index::IndexFile& file) {
+SafeText tree_text(const index::IndexFile& file) {
     const auto nodes = time_nodes(file);
     if (nodes.empty())
-        return "time nodes    none: bricks and the scan have none; build --lattice adds the "
-               "paper's tree\n";
-    std::string text;
+        return SafeText("time nodes    none: bricks and the scan have none; build --lattice adds "
+                        "the paper's tree\n");
+    SafeText text;
     for (const auto& node : nodes)
-        text += fmt::format("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
-                            node.last_step, grouped(node.cells));
+        text += SafeText("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
+                         node.last_step, grouped(node.cells));
     return text;
 }
 
@@ -220,13 +220,13 @@ std::string staying_text(const index::IndexFile& file) {
                        staying_percent(file));
 }
 
-std::string as_text(const IndexReport& report) {
+SafeText as_text(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
-    std::string text = fmt::format("{}\n", report.name) + text_of(info);
+    SafeText text("{}\n{}", report.name, text_of(info));
     const auto line = [&](std::string_view label, const std::string& value) {
-        text += fmt::format("{:<13} {}\n", label, value);
+        text += SafeText("{:<13} {}\n", label, value);
     };
     line("values", fmt::format("{} to {}{}", stats.low, stats.high, with_space(info.value_unit)));
     line("NaN", fmt::format("{} values", grouped(stats.nan_values)));
@@ -267,7 +267,7 @@ std::string as_text(const IndexReport& report) {
     return text;
 }
 
-std::string as_json(const IndexReport& report) {
+nlohmann::ordered_json as_json(const IndexReport& report) {
     const index::IndexFile& file = report.file;
     const SeriesInfo& info = file.info();
     const index::IndexStats& stats = file.stats();
@@ -338,7 +338,7 @@ std::string as_json(const IndexReport& report) {
                                  {"depth", node.depth},
                                  {"cells", node.cells}});
     }
-    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return j;
 }
 
 } // namespace isochron::app

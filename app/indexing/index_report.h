@@ -1,7 +1,10 @@
 // What an index holds, as text and as JSON.
 #pragma once
 
+#include "app/safe_text.h"
 #include "index/file/index_file.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 
@@ -21,7 +24,7 @@ std::string file_sizes(const index::IndexFile& file);
 std::string array_sizes(const index::IndexFile& array);
 
 /// @throws index::Error when the tree is damaged
-std::string as_text(const IndexReport& report);
-std::string as_json(const IndexReport& report);
+SafeText as_text(const IndexReport& report);
+nlohmann::ordered_json as_json(const IndexReport& report);
 
 } // namespace isochron::app

@@ -3,7 +3,7 @@
 
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/kept_index.h"
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // Opens the index that a command is given.
 #include "app/indexing/open_index.h"
 
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/volume_blocks.h"
@@ -24,13 +25,13 @@ std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& 
     auto file = index::open_named_index(path, cache_bytes);
     const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
     if (line)
-        print_safely(fmt::format("isochron: {}\n", one_line(*line)), stderr);
+        print_safely(stderr, "isochron: {}\n", *line);
     if (lost == LostState::is_said && is_only_scanned(*file))
-        print_safely(fmt::format("isochron: {}: the search structures that it holds are no longer "
-                                 "used, so each search scans a whole step; isochron build {} -o "
-                                 "NEW.isochron gives it bricks\n",
-                                 one_line(path.string()), index::shell_word(path.string())),
-                     stderr);
+        print_safely(stderr,
+                     "isochron: {}: the search structures that it holds are no longer "
+                     "used, so each search scans a whole step; isochron build {} -o "
+                     "NEW.isochron gives it bricks\n",
+                     path.string(), index::shell_word(path.string()));
     return file;
 }
 
@@ -58,10 +59,9 @@ array_called(const std::shared_ptr<const index::IndexFile>& file,
 void warn_beyond(double isovalue, const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
     if (isovalue < stats.low || isovalue > stats.high)
-        print_safely(fmt::format("isochron: isovalue {} lies beyond the data, {} to {}{}\n",
-                                 human_number(isovalue), human_number(stats.low),
-                                 human_number(stats.high), with_space(file.info().value_unit)),
-                     stderr);
+        print_safely(stderr, "isochron: isovalue {} lies beyond the data, {} to {}{}\n",
+                     human_number(isovalue), human_number(stats.low), human_number(stats.high),
+                     with_space(file.info().value_unit));
 }
 
 } // namespace isochron::app

@@ -144,12 +144,12 @@ std::string gaps_text(const SeriesInfo& info) {
                                        fmt::join(named, ", "));
 }
 
-std::string text_of(const SeriesInfo& info) {
+SafeText text_of(const SeriesInfo& info) {
     const Grid& grid = info.grid;
     const std::string length = with_space(info.length_unit);
-    std::string text;
+    SafeText text;
     const auto line = [&](std::string_view label, const std::string& value) {
-        text += fmt::format("{:<13} {}\n", label, value);
+        text += SafeText("{:<13} {}\n", label, value);
     };
     line("array", info.array.empty() ? "unnamed" : info.array);
     line("vertices", fmt::format("{}", fmt::join(grid.vertices, " x ")));
@@ -210,11 +210,11 @@ nlohmann::ordered_json json_of(const SeriesInfo& info) {
             {"intercept", info.scaling.intercept}};
 }
 
-std::string source_text(const std::string& name, index::VolumeSeries& series) {
+SafeText source_text(const std::string& name, index::VolumeSeries& series) {
     const SeriesInfo& info = series.info();
-    std::string text = fmt::format("{}\n", name) + text_of(info);
+    SafeText text("{}\n{}", name, text_of(info));
     const auto line = [&](std::string_view label, const std::string& value) {
-        text += fmt::format("{:<13} {}\n", label, value);
+        text += SafeText("{:<13} {}\n", label, value);
     };
     const ValueRange range = range_of(series, 0);
     line("values", range.low <= range.high ? fmt::format("{} to {}{} in the first step", range.low,
@@ -236,7 +236,7 @@ std::string source_text(const std::string& name, index::VolumeSeries& series) {
     return text;
 }
 
-std::string source_json(const std::string& name, index::VolumeSeries& series) {
+nlohmann::ordered_json source_json(const std::string& name, index::VolumeSeries& series) {
     const SeriesInfo& info = series.info();
     const ValueRange range = range_of(series, 0);
     nlohmann::ordered_json j{{"file", name}};
@@ -248,7 +248,7 @@ std::string source_json(const std::string& name, index::VolumeSeries& series) {
     j["arrays"] = info.arrays;
     j["sources"] = info.sources;
     j["notes"] = info.notes;
-    return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return j;
 }
 
 } // namespace isochron::app

@@ -1,6 +1,8 @@
 // Saves and reads sessions.
 #include "app/kept/session_file.h"
 
+#include "index/json_mistake.h"
+
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
@@ -102,9 +104,9 @@ SavedSession read_session(const std::filesystem::path& path) {
     const std::string text = index::read_text(path, kLargest);
     try {
         return session_from(json::parse(text));
-    } catch (const json::parse_error& mistake) {
+    } catch (const json::exception& mistake) {
         throw interaction::Error(
-            fmt::format("{}: not a session: not JSON at byte {}", path.string(), mistake.byte));
+            fmt::format("{}: not a session: {}", path.string(), index::json_mistake(mistake)));
     } catch (const interaction::Error& mistake) {
         throw interaction::Error(fmt::format("{}: {}", path.string(), mistake.what()));
     }

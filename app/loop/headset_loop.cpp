@@ -1,7 +1,7 @@
 // A headset's part in the live loop.
 #include "app/loop/headset_loop.h"
 
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "interaction/input/composite_input.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ const char* in_words(stereo::HeadsetState state) {
 void HeadsetLoop::tell_changes() {
     std::string now = fmt::format("headset {}: {}", in_words(state_), headset_->description());
     if (now != told_)
-        print_safely(fmt::format("isochron: {}\n", now), stderr);
+        print_safely(stderr, "isochron: {}\n", now);
     told_ = std::move(now);
 }
 

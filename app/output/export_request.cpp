@@ -1,6 +1,7 @@
 // What an export is asked for.
 #include "app/output/export_request.h"
 
+#include "app/safe_text.h"
 #include "app/text.h"
 #include "app/version.h"
 #include "index/export/mesh_crop.h"

@@ -195,10 +195,7 @@ void MovieFile::finish() {
         throw index::Error(fmt::format("{}: ffmpeg: {}", s.path.string(), said));
     if (s.path.extension() == ".gif" && !s.note.empty())
         add_note_to_gif(s.temporary, s.note);
-    std::error_code error;
-    fs::rename(s.temporary, index::end_of_links(s.path), error);
-    if (error)
-        throw index::Error(fmt::format("{}: {}", s.path.string(), error.message()));
+    index::name_whole_file(s.temporary, s.path);
 }
 
 } // namespace isochron::app

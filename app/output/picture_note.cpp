@@ -1,6 +1,8 @@
 // Converts the notes in pictures to text and back.
 #include "app/output/picture_note.h"
 
+#include "index/json_mistake.h"
+
 #include "index/error.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
@@ -162,9 +164,9 @@ PictureNote note_from(const std::string& text) {
     const std::string inner = between_marks(text);
     try {
         return note_from_json(json::parse(inner));
-    } catch (const json::parse_error& mistake) {
+    } catch (const json::exception& mistake) {
         throw interaction::Error(
-            fmt::format("what it says of itself is not JSON at byte {}", mistake.byte));
+            fmt::format("what it says of itself is damaged: {}", index::json_mistake(mistake)));
     }
 }
 

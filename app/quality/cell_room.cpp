@@ -1,7 +1,7 @@
 // Divides the memory by what a cell was measured to take.
 #include "app/quality/cell_room.h"
 
-#include "app/text.h"
+#include "app/safe_text.h"
 #include "index/system/memory_limit.h"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::vector<std::string> limit_to_memory(DetailChoice& details, const index::Ind
                                     file.cache_bytes()))
         lines.push_back(std::move(*line));
     for (const std::string& line : lines) // nobody sees the panel of a replay
-        print_safely(fmt::format("isochron: {}\n", line), stderr);
+        print_safely(stderr, "isochron: {}\n", line);
     return lines;
 }
 

@@ -36,7 +36,7 @@ class CsvWriter : public SurfaceWriter {
                 out.text({line.data(), line.size()});
             }
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
   private:

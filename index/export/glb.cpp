@@ -143,7 +143,7 @@ class GlbFile {
             binary_.copy_to(out);
         }
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
   private:

@@ -29,7 +29,7 @@ class ObjWriter : public SurfaceWriter {
             first += step.surfaces[i].mesh->vertices();
         }
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
   private:

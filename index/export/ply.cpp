@@ -31,7 +31,7 @@ class PlyWriter : public SurfaceWriter {
             first += static_cast<std::uint32_t>(surface.mesh->vertices());
         }
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
   private:

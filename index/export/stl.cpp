@@ -51,7 +51,7 @@ class StlWriter : public SurfaceWriter {
             out.put(std::uint16_t{0});
         });
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
     /// It must not begin with `solid`, by which programs tell STL in text.

@@ -198,7 +198,7 @@ class UsdaWriter : public SurfaceWriter {
             meshes_[i]->write(plan_, i, out);
         out.text("}\n");
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
   private:

@@ -36,7 +36,7 @@ class VtpWriter : public SurfaceWriter {
         BufferedSink out(file);
         write(step, out);
         out.flush();
-        file.commit_unflushed();
+        file.commit();
         times_.emplace_back(step.time, path.filename().string());
     }
 
@@ -52,7 +52,7 @@ class VtpWriter : public SurfaceWriter {
                                  escaped(part)));
         out.text("</Collection>\n</VTKFile>\n");
         out.flush();
-        file.commit_unflushed();
+        file.commit();
     }
 
   private:

@@ -34,6 +34,13 @@ std::string path_of_open(int file) {
     return fmt::format("/proc/self/fd/{}", file);
 }
 
+/// So that a new name survives a loss of power; not every file system needs or allows that.
+void flush_folder_of(const fs::path& file) {
+    const Descriptor folder(::open(folder_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder)
+        ::fsync(folder.number());
+}
+
 } // namespace
 
 void make_folder(const fs::path& folder) {
@@ -186,24 +193,22 @@ void NewFile::take_name() {
     entry_ = LedgerEntry();
 }
 
-void NewFile::commit_unflushed() {
-    take_name();
-    file_.reset();
-}
-
 void NewFile::commit() {
     if (::fsync(file_.number()) != 0)
         fail(errno);
     if (!owner_)
         return;
-    commit_unflushed();
-    // Flushes the folder, so that the new name survives a power failure; not every file system
-    // needs or allows that.
-    const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0) {
-        ::fsync(folder);
-        ::close(folder);
-    }
+    take_name();
+    file_.reset();
+    flush_folder_of(target_);
+}
+
+void name_whole_file(const fs::path& written, const fs::path& target) {
+    const fs::path name = end_of_links(target);
+    const Descriptor file(::open(written.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file || ::fsync(file.number()) != 0 || ::rename(written.c_str(), name.c_str()) != 0)
+        throw Error(fmt::format("{}: cannot be written: {}", target.string(), refusal(errno)));
+    flush_folder_of(name);
 }
 
 } // namespace isochron::index

@@ -24,6 +24,11 @@ void make_folder(const std::filesystem::path& folder);
 /// @throws Error when they lead in a circle
 std::filesystem::path end_of_links(std::filesystem::path path);
 
+/// Gives a file that another program has written its name, once its bytes are on the disk.
+/// @param target leads through links; a file that is there is replaced
+/// @throws Error naming the target
+void name_whole_file(const std::filesystem::path& written, const std::filesystem::path& target);
+
 /// As ByteSink::begin_flush, for an open file.
 void begin_flush_of(int file);
 
@@ -50,9 +55,6 @@ class NewFile final : public ByteSink {
     void begin_flush() override;
     /// Flushes to disk, then renames the file to its final name.
     void commit();
-    /// Only gives it its name: for files that can be made again, of which there are many. After a
-    /// power failure such a file may be short.
-    void commit_unflushed();
 
     /// Its name until then; a file without a name gets it for a moment where another file has NAME.
     const std::filesystem::path& temporary() const { return temporary_; }

@@ -179,10 +179,13 @@ void RecordingWriter::copy_to(const std::filesystem::path& path) {
     const std::filesystem::path part = path.string() + ".part";
     std::error_code error;
     std::filesystem::copy_file(state_->temporary, part, error);
-    if (!error)
-        std::filesystem::rename(part, path, error);
-    if (!error)
+    std::FILE* const copied = error ? nullptr : std::fopen(part.c_str(), "rb");
+    if (copied && (fsync(fileno(copied)) != 0 || std::rename(part.c_str(), path.c_str()) != 0))
+        error.assign(errno, std::system_category());
+    if (copied && std::fclose(copied) == 0 && !error)
         return;
+    if (!error)
+        error.assign(errno, std::system_category());
     std::error_code ignored;
     std::filesystem::remove(part, ignored);
     throw Error(fmt::format("{}: cannot write: {}", path.string(), error.message()));

@@ -20,7 +20,8 @@ std::string surprises_inside(std::span<const std::filesystem::path> readable,
     const pid_t child = ::fork();
     if (child == 0) {
         ::close(told[0]);
-        const std::string found = index::fence_in(readable) ? inside() : "cannot be fenced in";
+        const std::string refused(index::fence_in(readable));
+        const std::string found = refused.empty() ? inside() : "the system refuses " + refused;
         [[maybe_unused]] const auto size = ::write(told[1], found.data(), found.size());
         ::_exit(0);
     }

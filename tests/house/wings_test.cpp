@@ -31,7 +31,7 @@ const std::map<std::string, Steps> kOrder{
       {"quality"},
       {"frame"},
       {"config", "command_line"},
-      {"text", "version", "python"}}},
+      {"safe_text", "text", "version", "python"}}},
     {"index",
      {{"extraction", "indexing", "export"},
       {"detail"},

@@ -1,6 +1,8 @@
 // The metadata section of an .isochron file, as JSON.
 #include "index/file/sections/metadata.h"
 
+#include "index/json_mistake.h"
+
 #include "index/error.h"
 #include "index/file/sections/metadata_json.h"
 
@@ -234,7 +236,7 @@ Metadata metadata_from_json(std::string_view text) try {
         metadata.further = further_of(j.at("arrays"));
     return metadata;
 } catch (const json::exception& error) {
-    throw Error(error.what());
+    throw Error(json_mistake(error));
 }
 
 } // namespace isochron::index

@@ -264,13 +264,18 @@ bool refuse_all_other_calls() {
 
 } // namespace
 
-bool fence_in(std::span<const std::filesystem::path> readable) {
-    bool good = ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
+std::string_view fence_in(std::span<const std::filesystem::path> readable) {
+    if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+        return "to take its privileges away (PR_SET_NO_NEW_PRIVS)";
     const struct rlimit none {};
     for (const auto resource : {RLIMIT_CORE, RLIMIT_FSIZE})
-        good &= ::setrlimit(resource, &none) == 0;
-    good &= hide_files(readable);
-    return refuse_all_other_calls() && good;
+        if (::setrlimit(resource, &none) != 0)
+            return "its limits of files (setrlimit)";
+    if (!hide_files(readable))
+        return "to hide files from it (Landlock)";
+    if (!refuse_all_other_calls())
+        return "its list of system calls (seccomp)";
+    return {};
 }
 
 } // namespace isochron::index

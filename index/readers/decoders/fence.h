@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace isochron::index {
 
@@ -15,8 +16,9 @@ namespace isochron::index {
 /// privileges, no file grows, no core dump.
 /// @param readable folders with all that is in them, and single files; what is not there is left
 ///   out. Files that are open stay readable.
-/// @return whether all restrictions of this build and this kernel hold; where they do not, nothing
-///   may be read. They cannot hold where the process has several threads.
-[[nodiscard]] bool fence_in(std::span<const std::filesystem::path> readable = {});
+/// @return what the system has refused of the restrictions of this build and this kernel, in words;
+///   empty: all hold. Where one does not, nothing may be read. They cannot hold where the process has
+///   several threads.
+[[nodiscard]] std::string_view fence_in(std::span<const std::filesystem::path> readable = {});
 
 } // namespace isochron::index

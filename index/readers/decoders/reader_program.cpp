@@ -6,6 +6,8 @@
 #include "index/readers/decoders/fence.h"
 #include "index/readers/process/reader_start.h"
 
+#include <fmt/format.h>
+
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,6 +16,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 
 namespace isochron::index {
 namespace {
@@ -48,22 +51,21 @@ void go_first() {
     ::close(file);
 }
 
-/// Restricts this process to what the program names first. @return whether that holds
-bool fence_in_as_told(MessageSocket& socket) {
+/// Restricts this process to what the program names first. @return what the system refuses of that
+std::string_view fence_in_as_told(MessageSocket& socket) {
     const auto told = socket.receive();
     if (!told)
         ::_exit(0);
     const LeftReadable readable = readable_from(told->bytes);
-    return kReaderIsWatched || fence_in(readable.places);
+    return kReaderIsWatched ? std::string_view() : fence_in(readable.places);
 }
 
 /// Answers that nothing is read without the fence, and waits until the program has closed the
 /// socket: if this process ended before the program asks, the program would see only an ended
 /// reader.
-void refuse(MessageSocket& socket) {
-    if (!socket.send(
-            encoded(ReaderReply(Refused{"its reader cannot be fenced in: the system refuses "
-                                        "its list of system calls (seccomp)"}))))
+void refuse(MessageSocket& socket, std::string_view refused) {
+    if (!socket.send(encoded(ReaderReply(Refused{
+            fmt::format("its reader cannot be fenced in: the system refuses {}", refused)}))))
         return;
     while (socket.receive()) {
     }
@@ -84,8 +86,8 @@ int run_reader(std::span<const Decoder> decoders, ReadCollectionFile collection,
     go_first();
     try {
         MessageSocket socket{Descriptor(kReaderSocket)};
-        if (!fence_in_as_told(socket)) {
-            refuse(socket);
+        if (const std::string_view refused = fence_in_as_told(socket); !refused.empty()) {
+            refuse(socket, refused);
             ::_exit(1);
         }
         serve(socket, decoders, collection, picture, take_denied_file);

@@ -1,6 +1,8 @@
 // Opens, describes and decodes files on request.
 #include "index/readers/decoders/reader_service.h"
 
+#include "index/json_mistake.h"
+
 #include "index/error.h"
 #include "index/readers/process/readable_places.h"
 #include "index/system/shared_memory.h"
@@ -127,6 +129,9 @@ class Service {
             return Refused{fmt::format("{}: cannot be read: out of memory (at most {:.1f} GB for "
                                        "its reader)",
                                        path_.string(), static_cast<double>(limit.rlim_cur) / 1e9)};
+        } catch (const nlohmann::json::exception& mistake) {
+            return Refused{in_one_line(
+                fmt::format("{}: cannot be read: {}", path_.string(), json_mistake(mistake)))};
         } catch (const std::exception& other) {
             return Refused{
                 in_one_line(fmt::format("{}: cannot be read: {}", path_.string(), other.what()))};

@@ -20,6 +20,13 @@ class PowerLoss : public Faults {
                                  "UpperRight=\"1 1 -1\"/></Process></pvx>");
     }
 
+    static std::vector<std::string> exported(const std::string& to,
+                                             const std::vector<std::string>& more = {}) {
+        std::vector<std::string> all{"export", "a.isochron", "--isovalue", "0.1", "-o", to};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
     /// Runs the command. @return the files that it gave their names, and complaints
     std::vector<std::string> named_by(const std::vector<std::string>& command,
                                       std::vector<std::string>& unflushed) {
@@ -66,12 +73,29 @@ TEST_F(PowerLoss, NothingGetsItsNameBeforeItIsFlushed) {
     const std::vector<Run> runs{
         {build_of("t[01].raw"), 1},
         {{"query", "a.isochron", "--isovalue", "0.1", "--step", "1", "--ids", "ids.bin"}, 1},
+        {{"change", "a.isochron", "--isovalue", "0.1", "--step", "0", "--to-step", "1", "--added",
+          "added.bin", "--removed", "removed.bin"},
+         2},
+        {build_of("t2.raw", {"--append"}), 0}, // in place: index_append_test has its order
+        {exported("a.ply"), 1},
+        {exported("a.stl"), 1},
+        {exported("a.obj"), 1},
+        {exported("a.vtp"), 1},
+        {exported("a.glb"), 1},
+        {exported("a.usda"), 1},
+        {exported("a.csv"), 1},
+        {exported("all.vtp", {"--steps", "0:1"}), 3}, // two steps and their .pvd
+        {{"generate", "sphere", "--steps", "2", "--out", "g"}, 3},
+        {{"manual", "pages"}, 2},
         {{"config", "import", "cave.pvx", "-o", "cave.toml"}, 1},
         {{"explore", "a.isochron", "--size", "96", "64", "--seconds", "0.1", "--record",
           "walk.jsonl", "--session", "s.isochron-session", "--report", "r.json"},
          3},
         {{"replay", "walk.jsonl", "--every", "2", "--out", "shots", "--report", "r.json"}, 2},
-        {{"movie", "walk.jsonl", "-o", "frames", "--rate", "10", "--size", "96", "64"}, 2}};
+        {{"table", "walk.jsonl", "-o", "walk.csv"}, 1},
+        {{"table", "walk.jsonl", "--json", "-o", "walk.json"}, 1},
+        {{"movie", "walk.jsonl", "-o", "frames", "--rate", "10", "--size", "96", "64"}, 2},
+        {{"movie", "walk.jsonl", "-o", "walk.gif", "--rate", "10", "--size", "96", "64"}, 1}};
     for (const Run& run : runs) {
         SCOPED_TRACE(run.command.front());
         std::vector<std::string> unflushed;

@@ -68,6 +68,18 @@ TEST_F(TableCommand, ATimingReportHasARowForEachFrame) {
     EXPECT_THAT(folder.read("frames.csv"), StartsWith("t,asked.step"));
 }
 
+TEST_F(TableCommand, NoTextIsAFormulaOfASpreadsheetUnlessItIsAskedFor) {
+    folder.write("frames.json",
+                 R"({"program":"isochron","rows":[{"=k":-1,"a":"=1+1","b":"+1","c":"-1",
+        "d":"@x","e":"\t=1","f":"\r=1","g":"x=1","h":-2.5,"i":"a;=1","j":"'"}]})");
+    EXPECT_EQ(table_of({"frames.json"}),
+              "'=k,a,b,c,d,e,f,g,h,i,j\n"
+              "-1,'=1+1,'+1,'-1,'@x,\\t=1,\\x0d=1,x=1,-2.5,\"a;=1\",'\n");
+    EXPECT_EQ(table_of({"frames.json", "--keep-formulas"}),
+              "=k,a,b,c,d,e,f,g,h,i,j\n"
+              "-1,=1+1,+1,-1,@x,\\t=1,\\x0d=1,x=1,-2.5,\"a;=1\",'\n");
+}
+
 TEST_F(TableCommand, WhatIsNeitherIsRefusedInALine) {
     folder.write("other.json", "{\"a\":1}");
     folder.write("broken.json", "{\"a\":");

@@ -1,9 +1,11 @@
 // The control socket and clients that do harm: floods, nonsense, deafness, too many of them.
 #include "tests/app/control/control_fixture.h"
 
-#include <fcntl.h>
 #include <fstream>
-#include <poll.h>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace isochron::app {
@@ -70,28 +72,116 @@ TEST_F(ControlServerTest, ClientsThatVanishLeaveNothingBehind) {
     EXPECT_NO_THROW(ask(client, step(1)));
 }
 
-TEST_F(ControlServerTest, MoreClientsThanThereAreSeatsWaitUntilOneLeaves) {
+TEST_F(ControlServerTest, MoreClientsThanThereAreSeatsAreToldSoAtOnce) {
     listen();
     std::vector<std::unique_ptr<ControlClient>> seated;
     for (std::size_t i = 0; i < ControlServer::kMostClients; ++i) {
         seated.push_back(std::make_unique<ControlClient>(server_->address()));
         ask(*seated.back(), verb(ControlVerb::state));
     }
-    const ControlSocket late = connect_to(server_->address());
-    const std::string line = "{\"verb\":\"state\"}\n";
-    ASSERT_EQ(send(late.get(), line.data(), line.size(), MSG_NOSIGNAL), std::ssize(line));
-    const auto is_answered = [&late] {
-        pollfd socket{late.get(), POLLIN, 0};
-        return poll(&socket, 1, 0) > 0;
+    const auto complaint = [&] {
+        try {
+            const ControlClient late(server_->address());
+        } catch (const interaction::Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
     };
-    ask(*seated.front(), step(1)); // the thread has looked at all of them since
+    for (std::size_t i = 0; i < 3 * ControlServer::kMostTurnedAway; ++i)
+        EXPECT_EQ(complaint(), "busy: the session has 16 clients, as many as it takes; try again "
+                               "when one has ended");
     EXPECT_EQ(server_->clients(), ControlServer::kMostClients);
-    EXPECT_FALSE(is_answered());
-    EXPECT_THROW(ControlClient(server_->address(), {}, std::chrono::milliseconds(1)),
-                 interaction::Error)
-        << "a command does not wait for ever";
+    EXPECT_NO_THROW(ask(*seated.front(), verb(ControlVerb::state)));
     seated.pop_back();
-    EXPECT_TRUE(eventually(is_answered));
+    EXPECT_TRUE(eventually([&] { return complaint().empty(); }));
+}
+
+TEST_F(ControlServerTest, WhoSaysNothingWithoutASeatKeepsNobodyOut) {
+    listen("", {.clock = [this] { return Seconds(now_); }});
+    std::vector<ControlSocket> silent;
+    for (std::size_t i = 0; i < ControlServer::kMostClients + ControlServer::kMostTurnedAway; ++i)
+        silent.push_back(connect_to(server_->address()));
+    ASSERT_TRUE(eventually([&] { return server_->clients() == ControlServer::kMostClients; }));
+    now_ = 2;
+    EXPECT_NE(answer_to("{\"verb\":\"state\"}\n").find("busy"), std::string::npos);
+}
+
+TEST_F(ControlServerTest, WhatIsFoundForOneWhoReadsNothingIsLittleAndKeepsNobodyForLong) {
+    index::TestField field({65, 65, 65}, 1, index::ValueType::f32, index::moving_sphere);
+    index::MemorySeries series(field.view());
+    build_index(series, folder_.path() / "large.isochron", {});
+    file_ = index::IndexFile::open(folder_.path() / "large.isochron");
+    desk_.set_file(file_);
+    listen("", {.clock = [this] { return Seconds(now_); }, .most_held = 1});
+    const ControlSocket deaf = connect_to(server_->address());
+    std::string lines;
+    for (int i = 0; i < 20; ++i)
+        lines += "{\"verb\":\"mesh\",\"isovalue\":0}\n";
+    ASSERT_EQ(send(deaf.get(), lines.data(), lines.size(), MSG_NOSIGNAL), std::ssize(lines));
+    const auto unread = [&] {
+        int bytes = 0;
+        ioctl(deaf.get(), FIONREAD, &bytes);
+        return bytes;
+    };
+    ASSERT_TRUE(eventually([&] { return unread() > 10'000; }))
+        << "a mesh larger than a socket holds";
+    ControlClient other(server_->address());
+    other.send(verb(ControlVerb::cells));
+    EXPECT_NO_THROW(ask(other, verb(ControlVerb::state)));
+    EXPECT_FALSE(other.waits_for_more(50)) << "the other's mesh is kept until it is read";
+    now_ = ControlServer::kTakesNothing.count() + 1;
+    const auto cells = other.next();
+    ASSERT_TRUE(cells);
+    EXPECT_GT(cells->bytes.size(), 0u);
+    EXPECT_TRUE(eventually([&] { return server_->clients() == 1; }));
+}
+
+/// A listener that answers so many lines, and then nothing.
+class Hanging {
+  public:
+    Hanging(const std::filesystem::path& path, int answers)
+        : address_{.path = path}, listener_(listen_at(address_)),
+          thread_([this, answers](const std::stop_token& stop) {
+              const ControlSocket client(accept(listener_.get(), nullptr, nullptr));
+              for (int i = 0; i < answers; ++i) {
+                  std::array<char, 4096> line;
+                  if (recv(client.get(), line.data(), line.size(), 0) <= 0)
+                      return;
+                  const std::string answer = "{\"id\":null,\"ok\":true}\n";
+                  send(client.get(), answer.data(), answer.size(), MSG_NOSIGNAL);
+              }
+              while (!stop.stop_requested())
+                  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          }) {}
+    const ControlAddress& address() const { return address_; }
+
+  private:
+    ControlAddress address_;
+    ControlSocket listener_;
+    std::jthread thread_;
+};
+
+TEST_F(ControlServerTest, ASessionThatHangsIsNotWaitedForForEver) {
+    using std::chrono::milliseconds;
+    const Hanging at_once(folder_.path() / "at_once", 0), later(folder_.path() / "later", 1);
+    EXPECT_THROW(ControlClient(at_once.address(), {}, milliseconds(1)), interaction::Error);
+    for (const auto& request : {verb(ControlVerb::state), step(1), verb(ControlVerb::picture)}) {
+        const Hanging hangs(folder_.path() / "hangs", 1);
+        ControlClient client(hangs.address(), {}, milliseconds(50));
+        EXPECT_THROW(client.ask(request), interaction::Error);
+    }
+}
+
+TEST_F(ControlServerTest, ASessionThatLivesIsWaitedForLongerThanItTakesToSayThatItHangs) {
+    listen();
+    ControlClient client(server_->address(), {}, std::chrono::milliseconds(20));
+    auto answer = std::async(std::launch::async, [&] { return client.ask(step(1)); });
+    EXPECT_EQ(answer.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+    EXPECT_TRUE(eventually([&] {
+        show();
+        return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    }));
+    EXPECT_NO_THROW(answer.get());
 }
 
 TEST_F(ControlServerTest, PicturesThatNobodyReadsTakeLittleMemory) {

@@ -323,7 +323,7 @@ TEST_F(LeftFiles, AreInALedgerThatSeveralProcessesKeepAndThatNeverGrowsLong) {
             continue;
         const fs::path own = folder.path() / std::to_string(child);
         for (int i = 0; i < 20; ++i) {
-            NewFile(own, NewFile::Writers::several).commit_unflushed();
+            NewFile(own, NewFile::Writers::several).commit();
             const TemporaryFolder temporary(own, "movie");
         }
         ::_exit(0);

@@ -3,6 +3,7 @@
 // J. Moore and others, "Next-generation file formats (NGFF)", versions 0.4 and 0.5,
 // https://ngff.openmicroscopy.org.
 #include "index/error.h"
+#include "index/json_mistake.h"
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/zarr/zarr_array.h"
 #include "index/readers/decoders/zarr/zarr_groups.h"
@@ -48,7 +49,7 @@ class ZarrVolume final : public DecodedFile {
                                    ? axes_of(*store_, *array_)
                                    : axes_of(level.image, level.dataset, *array_)};
         } catch (const json::exception& error) {
-            throw Error(fmt::format("{}: damaged description: {}", name_, error.what()));
+            throw Error(fmt::format("{}: damaged description: {}", name_, json_mistake(error)));
         }
         const std::vector<StatedAttributes> objects = objects_of(*store_, *array_);
         layout_ = lay_out(stated_, objects, asked, info_.notes);

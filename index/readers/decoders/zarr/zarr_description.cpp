@@ -1,6 +1,8 @@
 // Reads what a Zarr array says of itself.
 #include "index/readers/decoders/zarr/zarr_description.h"
 
+#include "index/json_mistake.h"
+
 #include "index/error.h"
 
 #include <fmt/format.h>
@@ -103,14 +105,15 @@ std::optional<ZarrDescription> ZarrDescriber::operator()() {
             return std::nullopt;
         }
     } catch (const json::exception& error) {
-        throw Error(fmt::format("{}: damaged description: {}", where(""), error.what()));
+        throw Error(fmt::format("{}: damaged description: {}", where(""), json_mistake(error)));
     }
     check();
     return std::move(said_);
 }
 
 std::string ZarrDescriber::where(const std::string& what) const {
-    return fmt::format("{}: {}", store_.name(), zarr_key(said_.path, what));
+    const std::string key = zarr_key(said_.path, what);
+    return key.empty() ? store_.name() : fmt::format("{}: {}", store_.name(), key);
 }
 
 void ZarrDescriber::check() const {

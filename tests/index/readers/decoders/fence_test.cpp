@@ -31,7 +31,7 @@ bool refused(long result) {
 int first_that_fails(const std::string& file) {
     const int open = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     const std::filesystem::path readable[]{file};
-    if (open < 0 || !fence_in(readable))
+    if (open < 0 || !fence_in(readable).empty())
         return 1;
     struct rlimit limit {};
     ::getrlimit(RLIMIT_CPU, &limit);

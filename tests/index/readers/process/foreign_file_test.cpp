@@ -217,12 +217,12 @@ TEST(Readers, SeeOnlyTheFoldersOfTheirFiles) {
     expect_good(*open_in(pool, here.path() / "link.vti"));
 }
 
-/// From now on this process and those that it starts get no filter of system calls.
-bool refuse_filters() {
+/// From now on this process and those that it starts cannot make this system call.
+bool refuse_call(unsigned number, unsigned error) {
     std::array<sock_filter, 4> code{{
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
-        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_seccomp, 0, 1),
-        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+        BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, 1),
+        BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error),
         BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
     }};
     const sock_fprog program{code.size(), code.data()};
@@ -230,24 +230,32 @@ bool refuse_filters() {
            ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-TEST(Readers, ReadNothingWhereTheyCannotBeFencedIn) {
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        [&]() noexcept {
-            EXPECT_TRUE(refuse_filters());
-            ReaderPool pool;
-            for (int round = 0; round < 2; ++round)
-                EXPECT_THAT(error_of([&] { open_in(pool, kFolder / "ascii.vti"); }),
-                            EndsWith("ascii.vti: cannot be read: its reader cannot be fenced in: "
-                                     "the system refuses its list of system calls (seccomp)"));
-            EXPECT_TRUE(running_readers().empty());
-        }();
-        ::_exit(testing::Test::HasFailure() ? 1 : 0);
+TEST(Readers, ReadNothingWhereTheyCannotBeFencedInAndSayWhatIsRefused) {
+    constexpr unsigned kLandlockRestrictSelf = 446; // on all machines
+    std::vector<std::tuple<unsigned, unsigned, std::string>> refusals{
+        {__NR_seccomp, ENOSYS, "its list of system calls (seccomp)"}};
+    if (file_fence_version() > 0)
+        refusals.emplace_back(kLandlockRestrictSelf, EPERM, "to hide files from it (Landlock)");
+    for (const auto& [call, error, said] : refusals) {
+        const pid_t child = ::fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            [&]() noexcept {
+                EXPECT_TRUE(refuse_call(call, error));
+                ReaderPool pool;
+                for (int round = 0; round < 2; ++round)
+                    EXPECT_THAT(error_of([&] { open_in(pool, kFolder / "ascii.vti"); }),
+                                EndsWith("ascii.vti: cannot be read: its reader cannot be fenced "
+                                         "in: the system refuses " +
+                                         said));
+                EXPECT_TRUE(running_readers().empty());
+            }();
+            ::_exit(testing::Test::HasFailure() ? 1 : 0);
+        }
+        int status = -1;
+        ::waitpid(child, &status, 0);
+        EXPECT_EQ(status, 0) << said;
     }
-    int status = -1;
-    ::waitpid(child, &status, 0);
-    EXPECT_EQ(status, 0);
 }
 #endif
 

@@ -539,7 +539,7 @@ def decimals(values):
     return [DSfloat(float(value), auto_format=True) for value in values]
 
 
-@container("DICOM")
+@container("DICOM", may=("steps by TriggerTime",))
 def dicom(record, folder):
     steps, first = record.steps("lps", "mm")
     columns, rows = [np.linalg.norm(step) for step in steps[:2]]

@@ -87,7 +87,8 @@ for name, content, what in [
         ("a.ply", b"ply\nformat ascii 1.0\n", "PLY, a surface and no volume"), ("a.stl", b"solid a\n", "STL, a surface"),
         ("a.dm3", b"\0\0\0\x03" + bytes(99), "Gatan DM3, expected"), ("a.oib", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "bfconvert"),
         ("a.par", b"# === DATA DESCRIPTION FILE ===", "dcm2niix"), ("a.rda", b">>> Begin of header <<<", "spec2nii"),
-        ("a.head", b"type = string-attribute", "3dAFNItoNIFTI"), ("attributes.json", b"{}", "N5"),
+        ("a.head", b"type = string-attribute", "3dAFNItoNIFTI"),
+        ("a.BRIK.gz", b"\x1f\x8b\x08" + bytes(99), "3dAFNItoNIFTI"), ("attributes.json", b"{}", "N5"),
         ("a.dat.gz", b"\x1f\x8b\x08" + bytes(99), "gzip -dc IN > OUT"),
         ("a.nrrd", b"\x1f\x8b\x08" + bytes(99), "nrrd by its name, its content is compressed by gzip"),
         # A known end, and another program's content: both are said.

@@ -247,6 +247,8 @@ std::string foreign_format_of(FileStart& start) {
     if (has(0, "ISOCHRON"))
         return "an index, which is not read together with files: give it alone; `isochron build "
                "FILES -o INDEX --append` adds files to it";
+    if (head.find("<SpimData") != head.npos)
+        return other("BigDataViewer's description", "give the .h5 file beside it");
     for (const Signature& signature : kSignatures)
         if (has(signature.at, signature.bytes))
             return other(signature.name, signature.way_out);

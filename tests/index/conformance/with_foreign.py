@@ -145,6 +145,7 @@ for name, setups, xml in [("bdv", 1, True), ("bdv_setups", 2, True), ("bdv_alone
             f"<ViewSetup><id>{setup}</id><size>8 6 4</size><voxelSize><unit>\u00b5m</unit><size>{setup + .25} 0.5 1.5</size></voxelSize>"
             "</ViewSetup>" for setup in range(setups)) + "</ViewSetups></SequenceDescription></SpimData>").encode())
 expect("bdv.h5", views, spacing=(.25, .5, 1.5))
+refuse("bdv.xml", "BigDataViewer's description")
 expect("bdv.h5", half, spacing=(.5, 1, 3), origin=(.125, .25, .75), array="/t*/s00/1/cells")
 expect("bdv.h5", views[1], spacing=(.25, .5, 1.5), array="/t00001/s00/0/cells")
 refuse("bdv_setups.h5", "choose one with --array: '/t*/s00/0/cells', '/t*/s01/0/cells'")

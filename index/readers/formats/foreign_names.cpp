@@ -80,6 +80,7 @@ constexpr std::array kNameEnds{
     Signature{0, ".pic"sv, "Bio-Rad PIC", kByBioFormats},
     Signature{0, ".nd"sv, "MetaMorph's list of .stk files", kByBioFormats},
     Signature{0, ".rec"sv, "values of Philips PAR/REC, or of another program", kByDcm2niix},
+    Signature{0, ".brik.gz"sv, "AFNI", "3dAFNItoNIFTI IN makes NIfTI of it"},
     Signature{0, ".brik"sv, "AFNI", "3dAFNItoNIFTI IN makes NIfTI of it"},
     Signature{0, ".head"sv, "AFNI", "3dAFNItoNIFTI IN makes NIfTI of it"},
     Signature{0, "/2dseq"sv, "Bruker ParaVision", "brkraw tonii FOLDER makes NIfTI of it"},
@@ -246,6 +247,8 @@ std::string foreign_format_of(FileStart& start) {
     if (has(0, "ISOCHRON"))
         return "an index, which is not read together with files: give it alone; `isochron build "
                "FILES -o INDEX --append` adds files to it";
+    if (head.find("<SpimData") != head.npos)
+        return other("BigDataViewer's description", "give the .h5 file beside it");
     for (const Signature& signature : kSignatures)
         if (has(signature.at, signature.bytes))
             return other(signature.name, signature.way_out);
@@ -253,13 +256,14 @@ std::string foreign_format_of(FileStart& start) {
 }
 
 std::string foreign_format_or_name(FileStart& start) {
-    if (std::string told = foreign_format_of(start); !told.empty())
+    const std::string told = foreign_format_of(start);
+    if (!told.empty() && !told.starts_with("compressed"))
         return told;
     const std::string name = lower_case(start.path().string());
     for (const Signature& signature : kNameEnds)
         if (name.ends_with(signature.bytes))
             return other(signature.name, signature.way_out);
-    return {};
+    return told;
 }
 
 } // namespace isochron::index

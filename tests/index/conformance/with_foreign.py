@@ -87,7 +87,8 @@ for name, content, what in [
         ("a.ply", b"ply\nformat ascii 1.0\n", "PLY, a surface and no volume"), ("a.stl", b"solid a\n", "STL, a surface"),
         ("a.dm3", b"\0\0\0\x03" + bytes(99), "Gatan DM3, expected"), ("a.oib", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "bfconvert"),
         ("a.par", b"# === DATA DESCRIPTION FILE ===", "dcm2niix"), ("a.rda", b">>> Begin of header <<<", "spec2nii"),
-        ("a.head", b"type = string-attribute", "3dAFNItoNIFTI"), ("attributes.json", b"{}", "N5"),
+        ("a.head", b"type = string-attribute", "3dAFNItoNIFTI"),
+        ("a.BRIK.gz", b"\x1f\x8b\x08" + bytes(99), "3dAFNItoNIFTI"), ("attributes.json", b"{}", "N5"),
         ("a.dat.gz", b"\x1f\x8b\x08" + bytes(99), "gzip -dc IN > OUT"),
         ("a.nrrd", b"\x1f\x8b\x08" + bytes(99), "nrrd by its name, its content is compressed by gzip"),
         # A known end, and another program's content: both are said.
@@ -144,6 +145,7 @@ for name, setups, xml in [("bdv", 1, True), ("bdv_setups", 2, True), ("bdv_alone
             f"<ViewSetup><id>{setup}</id><size>8 6 4</size><voxelSize><unit>\u00b5m</unit><size>{setup + .25} 0.5 1.5</size></voxelSize>"
             "</ViewSetup>" for setup in range(setups)) + "</ViewSetups></SequenceDescription></SpimData>").encode())
 expect("bdv.h5", views, spacing=(.25, .5, 1.5))
+refuse("bdv.xml", "BigDataViewer's description")
 expect("bdv.h5", half, spacing=(.5, 1, 3), origin=(.125, .25, .75), array="/t*/s00/1/cells")
 expect("bdv.h5", views[1], spacing=(.25, .5, 1.5), array="/t00001/s00/0/cells")
 refuse("bdv_setups.h5", "choose one with --array: '/t*/s00/0/cells', '/t*/s01/0/cells'")

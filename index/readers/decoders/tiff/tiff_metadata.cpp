@@ -34,6 +34,12 @@ std::size_t checked_count(double value, const std::string& what, const std::stri
     return static_cast<std::size_t>(value);
 }
 
+/// Number of planes, also where it is beyond whole numbers.
+double product_of(const TiffStack& stack) {
+    return static_cast<double>(stack.channels) * static_cast<double>(stack.slices) *
+           static_cast<double>(stack.frames);
+}
+
 const tinyxml2::XMLElement* child(const tinyxml2::XMLNode* node, const char* name) {
     for (auto* each = node->FirstChildElement(); each; each = each->NextSiblingElement()) {
         const std::string full = each->Name();
@@ -273,8 +279,7 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples, const
     stack.channels = std::max<std::size_t>(size("SizeC") / samples, 1);
     stack.slices = size("SizeZ");
     stack.frames = size("SizeT");
-    if (stack.channels * stack.slices > kMostPlanes ||
-        stack.channels * stack.slices * stack.frames > kMostPlanes)
+    if (product_of(stack) > kMostPlanes)
         throw Error(fmt::format("{}: more than {} planes", file, kMostPlanes));
     const OneLengthUnit unit =
         one_length_unit({text_of_ome(*pixels, "PhysicalSizeXUnit", "\u00b5m"),
@@ -389,7 +394,7 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
                     .frames = checked_count(number("frames", 1), "frames", file)};
     const std::size_t images =
         checked_count(number("images", static_cast<double>(pages)), "images", file);
-    if (stack.channels * stack.slices * stack.frames != images) {
+    if (product_of(stack) != static_cast<double>(images)) {
         stack.channels = stack.frames = 1; // a plain stack says nothing else
         stack.slices = images;
     }
@@ -445,7 +450,11 @@ TiffStack stack_of(const std::string& description, std::size_t pages, std::uint3
 
 void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlane&)>& is_there,
                        const std::string& file) {
+    if (product_of(stack) > kMostPlanes)
+        throw Error(fmt::format("{}: more than {} planes", file, kMostPlanes));
     const std::size_t of_frame = stack.channels * stack.slices, all = of_frame * stack.frames;
+    if (stack.planes.empty() && is_there({"", all - 1, true}))
+        return;
     if (stack.planes.empty())
         for (std::size_t page = 0; page < all; ++page)
             stack.planes.push_back({"", page, true});

@@ -157,6 +157,8 @@ std::optional<TiffStack> scanimage_stack(const std::string& text, std::size_t pa
             of_slice = std::max<std::size_t>(
                 static_cast<std::size_t>(static_cast<double>(of_slice) / averaged), 1);
     }
+    if (stack.channels * of_slice > pages) // another file's lines
+        return TiffStack{.slices = pages};
     const std::size_t volume = stack.channels * sweep * of_slice;
     if (pages < volume) { // stopped, or one file of several
         stack.slices = std::max<std::size_t>(pages / (stack.channels * of_slice), 1);
@@ -174,11 +176,6 @@ std::optional<TiffStack> scanimage_stack(const std::string& text, std::size_t pa
                 stack.planes.push_back(
                     {"", (at * of_slice + frame % of_slice) * stack.channels + channel, true});
             }
-    if (std::ranges::any_of(stack.planes,
-                            [&](const TiffPlane& plane) { return plane.page >= pages; })) {
-        stack.planes.clear(); // fewer pages than one frame has
-        stack = TiffStack{.slices = pages};
-    }
     if (sweep > stack.slices)
         stack.notes.push_back(fmt::format("frames of the way back are left out, {} of each volume",
                                           sweep - stack.slices));

@@ -1,8 +1,10 @@
 // What programs of microscopes say of a TIFF file's pages: ScanImage, Zeiss LSM, MetaMorph.
 #pragma once
 
-#include "index/readers/decoders/tiff/tiff_metadata.h"
+#include "index/readers/decoders/tiff/tiff_stack.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>

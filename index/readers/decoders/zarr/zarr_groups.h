@@ -18,7 +18,7 @@ nlohmann::json multiscale_of(const nlohmann::json& attributes);
 
 /// What describes an array as a level of an image.
 struct ZarrLevel {
-    nlohmann::json attributes;     ///< of the group with the image; of the root where there is none
+    nlohmann::json attributes;     ///< attributes of the image's group, or of the root
     nlohmann::json image, dataset; ///< null: the array is of no image
 };
 

@@ -103,9 +103,14 @@ std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& opti
                                 list.path.string()));
     file_bytes(list.path);
     std::vector<SeriesFile> series;
-    for (const ListedFile& file :
-         ordered_entries(list.format->list(list.path), options.keep_first, notes))
-        series.push_back(series_file(known_file(file.path), options, file.time));
+    std::vector<KnownFile> known;
+    const ListedFiles listed =
+        ordered_entries(list.format->list(list.path), options.keep_first, notes);
+    for (const ListedFile& file : listed)
+        known.push_back(known_file(file.path));
+    let_readers_read(known);
+    for (std::size_t i = 0; i < listed.size(); ++i)
+        series.push_back(series_file(known[i], options, listed[i].time));
     return list.format->lists_parts ? joined_by_time(std::move(series)) : series;
 }
 
@@ -163,6 +168,7 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, ReadOptio
 std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given, ReadOptions options,
                                             const Progress& progress) {
     const FoundFiles found = found_files(given, options);
+    let_readers_read(found.files);
     std::vector<std::string> notes;
     if (found.note)
         notes.push_back(*found.note);

@@ -7,6 +7,7 @@
 #include "index/error.h"
 #include "index/lower_case.h"
 #include "index/readers/formats/axis_positions.h"
+#include "index/readers/formats/stated_times.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 
@@ -257,14 +258,20 @@ class Placing {
     std::array<Hdf5Axis, 3> axes_; ///< fastest first
 };
 
-/// The values of a one-dimensional dataset with `steps` values; empty if there is none.
-std::vector<double> times_from(const Hdf5File& file, const std::string& path, std::size_t steps,
-                               SeriesInfo& info) {
+/// Sets times from a one-dimensional dataset with `steps` values, if there is one.
+void take_times(const Hdf5File& file, const std::string& path, std::size_t steps,
+                SeriesInfo& info) {
     const auto found = file.dataset(path);
     if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{steps})
-        return {};
-    info.time_unit = unit_of(file, path);
-    return file.values(*found);
+        return;
+    StatedTimes stated{.name = path,
+                       .values = file.values(*found),
+                       .unit = unit_of(file, path),
+                       .calendar = file.text(path, "calendar")};
+    for (const char* name : {"_FillValue", "missing_value"})
+        for (const double value : file.numbers(path, name))
+            stated.missing.push_back(value);
+    place_times(std::move(stated), info);
 }
 
 } // namespace
@@ -279,12 +286,12 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const Hdf5Layout& l
     if (layout.time) {
         const Hdf5Dataset& dataset = array.steps.front();
         if (const std::string path = file.scales(dataset)[*layout.time]; !path.empty())
-            info.times = times_from(file, path, steps, info);
+            take_times(file, path, steps, info);
         const std::vector<std::string> around = with_groups_around(dataset.path);
         for (std::size_t i = 1; i < around.size(); ++i)
             for (const char* name : {"time", "Time", "times", "t"})
                 if (info.times.empty())
-                    info.times = times_from(file, inside(around[i], name), steps, info);
+                    take_times(file, inside(around[i], name), steps, info);
         return;
     }
     std::vector<double> times;

@@ -193,6 +193,8 @@ class NetcdfVolume final : public DecodedFile {
         info_.notes = chosen_.notes();
         place_axes(file_, variable_, layout_, options, info_);
         place_steps(file_, variable_, layout_, info_);
+        if (layout_.time && !info_.times.empty())
+            steps_ = info_.times.size();
         if (auto note = note_on_attributes(file_, variable_))
             info_.notes.push_back(std::move(*note));
         part_ = crop_description(info_, options, name);

@@ -5,9 +5,9 @@
 #include "index/readers/decoders/netcdf/netcdf_dates.h"
 #include "index/readers/decoders/netcdf/netcdf_roles.h"
 #include "index/readers/formats/axis_positions.h"
+#include "index/readers/formats/stated_times.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
-#include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -279,11 +279,17 @@ void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const N
         return place_dates(file, variable.dimensions[*layout.time], info);
     if (!time)
         return;
-    const std::string unit = file.text(*time, "units");
-    if (says_dates(unit))
-        return place_absolute_dates(file.values(*time), unit, file.text(*time, "calendar"), info);
-    info.times = file.values(*time);
-    info.time_unit = with_calendar(file.text(*time, "units"), file.text(*time, "calendar"));
+    StatedTimes stated{.name = time->name,
+                       .values = file.values(*time),
+                       .unit = file.text(*time, "units"),
+                       .calendar = file.text(*time, "calendar")};
+    if (stated.calendar.empty()) // as FMS has it
+        stated.calendar = file.text(*time, "calendar_type");
+    const Scaling scaling = file.scaling(*time);
+    for (const char* attribute : {"_FillValue", "missing_value"})
+        for (const double value : file.numbers(*time, attribute))
+            stated.missing.push_back(scaling(value));
+    place_times(std::move(stated), info);
 }
 
 } // namespace isochron::index

@@ -28,8 +28,7 @@ std::optional<NetcdfLayout> layout_of(const NetcdfFile& file, const NetcdfVariab
 void place_axes(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
                 const ReadOptions& options, SeriesInfo& info);
 
-/// Sets times and their unit, if a variable gives them. The unit includes its reference date and,
-/// if it is not the usual one, its calendar.
+/// Sets times and their unit, if a variable gives them, see `place_times`.
 void place_steps(const NetcdfFile& file, const NetcdfVariable& variable, const NetcdfLayout& layout,
                  SeriesInfo& info);
 

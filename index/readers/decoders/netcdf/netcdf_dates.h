@@ -11,12 +11,4 @@ namespace isochron::index {
 /// note says so.
 void place_dates(const NetcdfFile& file, const NetcdfDimension& time, SeriesInfo& info);
 
-/// Whether a unit says that numbers are dates, as in CDO's absolute time axes: `day as %Y%m%d.%f`.
-bool says_dates(const std::string& unit);
-
-/// Makes times of such numbers: days since the first. Where one is no date, steps keep the numbers, and
-/// a note says so.
-void place_absolute_dates(std::vector<double> numbers, const std::string& unit,
-                          const std::string& calendar, SeriesInfo& info);
-
 } // namespace isochron::index

@@ -112,7 +112,11 @@ class ZarrVolume final : public DecodedFile {
     }
 
     const SeriesInfo& info() const override { return info_; }
-    std::size_t steps() const override { return layout_.time ? array_->shape()[*layout_.time] : 1; }
+    std::size_t steps() const override {
+        return !layout_.time         ? 1
+               : info_.times.empty() ? array_->shape()[*layout_.time]
+                                     : info_.times.size();
+    }
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info_.grid.vertices[2], worth = slices_worth_asking(info_);
         constexpr std::uint32_t kOfPlain = 8; // each slab opens its chunks' files once more
@@ -302,7 +306,8 @@ class ZarrVolume final : public DecodedFile {
         if (time.scale == 1 && time.unit.empty())
             return;
         info_.time_unit = time.unit;
-        for (std::size_t i = 0; i < steps(); ++i)
+        const std::size_t count = steps();
+        for (std::size_t i = 0; i < count; ++i)
             info_.times.push_back(time.first + static_cast<double>(i) * time.scale);
     }
 

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/readers/formats/axis_positions.h"
+#include "index/readers/formats/stated_times.h"
 #include "index/readers/formats/stored_file.h"
 
 #include <fmt/format.h>
@@ -18,6 +19,8 @@ namespace {
 struct Coordinates {
     std::vector<double> at;
     std::string unit;
+    nlohmann::json attributes;
+    Scaling scaling;
 };
 
 std::string text_in(const nlohmann::json& attributes, const char* name) {
@@ -41,8 +44,9 @@ std::optional<Coordinates> coordinates_of(const ZarrStore& store, const ZarrArra
         beside = ZarrArray::open(store, path);
     if (!beside || !beside->type() || beside->shape() != std::vector<std::uint64_t>{length})
         return std::nullopt;
-    Coordinates found{std::vector<double>(length), text_in(beside->attributes(), "units")};
     const Scaling scaling = scaling_of(*beside, fmt::format("{}: {}", store.name(), path));
+    Coordinates found{std::vector<double>(length), text_in(beside->attributes(), "units"),
+                      beside->attributes(), scaling};
     const std::array<std::uint64_t, 1> first{0}, count{length};
     std::vector<std::byte> values(length * size_of(*beside->type()));
     beside->read(first, count, values);
@@ -148,8 +152,15 @@ void place_by_coordinates(const ZarrStore& store, const ZarrArray& array,
                                          info.axis_names[0], info.axis_names[1],
                                          info.axis_names[2]));
     if (auto times = time ? coordinates_of(store, array, *time) : std::nullopt) {
-        info.times = std::move(times->at);
-        info.time_unit = times->unit;
+        StatedTimes stated{.name = array.names()[*time],
+                           .values = std::move(times->at),
+                           .unit = times->unit,
+                           .calendar = text_in(times->attributes, "calendar")};
+        for (const char* name : {"_FillValue", "missing_value"})
+            if (const auto found = times->attributes.find(name);
+                found != times->attributes.end() && found->is_number())
+                stated.missing.push_back(times->scaling(found->get<double>()));
+        place_times(std::move(stated), info);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "index/readers/formats/series/file_series.h"
 #include "index/readers/formats/series/folder_files.h"
 #include "index/readers/formats/series/joined_blocks.h"
+#include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/series/resampled_series.h"
 #include "index/readers/formats/series/step_order.h"
@@ -43,6 +44,17 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                             file.path.string(), known_extensions()));
 }
 
+/// The unit of time behind the number that differs: `t_10s.vti`.
+std::optional<std::string> unit_in_names(const std::vector<fs::path>& names) {
+    std::vector<std::string> without_ends;
+    for (const fs::path& name : names) {
+        const bool is_end = name.extension().string().find_first_of("0123456789") != 1;
+        without_ends.push_back((is_end ? fs::path(name).replace_extension() : name).string());
+    }
+    const auto times = times_of_groups(without_ends);
+    return times && !times->unit.empty() ? std::optional(times->unit) : std::nullopt;
+}
+
 /// Orders files by the dates in their names, which are their times, or else by the numbers.
 /// @param options get the unit of dates
 std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadOptions& options) {
@@ -63,6 +75,8 @@ std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadO
         times.assign(wanted->begin(), wanted->end());
     } else {
         times = times_in_names(names);
+        if (!options.time_unit)
+            options.time_unit = unit_in_names(names);
     }
     std::vector<SeriesFile> series;
     for (std::size_t i = 0; i < files.size(); ++i) {

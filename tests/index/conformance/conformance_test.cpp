@@ -101,6 +101,8 @@ void expect_said(const SeriesInfo& info, const json& options) {
         for (std::size_t rest = got.size(); rest < wanted.size(); ++rest)
             EXPECT_THAT(wanted[rest], testing::AnyOf('0', ':', ' ')) << text << ", " << wanted;
     }
+    if (options.contains("time_unit"))
+        EXPECT_EQ(info.time_unit, options["time_unit"].get<std::string>());
     if (options.contains("note"))
         EXPECT_THAT(info.notes,
                     testing::Contains(testing::HasSubstr(options["note"].get<std::string>())));
@@ -300,7 +302,8 @@ std::string library_name(const testing::TestParamInfo<const char*>& script) {
     return name.substr(5, name.size() - 8);
 }
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance, kOfFiles, library_name);
-INSTANTIATE_TEST_SUITE_P(Statements, Conformance, testing::Values("with_times.py"), library_name);
+INSTANTIATE_TEST_SUITE_P(Statements, Conformance, testing::Values("with_names.py", "with_times.py"),
+                         library_name);
 INSTANTIATE_TEST_SUITE_P(Libraries, DamagedFiles, kOfFiles, library_name);
 INSTANTIATE_TEST_SUITE_P(Libraries, DamagedFolders, kOfFolders, library_name);
 

@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/netcdf/netcdf_values.h"
+#include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -43,26 +44,67 @@ std::vector<std::string> bounds_in(const NetcdfFile& file) {
                             file.name(), found.empty() ? "" : ": ", fmt::join(found, ", ")));
 }
 
-/// The file's variables with three dimensions.
-std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
+/// The time that a group states, by an attribute of its own.
+std::optional<double> time_of_group(const NetcdfFile& file, const NetcdfVariable& within) {
+    for (const char* name : {"time", "Time", "TIME", "t"})
+        if (const std::vector<double> found = file.numbers(group_of(within), name);
+            found.size() == 1)
+            return found.front();
+    return std::nullopt;
+}
+
+/// Variables with three dimensions, and those of several groups that are the steps of one.
+struct Offered {
+    std::vector<StoredArray> arrays;
+    std::vector<std::vector<const NetcdfVariable*>> steps; ///< variables of each array
+    std::vector<std::string> notes;
+};
+
+/// @throws Error naming the file: names leave open which groups are the steps
+Offered offered_in(const NetcdfFile& file, const ReadOptions& options) {
     const std::vector<std::string> bounds = bounds_in(file);
-    std::vector<StoredArray> offered;
+    std::vector<const NetcdfVariable*> variables;
+    std::vector<GroupedPath> paths;
     for (const NetcdfVariable& variable : file.variables())
         if (layout_of(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
             (variable.type || options.array == variable.name)) {
             std::vector<std::size_t> lengths;
             for (const NetcdfDimension& dimension : variable.dimensions)
                 lengths.push_back(dimension.length);
-            offered.push_back({.name = variable.name,
-                               .type = variable.type,
-                               .shape = fmt::format("{}", fmt::join(lengths, " x "))});
+            variables.push_back(&variable);
+            paths.push_back({variable.name, fmt::format("{}", fmt::join(lengths, " x "))});
         }
+    const auto has_time = [&](const std::string& group) {
+        const auto within = std::ranges::find_if(variables, [&](const NetcdfVariable* variable) {
+            return variable->name.substr(0, variable->name.rfind('/')) == group;
+        });
+        return within != variables.end() && time_of_group(file, **within);
+    };
+    Offered offered;
+    const bool by_pattern = options.array && options.array->find('*') != std::string::npos;
+    for (const GroupedArray& array :
+         by_pattern ? std::vector{matching_arrays(paths, *options.array, file.name())}
+                    : grouped_arrays(paths, has_time)) {
+        if (!array.or_else.empty() && !options.any_array)
+            throw Error(fmt::format("{}: {}", file.name(), which_steps(array)));
+        if (!array.or_else.empty() && offered.notes.empty())
+            offered.notes.push_back(which_steps(array));
+        std::vector<const NetcdfVariable*>& steps = offered.steps.emplace_back();
+        for (const std::size_t step : array.steps)
+            steps.push_back(variables[step]);
+        offered.arrays.push_back({.name = array.name,
+                                  .type = steps.front()->type,
+                                  .shape = paths[array.steps.front()].kind});
+        if (steps.size() > 1)
+            offered.arrays.back().shape += fmt::format(", {} steps", steps.size());
+    }
     return offered;
 }
 
-/// Picks the variable that `options` ask for among those with three dimensions.
+/// The variable that `options` ask for among those with three dimensions: one, or one for each step.
 /// @throws Error naming the file, as `choose_scalar` does, or when it has others
-const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions& options) {
+std::vector<NetcdfVariable> choose_variables(const NetcdfFile& file, const ReadOptions& options,
+                                             std::string& name) {
     const auto& variables = file.variables();
     if (options.array) {
         const auto named = std::ranges::find(variables, *options.array, &NetcdfVariable::name);
@@ -70,12 +112,20 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
             throw Error(fmt::format("{}: array {}, expected three dimensions of more than one "
                                     "vertex besides time",
                                     file.name(), text(*named)));
+        name = *options.array;
+        if (named != variables.end())
+            return {*named};
     }
-    const std::vector<StoredArray> offered = offered_in(file, options);
-    if (offered.empty())
+    const Offered offered = offered_in(file, options);
+    if (offered.arrays.empty())
         fail_without_volume(file);
-    const ChosenScalar chosen = choose_scalar(offered, options, file.name());
-    return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
+    name = choose_scalar(offered.arrays, options, file.name()).array.name;
+    std::vector<NetcdfVariable> steps;
+    for (std::size_t i = 0; i < offered.arrays.size() && steps.empty(); ++i)
+        if (offered.arrays[i].name == name)
+            for (const NetcdfVariable* step : offered.steps[i])
+                steps.push_back(*step);
+    return steps;
 }
 
 /// Whether coordinates that an attribute names place the vertices one by one, as on a curved grid:
@@ -162,14 +212,18 @@ class NetcdfVolume final : public DecodedFile {
   public:
     NetcdfVolume(const fs::path& path, const ReadOptions& options)
         : file_(path, options.crop.has_value()),
-          variable_((expect_no_other_format(file_), choose_variable(file_, options))),
-          layout_(*layout_of(file_, variable_)), missing_(file_, variable_) {
+          variables_(
+              (expect_no_other_format(file_), choose_variables(file_, options, array_name_))),
+          variable_(variables_.front()), layout_(*layout_of(file_, variable_)),
+          missing_(file_, variable_) {
         const std::string& name = file_.name();
-        const StoredArray array{.name = variable_.name,
+        const StoredArray array{.name = array_name_,
                                 .type = variable_.type,
                                 .gaps = missing_.possible() && *variable_.type != StoredType::f32 &&
                                         *variable_.type != StoredType::f64};
-        chosen_ = choose_scalar(std::span(&array, 1), options, name);
+        ReadOptions asked = options;
+        asked.array = array_name_;
+        chosen_ = choose_scalar(std::span(&array, 1), asked, name);
         steps_ = layout_.time ? variable_.dimensions[*layout_.time].length : 1;
         if (steps_ == 0)
             throw Error(
@@ -184,17 +238,22 @@ class NetcdfVolume final : public DecodedFile {
             file_.keep_chunks(variable_, *layout_.time);
         ReadOptions any = options;
         any.any_array = true;
-        info_.arrays = choose_scalar(offered_in(file_, options), any, name).offered;
+        any.array.reset();
+        const Offered all = offered_in(file_, any);
+        info_.arrays = choose_scalar(all.arrays, any, name).offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         info_.scaling = file_.scaling(variable_);
         if (const std::string unit = file_.text(variable_, "units"); unit != "1")
             info_.value_unit = unit;
         info_.notes = chosen_.notes();
+        info_.notes.insert(info_.notes.end(), all.notes.begin(), all.notes.end());
         place_axes(file_, variable_, layout_, options, info_);
         place_steps(file_, variable_, layout_, info_);
         if (layout_.time && !info_.times.empty())
             steps_ = info_.times.size();
+        if (variables_.size() > 1)
+            time_groups();
         if (auto note = note_on_attributes(file_, variable_))
             info_.notes.push_back(std::move(*note));
         part_ = crop_description(info_, options, name);
@@ -224,8 +283,9 @@ class NetcdfVolume final : public DecodedFile {
     }
 
     void read(std::size_t step, Slices slices, std::span<std::byte> out) override {
-        read_netcdf_slab(file_, variable_, layout_, step, slices, chosen_, missing_, info_.grid,
-                         part_, out);
+        const bool in_groups = variables_.size() > 1;
+        read_netcdf_slab(file_, in_groups ? variables_[step] : variable_, layout_,
+                         in_groups ? 0 : step, slices, chosen_, missing_, info_.grid, part_, out);
     }
 
   private:
@@ -233,8 +293,33 @@ class NetcdfVolume final : public DecodedFile {
         return variable_.dimensions[layout_.space[axis]].length;
     }
 
+    /// Times of steps that have a group each: as the groups state them, or their names.
+    void time_groups() {
+        if (layout_.time && steps_ > 1)
+            throw Error(fmt::format("{}: each of {} groups holds several steps, choose one with "
+                                    "--array {}",
+                                    file_.name(), variables_.size(), variable_.name));
+        std::vector<std::string> paths;
+        std::vector<double> times;
+        for (const NetcdfVariable& variable : variables_) {
+            if (variable.type != variable_.type || file_.scaling(variable) != info_.scaling)
+                throw Error(fmt::format("{}: {} is not as {}", file_.name(), variable.name,
+                                        variable_.name));
+            paths.push_back(variable.name);
+            if (const auto time = time_of_group(file_, variable))
+                times.push_back(*time);
+        }
+        const auto named = times_of_groups(paths);
+        const bool stated = times.size() == paths.size() && times.front() != times.back();
+        info_.times = stated ? times : named ? named->times : std::vector<double>();
+        info_.time_unit = named && !stated ? named->unit : "";
+        steps_ = variables_.size();
+    }
+
     NetcdfFile file_;
-    NetcdfVariable variable_;
+    std::string array_name_;
+    std::vector<NetcdfVariable> variables_; ///< one, or one for each step
+    NetcdfVariable variable_;               ///< the first of them
     NetcdfLayout layout_;
     MissingValues missing_;
     ChosenScalar chosen_;

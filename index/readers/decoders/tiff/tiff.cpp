@@ -4,6 +4,7 @@
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/tiff/tiff_file.h"
 #include "index/readers/decoders/tiff/tiff_metadata.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/system/input_file.h"
 
@@ -36,7 +37,7 @@ std::string full_description(const TiffFile& file, const fs::path& path) {
     const std::string name = ome_metadata_file(own);
     if (name.empty())
         return own;
-    const fs::path beside = path.parent_path() / fs::path(name).filename();
+    const fs::path beside = path.parent_path() / fs::path(path_named_in(path, name)).filename();
     if (lower_case(beside.extension().string()).starts_with(".tif"))
         return TiffFile(beside).description();
     constexpr std::uint64_t kLargest = std::uint64_t{256} << 20;
@@ -168,11 +169,13 @@ class TiffVolume final : public DecodedFile {
     }
 
     TiffFile& file_of(const TiffPlane& plane) {
-        if (plane.file.empty() || fs::path(plane.file).filename() == path_.filename())
+        if (plane.file.empty() ||
+            fs::path(path_named_in(path_, plane.file)).filename() == path_.filename())
             return first_;
-        const fs::path path = slices_.empty()
-                                  ? path_.parent_path() / fs::path(plane.file).filename()
-                                  : fs::path(plane.file);
+        const fs::path path =
+            slices_.empty()
+                ? path_.parent_path() / fs::path(path_named_in(path_, plane.file)).filename()
+                : fs::path(plane.file);
         if (!other_ || other_path_ != path) {
             other_.reset();
             other_ = std::make_unique<TiffFile>(path);

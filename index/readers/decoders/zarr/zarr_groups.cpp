@@ -42,7 +42,7 @@ json multiscale_of(const json& attributes) {
 void find_arrays(const ZarrStore& store, const std::string& group, int depth,
                  std::vector<std::string>& paths) {
     constexpr int kDeepest = 6;
-    constexpr std::size_t kMost = 1000;
+    constexpr std::size_t kMost = 20'000;
     for (const std::string& name : store.names(group)) {
         if (depth >= kDeepest || paths.size() >= kMost || name.starts_with('.') ||
             name == "zarr.json")

@@ -16,7 +16,7 @@ nlohmann::json attributes_of_group(const ZarrStore& store, const std::string& gr
 /// What describes the image in the attributes of OME-Zarr; null: none.
 nlohmann::json multiscale_of(const nlohmann::json& attributes);
 
-/// Adds the paths of the arrays below a group, at most 1000.
+/// Adds the paths of the arrays below a group, at most 20,000.
 /// @param depth of the group
 void find_arrays(const ZarrStore& store, const std::string& group, int depth,
                  std::vector<std::string>& paths);

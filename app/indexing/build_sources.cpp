@@ -5,12 +5,11 @@
 #include "index/error.h"
 #include "index/file/index_series.h"
 #include "index/indexing/appended_series.h"
+#include "index/name_pattern.h"
 #include "index/readers/formats/open_series.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <array>
@@ -90,8 +89,8 @@ std::vector<std::string> without_patterns(const Open& open, const BuildArguments
             const std::string name = each.substr(0, each.rfind(" ("));
             is_name = is_name || name == pattern;
             // Paths within a file are named by their ends, too.
-            if (::fnmatch(pattern.c_str(), name.c_str(), 0) == 0 ||
-                ::fnmatch(("*/" + pattern).c_str(), name.c_str(), 0) == 0)
+            if (index::matches_pattern(pattern, name) ||
+                index::matches_pattern("*/" + pattern, name))
                 names.push_back(of_component ? name + given.substr(dot) : name_in(each));
         }
         if (is_name || names.size() == before) {

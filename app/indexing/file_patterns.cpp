@@ -2,6 +2,7 @@
 #include "app/indexing/file_patterns.h"
 
 #include "index/error.h"
+#include "index/name_pattern.h"
 
 #include <fmt/format.h>
 
@@ -12,21 +13,50 @@
 
 namespace isochron::app {
 
-std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string>& arguments) {
-    std::vector<std::filesystem::path> files;
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folders that are there stand for themselves, whatever characters are in their names.
+std::string with_folders_as_they_are(const std::string& pattern) {
+    fs::path there, text;
+    bool is_there = true;
+    std::error_code ignored;
+    for (const fs::path& part : fs::path(pattern)) {
+        is_there = is_there && fs::exists(there / part, ignored);
+        there /= part;
+        text /= is_there ? index::escaped(part.string(), "*?[\\") : part.string();
+    }
+    return text.string();
+}
+
+/// The files that match, sorted by name.
+std::vector<fs::path> matching(const std::string& pattern) {
+    glob_t found{};
+    const std::unique_ptr<glob_t, decltype(&globfree)> owner(&found, globfree);
+    if (::glob(pattern.c_str(), 0, nullptr, &found) != 0)
+        return {};
+    return {found.gl_pathv, found.gl_pathv + found.gl_pathc};
+}
+
+} // namespace
+
+std::vector<fs::path> expand_patterns(const std::vector<std::string>& arguments) {
+    std::vector<fs::path> files;
     std::error_code ignored;
     for (const std::string& argument : arguments) {
         // A file may have brackets in its name: an existing file is a name, not a pattern.
-        if (std::filesystem::exists(argument, ignored) ||
-            argument.find_first_of("*?[") == std::string::npos) {
+        if (fs::exists(argument, ignored) || argument.find_first_of("*?[") == std::string::npos) {
             files.emplace_back(argument);
             continue;
         }
-        glob_t found{};
-        const std::unique_ptr<glob_t, decltype(&globfree)> owner(&found, globfree);
-        if (::glob(argument.c_str(), 0, nullptr, &found) != 0)
+        const std::string pattern = with_folders_as_they_are(argument);
+        std::vector<fs::path> found = matching(pattern);
+        if (found.empty())
+            found = matching(index::escaped(argument, "["));
+        if (found.empty())
             throw index::Error(fmt::format("{}: no file matches", argument));
-        files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
+        files.insert(files.end(), found.begin(), found.end());
     }
     return files;
 }
@@ -36,7 +66,7 @@ std::optional<std::string> take_path_within(std::vector<std::string>& arguments)
     std::error_code ignored;
     for (std::string& argument : arguments) {
         const std::size_t colon = argument.find(":/");
-        if (colon == std::string::npos || colon == 0 || std::filesystem::exists(argument, ignored))
+        if (colon == std::string::npos || colon == 0 || fs::exists(argument, ignored))
             continue;
         const std::string path = argument.substr(colon + 1);
         if (found && *found != path)

@@ -8,7 +8,8 @@
 
 namespace isochron::app {
 
-/// Names stay as they are, quoted patterns (`'t*.vti'`) become the files they match.
+/// Names stay as they are, quoted patterns (`'t*.vti'`) become the files they match. Brackets of folders
+/// and files that are there (`'run[1]/t*.vti'`) stand for themselves.
 /// @throws index::Error for a pattern that matches nothing
 std::vector<std::filesystem::path> expand_patterns(const std::vector<std::string>& arguments);
 

@@ -60,7 +60,7 @@ bool before_reform(const Date& date) {
 } // namespace
 
 std::optional<Calendar> calendar_of(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, Calendar>, 10> kNames{{
+    constexpr std::array<std::pair<std::string_view, Calendar>, 12> kNames{{
         {"", Calendar::standard},
         {"standard", Calendar::standard},
         {"gregorian", Calendar::standard},
@@ -71,6 +71,8 @@ std::optional<Calendar> calendar_of(std::string_view name) {
         {"all_leap", Calendar::all_leap},
         {"366_day", Calendar::all_leap},
         {"360_day", Calendar::days_360},
+        {"thirty_day_months", Calendar::days_360}, // of GFDL's FMS
+        {"no_leap", Calendar::noleap},
     }};
     for (const auto& [known, calendar] : kNames)
         if (known == name)

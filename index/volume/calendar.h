@@ -19,8 +19,8 @@ struct Date {
     bool operator==(const Date&) const = default;
 };
 
-/// By its name in CF, in lower case: `standard` (also `gregorian` and no name), `noleap`, `360_day`
-/// and so on. `Calendar::gregorian` is `proleptic_gregorian`. @return none for other names
+/// By its name in CF or FMS, in lower case: `standard` (also `gregorian` and no name), `noleap`,
+/// `360_day`, `thirty_day_months` and so on. `Calendar::gregorian` is `proleptic_gregorian`. @return none for other names
 std::optional<Calendar> calendar_of(std::string_view name);
 
 /// Days from a fixed date, the same for standard, gregorian and julian (1970-01-01, Gregorian).

@@ -18,8 +18,10 @@ namespace {
 constexpr double kDay = 86400; // s
 
 struct TimeUnit {
-    double seconds = 0; ///< length of one unit
+    double seconds = 0; ///< length of one unit; 0: a unit of months
+    int months = 0;     ///< months of a calendar in which their lengths differ
     bool dated = false;
+    Date date = {};
     std::int64_t day = 0; ///< number of the reference date's day
     double clock = 0;     ///< [s] of the reference date since its midnight
     Calendar calendar = Calendar::standard;
@@ -29,7 +31,8 @@ struct UnitName {
     std::string_view names; ///< each between bars
     double seconds;
 };
-constexpr std::array<UnitName, 7> kUnits{{
+constexpr std::array<UnitName, 8> kUnits{{
+    {"|common_year|common_years|", 365 * kDay},
     {"|week|weeks|", 7 * kDay},
     {"|d|day|days|", kDay},
     {"|h|hr|hrs|hour|hours|", 3600},
@@ -46,18 +49,21 @@ std::optional<double> seconds_of(const std::string& name) {
     return std::nullopt;
 }
 
-/// Months and years are units where all are equally long.
-std::optional<double> seconds_of(const std::string& name, Calendar calendar) {
-    if (name == "month" || name == "months")
-        return calendar == Calendar::days_360 ? std::optional(30 * kDay) : std::nullopt;
-    if (name == "year" || name == "years" || name == "common_year" || name == "common_years")
-        switch (calendar) {
-        case Calendar::days_360: return 360 * kDay;
-        case Calendar::noleap: return 365 * kDay;
-        case Calendar::all_leap: return 366 * kDay;
-        default: return std::nullopt;
-        }
-    return seconds_of(name);
+/// Months in a unit; 0: it is shorter.
+int months_of(const std::string& name) {
+    constexpr std::string_view kMonths = "|month|months|mon|mons|", kYears = "|year|years|yr|yrs|";
+    const std::string framed = "|" + name + "|";
+    return kMonths.find(framed) != kMonths.npos ? 1 : kYears.find(framed) != kYears.npos ? 12 : 0;
+}
+
+/// Months and years are as long as others only where all of them are equally long.
+std::optional<double> seconds_of(int months, Calendar calendar) {
+    switch (calendar) {
+    case Calendar::days_360: return months * 30 * kDay;
+    case Calendar::noleap: return months == 12 ? std::optional(365 * kDay) : std::nullopt;
+    case Calendar::all_leap: return months == 12 ? std::optional(366 * kDay) : std::nullopt;
+    default: return std::nullopt;
+    }
 }
 
 double number(const std::ssub_match& digits) {
@@ -80,8 +86,12 @@ std::optional<TimeUnit> time_unit(const std::string& text) {
     const Date date{static_cast<int>(number(part[2])), static_cast<int>(number(part[3])),
                     static_cast<int>(number(part[4]))};
     const auto day = calendar ? day_number(date, *calendar) : std::nullopt;
-    const auto seconds = calendar ? seconds_of(lower_case(part[1].str()), *calendar) : std::nullopt;
-    if (!seconds || !day || number(part[5]) > 24 || number(part[6]) > 60 || number(part[7]) > 61)
+    const std::string name = lower_case(part[1].str());
+    const int months = months_of(name);
+    const auto seconds =
+        !calendar || months == 0 ? seconds_of(name) : seconds_of(months, *calendar);
+    if ((!seconds && months == 0) || !day || number(part[5]) > 24 || number(part[6]) > 60 ||
+        number(part[7]) > 61)
         return std::nullopt;
     constexpr int kFirstSame = 1583;
     if (calendar == Calendar::gregorian && date.year >= kFirstSame)
@@ -89,7 +99,13 @@ std::optional<TimeUnit> time_unit(const std::string& text) {
     const double zone =
         (part[8] == "-" ? -1 : 1) * (number(part[9]) * 3600 + number(part[10]) * 60);
     const double clock = number(part[5]) * 3600 + number(part[6]) * 60 + number(part[7]);
-    return TimeUnit{*seconds, true, *day, clock - zone, *calendar};
+    return TimeUnit{.seconds = seconds.value_or(0),
+                    .months = seconds ? 0 : months,
+                    .dated = true,
+                    .date = date,
+                    .day = *day,
+                    .clock = clock - zone,
+                    .calendar = *calendar};
 }
 
 std::string_view name_of(Calendar calendar) {
@@ -110,17 +126,55 @@ struct Moment {
     int milliseconds = 0; ///< since midnight
 };
 
-std::optional<Moment> moment_of(double time, const TimeUnit& unit) {
-    constexpr double kMostDays = 1e8;
-    constexpr std::int64_t kDayMs = 86'400'000;
-    const double seconds = time * unit.seconds;
-    const double days = std::floor(seconds / kDay);
-    if (!(std::abs(days) < kMostDays))
+/// A time since midnight of some day.
+struct DayTime {
+    std::int64_t day = 0;
+    double seconds = 0; ///< may be more than a day, or below 0
+};
+
+/// The day of a date so many months later: its number, or that of the month's last day where the
+/// month is shorter.
+std::optional<std::int64_t> months_later(Date date, std::int64_t months, Calendar calendar) {
+    const std::int64_t month = std::int64_t{date.year} * 12 + date.month - 1 + months;
+    const std::int64_t year = month / 12 - (month % 12 < 0);
+    date.year = static_cast<int>(year);
+    date.month = static_cast<int>(month - year * 12) + 1;
+    auto day = day_number(date, calendar);
+    for (constexpr int kShortest = 28; !day && date.day > kShortest; --date.day)
+        day = day_number({date.year, date.month, date.day - 1}, calendar);
+    return day;
+}
+
+/// Where a time is: so many whole units, and a part of the next, behind the reference date.
+std::optional<DayTime> day_time(double time, const TimeUnit& unit) {
+    constexpr double kMostDays = 1e8, kMostMonths = 2e6;
+    if (unit.months == 0) {
+        const double seconds = time * unit.seconds, days = std::floor(seconds / kDay);
+        if (!(std::abs(days) < kMostDays))
+            return std::nullopt;
+        // The day is taken off first: what is left has more digits than the sum.
+        return DayTime{unit.day + static_cast<std::int64_t>(days),
+                       seconds - days * kDay + unit.clock};
+    }
+    const double units = std::floor(time);
+    if (!(std::abs(units) * unit.months < kMostMonths))
         return std::nullopt;
-    // The day is taken off first: what is left has more digits than the sum.
-    const std::int64_t ms = std::llround((seconds - days * kDay + unit.clock) * 1000);
+    const std::int64_t months = static_cast<std::int64_t>(units) * unit.months;
+    const auto begin = months_later(unit.date, months, unit.calendar),
+               end = months_later(unit.date, months + unit.months, unit.calendar);
+    if (!begin || !end)
+        return std::nullopt;
+    return DayTime{*begin, (time - units) * static_cast<double>(*end - *begin) * kDay + unit.clock};
+}
+
+std::optional<Moment> moment_of(double time, const TimeUnit& unit) {
+    constexpr std::int64_t kDayMs = 86'400'000;
+    const auto found = day_time(time, unit);
+    if (!found)
+        return std::nullopt;
+    const std::int64_t ms = std::llround(found->seconds * 1000);
     const std::int64_t more = ms / kDayMs - (ms % kDayMs < 0);
-    const auto date = date_of(unit.day + static_cast<std::int64_t>(days) + more, unit.calendar);
+    const auto date = date_of(found->day + more, unit.calendar);
     if (!date)
         return std::nullopt;
     return Moment{*date, static_cast<int>(ms - more * kDayMs)};
@@ -178,10 +232,28 @@ std::optional<std::vector<double>> times_in(const std::string& wanted, const std
     const auto to = time_unit(wanted), from = time_unit(given);
     if (!to || !from || to->dated != from->dated || to->calendar != from->calendar)
         return std::nullopt;
+    if (to->months != 0) { // only from months that begin at the same moment of theirs
+        if (from->months == 0 || from->date.day != to->date.day || from->clock != to->clock)
+            return std::nullopt;
+        const int between =
+            (from->date.year - to->date.year) * 12 + from->date.month - to->date.month;
+        for (double& time : times)
+            time = (time * from->months + between) / to->months;
+        return times;
+    }
     const double between =
         static_cast<double>(from->day - to->day) * kDay + (from->clock - to->clock);
-    for (double& time : times)
-        time = (time * from->seconds + between) / to->seconds;
+    for (double& time : times) {
+        if (from->months == 0) {
+            time = (time * from->seconds + between) / to->seconds;
+            continue;
+        }
+        const auto found = day_time(time, *from);
+        if (!found)
+            return std::nullopt;
+        time = (static_cast<double>(found->day - to->day) * kDay + found->seconds - to->clock) /
+               to->seconds;
+    }
     return times;
 }
 
@@ -209,6 +281,11 @@ std::string time_text(std::span<const double> times, std::size_t step, const std
             break;
     }
     return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+bool counts_months(const std::string& unit) {
+    const auto known = time_unit(unit);
+    return known && known->months > 0;
 }
 
 bool has_dates(std::span<const double> times, const std::string& unit) {

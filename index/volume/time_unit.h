@@ -12,9 +12,10 @@ namespace isochron::index {
 
 /// Converts times from the unit `given` to the unit `wanted`. Units are `s`, `ms`, `hours`, ... or,
 /// after the CF conventions, `hours since 1970-01-01 06:00`, with a calendar in brackets if it is
-/// not the usual one: `days since 2000-01-01 (360_day)`.
+/// not the usual one: `days since 2000-01-01 (360_day)`. Months and years are those of the calendar:
+/// 1.5 `months since 1979-01-01` is the middle of February.
 /// @return none when it is impossible: unknown units, different calendars, only one unit with a
-///         date, months and years where their length varies
+///         date, months or years wanted of other units where their length varies
 std::optional<std::vector<double>> times_in(const std::string& wanted, const std::string& given,
                                             std::vector<double> times);
 
@@ -26,6 +27,9 @@ std::string with_calendar(const std::string& unit, const std::string& calendar);
 /// differs from the texts of the steps before and after; dates are rounded to a millisecond.
 /// @param times of all steps, increasing
 std::string time_text(std::span<const double> times, std::size_t step, const std::string& unit);
+
+/// Whether a unit is months or years of differing lengths.
+bool counts_months(const std::string& unit);
 
 /// Whether `time_text` gives dates.
 bool has_dates(std::span<const double> times, const std::string& unit);

@@ -42,7 +42,7 @@ const std::map<std::string, Steps> kOrder{
       {"readers/formats"},
       {"readers/process"},
       {"volume", "system"},
-      {"error", "interrupted", "lower_case", "progress", "shell_word", "utf8"}}},
+      {"error", "interrupted", "lower_case", "name_pattern", "progress", "shell_word", "utf8"}}},
     {"interaction",
      {{"trackers", "recording"}, {"controls"}, {"tools"}, {"navigation"}, {"input"}, {"."}}},
     {"render", {{"drawing"}, {"culling"}, {"cells", "passes"}, {"gl"}}},

@@ -5,6 +5,7 @@
 #include "index/error.h"
 #include "index/lower_case.h"
 #include "index/readers/formats/data_parts.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/series/joined_blocks.h"
 #include "index/readers/formats/stored_file.h"
@@ -193,7 +194,7 @@ std::vector<Bricklet> bricklets_of(const BovHeader& header, const Bricklet& whol
         const auto number = static_cast<std::int64_t>(bricklets.size());
         one.begin = {number % along[0] * one.sizes[0], number / along[0] % along[1] * one.sizes[1],
                      number / along[0] / along[1] * one.sizes[2]};
-        one.data = path.parent_path() / file;
+        one.data = file_named_in(path, file);
         bricklets.push_back(one);
     }
     return bricklets;
@@ -206,7 +207,7 @@ std::unique_ptr<VolumeFile> open_bov(const fs::path& path, const ReadOptions& op
     const BovHeader header(path);
     const auto sizes = three_sizes(header, "DATA_SIZE", name);
     checked_vertices(sizes, name);
-    const Bricklet whole{sizes, sizes, {}, path.parent_path() / header.text("data_file")};
+    const Bricklet whole{sizes, sizes, {}, file_named_in(path, header.text("data_file"))};
     if (!is_numbered(header.text("data_file")))
         return open_brick(header, path, whole, options);
     std::vector<SeriesFile> parts;

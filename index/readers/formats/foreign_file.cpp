@@ -161,6 +161,14 @@ class ForeignFile final : public VolumeFile {
 
 } // namespace
 
+void let_readers_read(std::span<const KnownFile> files) {
+    std::vector<fs::path> places;
+    for (const KnownFile& file : files)
+        if (file.format && !file.format->reader.empty())
+            places.push_back(place_of(*file.format, file.path));
+    readers_of_this_process().let_read(places);
+}
+
 std::unique_ptr<VolumeFile> open_foreign(ReaderPool& readers, const Format& format,
                                          const fs::path& path, const ReadOptions& options) {
     return std::make_unique<ForeignFile>(readers, format, path, options);

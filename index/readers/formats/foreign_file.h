@@ -5,6 +5,7 @@
 #include "index/readers/process/reader_pool.h"
 
 #include <memory>
+#include <span>
 
 namespace isochron::index {
 
@@ -13,6 +14,10 @@ std::unique_ptr<VolumeFile> open_in_format(const Format& format, const std::file
                                            const ReadOptions& options);
 /// `open_in_format` as a function of the file.
 OpenVolumeFile opener_of(const Format& format);
+
+/// Lets the readers of this process read files, so that they are started once for all of them, also
+/// where each is a symbolic link to another folder.
+void let_readers_read(std::span<const KnownFile> files);
 
 /// Opens a file of a format that a reader decodes.
 /// @param readers gives the reader that is used as long as the file is open

@@ -10,6 +10,7 @@
 #include "index/readers/formats/series/file_series.h"
 #include "index/readers/formats/series/folder_files.h"
 #include "index/readers/formats/series/joined_blocks.h"
+#include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/series/resampled_series.h"
 #include "index/readers/formats/series/step_order.h"
@@ -48,6 +49,17 @@ SeriesFile series_file(const KnownFile& file, const ReadOptions& options,
                             file.path.string(), known_extensions()));
 }
 
+/// The unit of time behind the number that differs: `t_10s.vti`.
+std::optional<std::string> unit_in_names(const std::vector<fs::path>& names) {
+    std::vector<std::string> without_ends;
+    for (const fs::path& name : names) {
+        const bool is_end = name.extension().string().find_first_of("0123456789") != 1;
+        without_ends.push_back((is_end ? fs::path(name).replace_extension() : name).string());
+    }
+    const auto times = times_of_groups(without_ends);
+    return times && !times->unit.empty() ? std::optional(times->unit) : std::nullopt;
+}
+
 /// Orders files by the dates in their names, which are their times, or else by the numbers.
 /// @param options get the unit of dates
 std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadOptions& options) {
@@ -68,6 +80,8 @@ std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadO
         times.assign(wanted->begin(), wanted->end());
     } else {
         times = times_in_names(names);
+        if (!options.time_unit)
+            options.time_unit = unit_in_names(names);
     }
     std::vector<SeriesFile> series;
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -108,9 +122,14 @@ std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& opti
                                 list.path.string()));
     file_bytes(list.path);
     std::vector<SeriesFile> series;
-    for (const ListedFile& file :
-         ordered_entries(list.format->list(list.path), options.keep_first, notes))
-        series.push_back(series_file(known_file(file.path), options, file.time));
+    std::vector<KnownFile> known;
+    const ListedFiles listed =
+        ordered_entries(list.format->list(list.path), options.keep_first, notes);
+    for (const ListedFile& file : listed)
+        known.push_back(known_file(file.path));
+    let_readers_read(known);
+    for (std::size_t i = 0; i < listed.size(); ++i)
+        series.push_back(series_file(known[i], options, listed[i].time));
     return list.format->lists_parts ? joined_by_time(std::move(series)) : series;
 }
 
@@ -166,6 +185,7 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, ReadOptio
 std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given, ReadOptions options,
                                             const Progress& progress) {
     const FoundFiles found = found_files(given, options);
+    let_readers_read(found.files);
     std::vector<std::string> notes;
     if (found.note)
         notes.push_back(*found.note);

@@ -22,7 +22,10 @@ void ReaderPool::let_read(std::span<const std::filesystem::path> files) {
     std::filesystem::path folder;
     std::error_code ignored;
     for (bool first = true; const std::filesystem::path& file : files) {
-        if (first || file.parent_path() != folder || std::filesystem::is_symlink(file, ignored))
+        // A link leads elsewhere, and a folder is a place of its own.
+        if (first || file.parent_path() != folder ||
+            std::filesystem::symlink_status(file, ignored).type() !=
+                std::filesystem::file_type::regular)
             readable_.add(file);
         folder = file.parent_path();
         first = false;
@@ -62,6 +65,7 @@ std::unique_ptr<ReaderProcess> ReaderPool::take_new(const std::string& program) 
         age = readable_.age();
         limits = limits_;
     }
+    ++started_;
     return std::make_unique<ReaderProcess>(program, limits, readable, age, waiting_);
 }
 

@@ -38,6 +38,8 @@ class ReaderPool {
     std::unique_ptr<ReaderProcess> take(const std::string& program);
     /// A new reader, which has seen no file.
     std::unique_ptr<ReaderProcess> take_new(const std::string& program) const;
+    /// Number of readers that it has started. Each opens all places that it may read.
+    std::size_t started() const { return started_; }
     /// Makes a reader idle. It must have no file open and no request without a reply.
     void give_back(std::unique_ptr<ReaderProcess> reader);
 
@@ -45,6 +47,7 @@ class ReaderPool {
     mutable std::mutex mutex_;
     ReaderLimits limits_;
     std::atomic<WhileWaiting> waiting_ = nullptr;
+    mutable std::atomic<std::size_t> started_ = 0;
     ReadablePlaces readable_;
     std::vector<std::unique_ptr<ReaderProcess>> idle_;
 };

@@ -2,6 +2,7 @@
 // both.
 #include "index/readers/formats/foreign_file.h"
 #include "index/readers/formats/open_series.h"
+#include "index/volume/time_unit.h"
 #include "tests/support/paths.h"
 #include "tests/support/reader_fixtures.h"
 #include "tests/support/test_seed.h"
@@ -92,6 +93,25 @@ void expect_places(const SeriesInfo& info, const json& expected) {
     }
 }
 
+/// Dates that the library gives, and what a note says.
+void expect_said(const SeriesInfo& info, const json& options) {
+    const json dates = options.value("dates", json());
+    for (std::size_t i = 0; i < dates.size(); ++i) {
+        // A text is as short as tells times apart.
+        const std::string text = time_text(info.times, i, info.time_unit);
+        const std::string got = text.substr(0, text.find(" (")), wanted = dates[i];
+        EXPECT_EQ(got, wanted.substr(0, got.size())) << text;
+        EXPECT_GE(got.size(), 10u) << text;
+        for (std::size_t rest = got.size(); rest < wanted.size(); ++rest)
+            EXPECT_THAT(wanted[rest], testing::AnyOf('0', ':', ' ')) << text << ", " << wanted;
+    }
+    if (options.contains("time_unit"))
+        EXPECT_EQ(info.time_unit, options["time_unit"].get<std::string>());
+    if (options.contains("note"))
+        EXPECT_THAT(info.notes,
+                    testing::Contains(testing::HasSubstr(options["note"].get<std::string>())));
+}
+
 void expect_values(const std::vector<double>& got, const std::vector<double>& wanted,
                    double slack) {
     ASSERT_EQ(got.size(), wanted.size());
@@ -172,6 +192,7 @@ TEST_P(Conformance, ValuesPlacesAndTimesAreTheLibrarys) {
                 EXPECT_THAT(info.notes,
                             testing::Contains(testing::HasSubstr(std::string(entry["note"]))));
             }
+            expect_said(info, entry["options"]);
             expect_values(scaled_values(*series), doubles_in(folder_.path() / entry["values"]),
                           slack_of(entry["kind"]));
         } catch (const Error& error) {
@@ -285,14 +306,15 @@ TEST_P(DamagedFolders, AreReadOrRefusedInOneLine) {
 const auto kOfFiles = testing::Values(
     "with_bytes.py", "with_files.py", "with_foreign.py", "with_h5py.py", "with_meshes.py",
     "with_netcdf4.py", "with_nibabel.py", "with_numpy.py", "with_pydicom.py", "with_tifffile.py",
-    "with_vtk.py", "with_xdmf.py", "with_zarr.py");
+    "with_times.py", "with_vtk.py", "with_xdmf.py", "with_zarr.py");
 const auto kOfFolders = testing::Values("with_meshes.py", "with_tifffile.py", "with_zarr.py");
 std::string library_name(const testing::TestParamInfo<const char*>& script) {
     const std::string name = script.param;
     return name.substr(5, name.size() - 8);
 }
 INSTANTIATE_TEST_SUITE_P(Libraries, Conformance, kOfFiles, library_name);
-INSTANTIATE_TEST_SUITE_P(Matrices, Conformance, testing::Values("with_dicom_frames.py"),
+INSTANTIATE_TEST_SUITE_P(Matrices, Conformance,
+                         testing::Values("with_dicom_frames.py", "with_names.py", "with_times.py"),
                          library_name);
 INSTANTIATE_TEST_SUITE_P(Libraries, DamagedFiles, kOfFiles, library_name);
 INSTANTIATE_TEST_SUITE_P(Libraries, DamagedFolders, kOfFolders, library_name);

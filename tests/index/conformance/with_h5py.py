@@ -88,7 +88,7 @@ expect("steps.h5", steps, array="rho", times=[0.1, 0.2, 1.0])
 expect("steps.h5", steps, array="/step_*/rho", times=[0.1, 0.2, 1.0])
 expect("steps.h5", steps, array="/rho_*")
 expect("steps.h5", steps[1], array="/step_2/rho")
-refuse("steps.h5", "no dataset matches /x_*", array="/x_*")
+refuse("steps.h5", "no array matches /x_*", array="/x_*")
 
 # A file for each step.
 for i in range(3):

@@ -51,12 +51,56 @@ TEST(TimeUnit, KeepsToItsCalendar) {
     EXPECT_FALSE(zero_in("days since 2000-01-01", "days since 2000-01-02 (noleap)"));
 }
 
+/// Dates and what is between them are counted by hand from the calendars' months.
+TEST(TimeUnit, OfMonthsFollowsTheCalendar) {
+    struct Row {
+        const char *unit, *calendar;
+        double time;
+        const char* date;
+    };
+    for (const Row& row : {
+             Row{"months since 1979-01-01", "standard", 1, "1979-02-01"},
+             Row{"months since 1979-01-01", "standard", 12, "1980-01-01"},
+             Row{"months since 1979-01-01", "standard", 13.5, "1980-02-15 12:00"}, // of 29 days
+             Row{"months since 1979-01-01", "standard", -1, "1978-12-01"},
+             Row{"months since 1979-01-01", "standard", -0.5, "1978-12-16 12:00"},
+             Row{"month since 2000-01-31 06:00", "standard", 1, "2000-02-29 06:00"},
+             Row{"months since 2001-01-31", "noleap", 1, "2001-02-28 (noleap)"},
+             Row{"months since 2000-01-01", "noleap", 2, "2000-03-01 (noleap)"},
+             Row{"months since 2001-01-01", "all_leap", 1.5, "2001-02-15 12:00 (all_leap)"},
+             Row{"months since 1000-01-01", "julian", 24, "1002-01-01 (julian)"},
+             Row{"months since 1000-01-01", "proleptic_gregorian", 24,
+                 "1002-01-01 (proleptic_gregorian)"},
+             Row{"months since 1582-09-01", "standard", 2, "1582-11-01"},
+             Row{"months since 2000-01-01", "360_day", 2.5, "2000-03-16 (360_day)"},
+             Row{"months since 2000-01-01", "THIRTY_DAY_MONTHS", 2.5, "2000-03-16 (360_day)"},
+             Row{"years since 1999-03-01", "standard", 1, "2000-03-01"},
+             Row{"years since 1999-03-01", "standard", 0.5, "1999-08-31"}, // 183 of 366 days
+             Row{"year since 2000-02-29", "standard", 1, "2001-02-28"},
+             Row{"years since 1999-01-01", "noleap", 2, "2001-01-01 (noleap)"},
+             Row{"years since 1999-01-01", "360_day", 0.5, "1999-07-01 (360_day)"},
+             Row{"common_years since 1999-01-01", "standard", 2, "2000-12-31"},
+         }) {
+        const std::string unit = with_calendar(row.unit, row.calendar);
+        EXPECT_EQ(time_text(std::array{row.time}, 0, unit), row.date) << unit << " " << row.time;
+    }
+    EXPECT_EQ(times_in("days since 1979-01-01", "months since 1979-01-01", {0, 1, 2, 12.5}),
+              (std::vector<double>{0, 31, 59, 380.5}));
+    EXPECT_EQ(times_in("hours since 1979-01-01 12:00", "years since 1979-01-01 06:00", {0, 1}),
+              (std::vector<double>{-6, 8754}));
+    EXPECT_EQ(times_in("months since 1979-01-01", "months since 1980-03-01", {0, 1.5}),
+              (std::vector<double>{14, 15.5}));
+    EXPECT_EQ(times_in("months since 1979-01-01", "years since 1980-01-01", {-1, 0.5}),
+              (std::vector<double>{0, 18}));
+    EXPECT_FALSE(zero_in("months since 1979-01-01", "days since 1979-01-01"));
+    EXPECT_FALSE(zero_in("months since 1979-01-01", "months since 1979-02-02"));
+}
+
 TEST(TimeUnit, ThatIsNotSureIsNotGuessed) {
     for (const char* unit :
-         {"days since 1582-10-10", "days since 0000-01-01", "months since 2000-01-01",
-          "days since 2000-13-01", "days since 2000-02-30", "days since 2000-01-32",
-          "days since yesterday", "days since 2000-01-01 noon", "days", "",
-          "days since 100000-01-01"}) {
+         {"days since 1582-10-10", "days since 0000-01-01", "days since 2000-13-01",
+          "days since 2000-02-30", "days since 2000-01-32", "days since yesterday",
+          "days since 2000-01-01 noon", "days", "", "days since 100000-01-01"}) {
         EXPECT_FALSE(zero_in("days since 2000-01-01", unit)) << unit;
         EXPECT_FALSE(zero_in(unit, "days since 2000-01-01")) << unit;
     }

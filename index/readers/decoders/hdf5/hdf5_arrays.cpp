@@ -3,12 +3,11 @@
 
 #include "index/error.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
+#include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/stated/array_places.h"
 
 #include <fmt/format.h>
-
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <map>
@@ -48,8 +47,12 @@ Hdf5Array steps_of(std::string name, const std::vector<Hdf5Dataset>& steps) {
     Hdf5Array array{.name = std::move(name), .steps = {}, .groups = {}, .note = read.note};
     for (const std::size_t step : read.order)
         array.steps.push_back(steps[step]);
-    for (const Hdf5Dataset& step : array.steps)
+    std::vector<std::string> in_order;
+    for (const Hdf5Dataset& step : array.steps) {
         array.groups.push_back(group_in(step.path, array.name));
+        in_order.push_back(step.path);
+    }
+    array.times = times_of_groups(in_order);
     return array;
 }
 
@@ -62,36 +65,46 @@ std::optional<std::string> pattern_of_iteration(const Hdf5File& file, const std:
     return pattern ? std::optional(pattern->first) : std::nullopt;
 }
 
-std::vector<Hdf5Array> put_together(const Hdf5File& file,
-                                    const std::vector<Hdf5Dataset>& datasets) {
-    std::map<std::string, std::vector<Hdf5Dataset>> families;
-    for (const Hdf5Dataset& dataset : datasets)
-        if (const auto pattern = pattern_of(dataset.path))
-            families[pattern->first].push_back(dataset);
-    std::vector<Hdf5Array> arrays;
-    for (const Hdf5Dataset& dataset : datasets) {
-        const auto pattern = pattern_of(dataset.path);
-        const auto family = pattern ? families.find(pattern->first) : families.end();
-        if (family != families.end() && family->second.size() > 1 &&
-            std::ranges::all_of(family->second, [&](const Hdf5Dataset& other) {
-                return other.dimensions == dataset.dimensions && other.type == dataset.type;
-            })) {
-            if (family->second.front().path == dataset.path)
-                arrays.push_back(steps_of(family->first, family->second));
-        } else {
-            const auto iteration = pattern_of_iteration(file, dataset.path);
-            arrays.push_back({iteration.value_or(dataset.path), {dataset}, {}});
-        }
-    }
-    return arrays;
-}
-
 /// Whether it may be a volume, by the number of its dimensions.
 bool may_be_volume(const Hdf5Dataset& dataset) {
     const auto dimensions =
         std::ranges::count_if(dataset.dimensions, [](std::uint64_t length) { return length != 1; });
     return dimensions >= 3 && dimensions <= 5 && dataset.type &&
            std::ranges::find(dataset.dimensions, 0u) == dataset.dimensions.end();
+}
+
+std::vector<GroupedPath> paths_of(const std::vector<Hdf5Dataset>& datasets) {
+    std::vector<GroupedPath> paths;
+    for (const Hdf5Dataset& dataset : datasets)
+        paths.push_back({dataset.path, dataset.type
+                                           ? fmt::format("{} ({})", shape_text(dataset.dimensions),
+                                                         name_of(*dataset.type))
+                                           : shape_text(dataset.dimensions)});
+    return paths;
+}
+
+std::vector<Hdf5Array> put_together(const Hdf5File& file,
+                                    const std::vector<Hdf5Dataset>& datasets) {
+    const auto has_time = [&](const std::string& group) {
+        return std::ranges::any_of(kTimeAttributes, [&](const char* name) {
+            return file.numbers(group, name).size() == 1;
+        });
+    };
+    std::vector<Hdf5Array> arrays;
+    for (const GroupedArray& grouped : grouped_arrays(paths_of(datasets), has_time)) {
+        std::vector<Hdf5Dataset> steps;
+        for (const std::size_t step : grouped.steps)
+            steps.push_back(datasets[step]);
+        arrays.push_back(
+            steps.size() > 1
+                ? steps_of(grouped.name, steps)
+                : Hdf5Array{pattern_of_iteration(file, grouped.name).value_or(grouped.name),
+                            std::move(steps),
+                            {}});
+        if (!grouped.or_else.empty())
+            arrays.back().open = which_steps(grouped);
+    }
+    return arrays;
 }
 
 [[noreturn]] void fail_without_volumes(const Hdf5File& file,
@@ -119,21 +132,21 @@ std::vector<Hdf5Array> called(const std::vector<Hdf5Array>& arrays, const std::s
     return found;
 }
 
-/// The datasets that match a pattern, as one array. @throws Error when types or shapes differ
+/// As `matching_arrays`.
 Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& datasets,
                    const std::string& pattern) {
     std::vector<Hdf5Dataset> steps;
-    for (const Hdf5Dataset& dataset : datasets)
-        if (::fnmatch(pattern.c_str(), dataset.path.c_str(), FNM_PATHNAME) == 0)
-            steps.push_back(dataset);
-    if (steps.empty())
-        throw Error(fmt::format("{}: no dataset matches {}", file.name(), pattern));
-    for (const Hdf5Dataset& step : steps)
-        if (step.dimensions != steps.front().dimensions || step.type != steps.front().type)
-            throw Error(fmt::format("{}: {} is {}, {} is {}, expected steps that are alike",
-                                    file.name(), step.path, shape_text(step.dimensions),
-                                    steps.front().path, shape_text(steps.front().dimensions)));
+    for (const std::size_t step : matching_arrays(paths_of(datasets), pattern, file.name()).steps)
+        steps.push_back(datasets[step]);
     return steps_of(pattern, steps);
+}
+
+/// @throws Error where names leave open which numbers count the steps, unless a note may say it
+void expect_told(Hdf5Array& array, const Hdf5File& file, const ReadOptions& options) {
+    if (array.open && !options.any_array)
+        throw Error(fmt::format("{}: {}", file.name(), *array.open));
+    if (array.open)
+        array.note = array.open;
 }
 
 } // namespace
@@ -160,9 +173,11 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         fail_without_volumes(file, datasets);
     ReadOptions asked = options;
     if (options.array)
-        if (const std::vector<Hdf5Array> found = called(offered, *options.array); !found.empty()) {
-            if (found.size() == 1)
+        if (std::vector<Hdf5Array> found = called(offered, *options.array); !found.empty()) {
+            if (found.size() == 1) {
+                expect_told(found.front(), file, options);
                 return found.front();
+            }
             offered = found; // several paths have this end
             asked.array.reset();
         }
@@ -175,7 +190,8 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
             return layout_of(record, strict).has_value();
         });
     std::vector<StoredArray> listed;
-    for (const Hdf5Array& array : offered) {
+    for (Hdf5Array& array : offered) {
+        expect_told(array, file, options);
         std::string shape = shape_text(array.steps.front().dimensions);
         if (array.steps.size() > 1)
             shape += fmt::format(", {} steps", array.steps.size());

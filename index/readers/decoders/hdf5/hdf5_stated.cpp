@@ -166,20 +166,27 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& 
                         place_steps(*axis, info);
         return;
     }
+    if (array.times) { // unless attributes say more
+        info.times = array.times->times;
+        info.time_unit = array.times->unit;
+    }
     std::vector<double> times;
-    for (std::size_t i = 0; i < array.steps.size(); ++i) {
-        const std::vector<std::string> around = with_groups_around(array.steps[i].path);
-        const auto time = numbers_at(file, around, {"time", "Time", "TIME", "t"}, 1);
+    std::string of_times;
+    for (const Hdf5Dataset& step : array.steps) {
+        const std::vector<std::string> around = with_groups_around(step.path);
+        const auto time = numbers_at(file, around, kTimeAttributes, 1);
         if (time.empty())
             return;
         const auto unit = numbers_at(file, around, {"timeUnitSI"}, 1);
         times.push_back(time.front() * (unit.empty() ? 1 : unit.front()));
         if (!unit.empty())
-            info.time_unit = "s";
+            of_times = "s";
     }
     // A number that is equal for all steps belongs to the group around them and is not their time.
-    if (times.size() == 1 || times.front() != times.back())
-        info.times = std::move(times);
+    if (times.size() > 1 && times.front() == times.back())
+        return;
+    info.times = std::move(times);
+    info.time_unit = of_times;
 }
 
 } // namespace isochron::index

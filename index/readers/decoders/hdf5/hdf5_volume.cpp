@@ -53,6 +53,8 @@ class Hdf5Decoder final : public DecodedFile {
             return volume_.datasets.size();
         if (!volume_.places.empty())
             return volume_.places.size();
+        if (volume_.layout.time && !info().times.empty())
+            return info().times.size();
         return volume_.layout.time ? first().dimensions[*volume_.layout.time] : 1;
     }
 

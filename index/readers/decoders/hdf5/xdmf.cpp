@@ -6,6 +6,7 @@
 #include "index/readers/decoders/hdf5/xdmf_document.h"
 #include "index/readers/decoders/hdf5/xdmf_paths.h"
 #include "index/readers/formats/data_stream.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -226,7 +227,7 @@ class XdmfFile final : public DecodedFile {
     void expect_room_for(const XdmfItem& item) const {
         const std::uint64_t values = product(item.dimensions);
         if (item.where == XdmfItem::Where::plain)
-            expect_room(item.document.parent_path() / item.text, item.seek, Compression::none,
+            expect_room(file_named_in(item.document, item.text), item.seek, Compression::none,
                         values * size_of(item.type));
         if (item.where == XdmfItem::Where::document && values > item.text.size() / 2 + 1)
             throw Error(fmt::format("{}: {} bytes of numbers as text, expected {} numbers", name_,
@@ -240,7 +241,7 @@ class XdmfFile final : public DecodedFile {
         switch (item.where) {
         case XdmfItem::Where::hdf5: return load_dataset(item, grid, first, out);
         case XdmfItem::Where::plain: {
-            const fs::path file = item.document.parent_path() / item.text;
+            const fs::path file = file_named_in(item.document, item.text);
             const std::uint64_t at = item.seek + first * layer_values(grid) * size;
             const std::size_t got = InputFile(file).read(at, out);
             if (item.type != *chosen_.array.type || !item.start.empty() || got < out.size())

@@ -7,6 +7,7 @@
 #include "index/readers/decoders/hdf5/xdmf_fields.h"
 #include "index/readers/decoders/hdf5/xdmf_paths.h"
 #include "index/readers/formats/axis_positions.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -136,7 +137,7 @@ class XdmfParser {
             add(grid_at(pointer), depth + 1);
             return;
         }
-        const fs::path other = path_.parent_path() / href;
+        const fs::path other = file_named_in(path_, href);
         constexpr std::size_t kDeepest = 8;
         if (chain_.size() > kDeepest ||
             std::ranges::find(chain_, other.lexically_normal()) != chain_.end())

@@ -2,6 +2,7 @@
 #include "index/readers/decoders/hdf5/xdmf_paths.h"
 
 #include "index/error.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/text_header.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ XdmfHeavy heavy_of(const std::string& text, const std::filesystem::path& documen
     if (colon == std::string::npos || colon == 0 || colon + 1 == place.size())
         throw Error(fmt::format("{}: a DataItem at {}, expected FILE.h5:/PATH", document.string(),
                                 excerpt(place)));
-    return {document.parent_path() / std::string(trimmed(place.substr(0, colon))),
+    return {file_named_in(document, std::string(trimmed(place.substr(0, colon)))),
             std::string(trimmed(place.substr(colon + 1)))};
 }
 

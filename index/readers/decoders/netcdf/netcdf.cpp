@@ -3,8 +3,9 @@
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/netcdf/netcdf_stated.h"
 #include "index/readers/formats/cropped_file.h"
+#include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/stated/array_places.h"
-#include "index/readers/formats/stated/axis_dates.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
@@ -48,26 +49,67 @@ bool is_volume(const NetcdfFile& file, const NetcdfVariable& variable) {
     return may_be_volume(stated(file, variable, false));
 }
 
-/// The file's variables with three dimensions.
-std::vector<StoredArray> offered_in(const NetcdfFile& file, const ReadOptions& options) {
+/// The time that a group states, by an attribute of its own.
+std::optional<double> time_of_group(const NetcdfFile& file, const NetcdfVariable& within) {
+    for (const char* name : {"time", "Time", "TIME", "t"})
+        if (const std::vector<double> found = file.numbers(group_of(within), name);
+            found.size() == 1)
+            return found.front();
+    return std::nullopt;
+}
+
+/// Variables with three dimensions, and those of several groups that are the steps of one.
+struct Offered {
+    std::vector<StoredArray> arrays;
+    std::vector<std::vector<const NetcdfVariable*>> steps; ///< variables of each array
+    std::vector<std::string> notes;
+};
+
+/// @throws Error naming the file: names leave open which groups are the steps
+Offered offered_in(const NetcdfFile& file, const ReadOptions& options) {
     const std::vector<std::string> bounds = bounds_in(file);
-    std::vector<StoredArray> offered;
+    std::vector<const NetcdfVariable*> variables;
+    std::vector<GroupedPath> paths;
     for (const NetcdfVariable& variable : file.variables())
         if (is_volume(file, variable) && std::ranges::find(bounds, variable.name) == bounds.end() &&
             (variable.type || options.array == variable.name)) {
             std::vector<std::size_t> lengths;
             for (const NetcdfDimension& dimension : variable.dimensions)
                 lengths.push_back(dimension.length);
-            offered.push_back({.name = variable.name,
-                               .type = variable.type,
-                               .shape = fmt::format("{}", fmt::join(lengths, " x "))});
+            variables.push_back(&variable);
+            paths.push_back({variable.name, fmt::format("{}", fmt::join(lengths, " x "))});
         }
+    const auto has_time = [&](const std::string& group) {
+        const auto within = std::ranges::find_if(variables, [&](const NetcdfVariable* variable) {
+            return variable->name.substr(0, variable->name.rfind('/')) == group;
+        });
+        return within != variables.end() && time_of_group(file, **within);
+    };
+    Offered offered;
+    const bool by_pattern = options.array && options.array->find('*') != std::string::npos;
+    for (const GroupedArray& array :
+         by_pattern ? std::vector{matching_arrays(paths, *options.array, file.name())}
+                    : grouped_arrays(paths, has_time)) {
+        if (!array.or_else.empty() && !options.any_array)
+            throw Error(fmt::format("{}: {}", file.name(), which_steps(array)));
+        if (!array.or_else.empty() && offered.notes.empty())
+            offered.notes.push_back(which_steps(array));
+        std::vector<const NetcdfVariable*>& steps = offered.steps.emplace_back();
+        for (const std::size_t step : array.steps)
+            steps.push_back(variables[step]);
+        offered.arrays.push_back({.name = array.name,
+                                  .type = steps.front()->type,
+                                  .shape = paths[array.steps.front()].kind});
+        if (steps.size() > 1)
+            offered.arrays.back().shape += fmt::format(", {} steps", steps.size());
+    }
     return offered;
 }
 
-/// Picks the variable that `options` ask for among those with three dimensions.
+/// The variable that `options` ask for among those with three dimensions: one, or one for each step.
 /// @throws Error naming the file, as `choose_scalar` does, or when it has others
-const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions& options) {
+std::vector<NetcdfVariable> choose_variables(const NetcdfFile& file, const ReadOptions& options,
+                                             std::string& name) {
     const auto& variables = file.variables();
     if (options.array) {
         const auto named = std::ranges::find(variables, *options.array, &NetcdfVariable::name);
@@ -75,14 +117,22 @@ const NetcdfVariable& choose_variable(const NetcdfFile& file, const ReadOptions&
             throw Error(fmt::format("{}: array {}, expected three dimensions of more than one "
                                     "vertex besides time",
                                     file.name(), text(*named)));
+        name = *options.array;
+        if (named != variables.end())
+            return {*named};
     }
-    const std::vector<StoredArray> offered = offered_in(file, options);
-    if (offered.empty())
+    const Offered offered = offered_in(file, options);
+    if (offered.arrays.empty())
         fail_without_volume(file);
     ReadOptions which = options;
     which.component.reset(); // components are an axis here
-    const ChosenScalar chosen = choose_scalar(offered, which, file.name());
-    return *std::ranges::find(variables, chosen.array.name, &NetcdfVariable::name);
+    name = choose_scalar(offered.arrays, which, file.name()).array.name;
+    std::vector<NetcdfVariable> steps;
+    for (std::size_t i = 0; i < offered.arrays.size() && steps.empty(); ++i)
+        if (offered.arrays[i].name == name)
+            for (const NetcdfVariable* step : offered.steps[i])
+                steps.push_back(*step);
+    return steps;
 }
 
 /// Formats within NetCDF whose values would be wrong if they were read as they are stored.
@@ -122,11 +172,14 @@ class NetcdfVolume final : public DecodedFile {
   public:
     NetcdfVolume(const fs::path& path, const ReadOptions& options)
         : file_(path, options.crop.has_value()),
-          variable_((expect_no_other_format(file_), choose_variable(file_, options))) {
+          variables_(
+              (expect_no_other_format(file_), choose_variables(file_, options, array_name_))),
+          variable_(variables_.front()) {
         const std::string& name = file_.name();
         const std::string where = fmt::format("{}: {}", name, variable_.name);
         const std::vector<StatedAttributes> objects = objects_of(file_, variable_);
         StatedArray array = stated(file_, variable_, true);
+        array.name = array_name_;
         layout_ = lay_out(array, objects, options, info_.notes);
         member_ = member_of(array, layout_, options);
         steps_ = layout_.time ? array.axes[*layout_.time].length : 1;
@@ -144,6 +197,10 @@ class NetcdfVolume final : public DecodedFile {
         if (!options.spacing)
             offer_cell_sizes(objects, array, layout_, info_);
         place_times(array);
+        if (layout_.time && !info_.times.empty())
+            steps_ = info_.times.size();
+        if (variables_.size() > 1)
+            time_groups();
         const auto long_dimensions = [&](const std::string& of) -> std::size_t {
             for (const NetcdfVariable& other : file_.variables())
                 if (other.name.substr(other.name.rfind('/') + 1) == of)
@@ -192,8 +249,9 @@ class NetcdfVolume final : public DecodedFile {
         }
         start[layout_.space[2]] += slices.first;
         count[layout_.space[2]] = slices.count;
+        const bool in_groups = variables_.size() > 1;
         if (layout_.time)
-            start[*layout_.time] = step;
+            start[*layout_.time] = in_groups ? 0 : step;
         if (layout_.member)
             start[*layout_.member] = member_;
         Grid slab = info_.grid;
@@ -202,7 +260,7 @@ class NetcdfVolume final : public DecodedFile {
                     [&](std::size_t component, std::span<std::byte> plane) {
                         if (layout_.component)
                             start[*layout_.component] = component;
-                        file_.read(variable_, start, count, plane);
+                        file_.read(in_groups ? variables_[step] : variable_, start, count, plane);
                     });
     }
 
@@ -222,15 +280,18 @@ class NetcdfVolume final : public DecodedFile {
                                  fill ? std::vector{*fill} : std::vector<double>{}, where);
         const std::size_t components =
             layout_.component ? variable_.dimensions[*layout_.component].length : 1;
-        const StoredArray array{.name = variable_.name,
+        const StoredArray array{.name = array_name_,
                                 .type = variable_.type,
                                 .components = static_cast<std::uint32_t>(components),
                                 .gaps = missing_.make_gaps(*variable_.type)};
-        chosen_ = choose_scalar(std::span(&array, 1), options, file_.name());
-        ReadOptions any = options;
+        ReadOptions asked = options;
+        asked.array = array_name_;
+        chosen_ = choose_scalar(std::span(&array, 1), asked, file_.name());
+        ReadOptions any;
         any.any_array = true;
-        any.component.reset();
-        info_.arrays = choose_scalar(offered_in(file_, options), any, file_.name()).offered;
+        const Offered all = offered_in(file_, any);
+        info_.arrays = choose_scalar(all.arrays, any, file_.name()).offered;
+        info_.notes.insert(info_.notes.end(), all.notes.begin(), all.notes.end());
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
         for (std::string& note : chosen_.notes())
@@ -247,11 +308,37 @@ class NetcdfVolume final : public DecodedFile {
         if (!info_.times.empty())
             return;
         const NetcdfDates found = dates_along(file_, variable_.dimensions[*layout_.time]);
-        place_text_dates(found.name, found.dates, info_);
+        place_dates(found.dates, found.name, info_);
+    }
+
+    /// Times of steps that have a group each: as the groups state them, or their names.
+    void time_groups() {
+        if (layout_.time && steps_ > 1)
+            throw Error(fmt::format("{}: each of {} groups holds several steps, choose one with "
+                                    "--array {}",
+                                    file_.name(), variables_.size(), variable_.name));
+        std::vector<std::string> paths;
+        std::vector<double> times;
+        for (const NetcdfVariable& variable : variables_) {
+            if (variable.type != variable_.type ||
+                scaling_by(attributes_of(file_, variable), variable.name) != info_.scaling)
+                throw Error(fmt::format("{}: {} is not as {}", file_.name(), variable.name,
+                                        variable_.name));
+            paths.push_back(variable.name);
+            if (const auto time = time_of_group(file_, variable))
+                times.push_back(*time);
+        }
+        const auto named = times_of_groups(paths);
+        const bool stated = times.size() == paths.size() && times.front() != times.back();
+        info_.times = stated ? times : named ? named->times : std::vector<double>();
+        info_.time_unit = named && !stated ? named->unit : "";
+        steps_ = variables_.size();
     }
 
     NetcdfFile file_;
-    NetcdfVariable variable_;
+    std::string array_name_;
+    std::vector<NetcdfVariable> variables_; ///< one, or one for each step
+    NetcdfVariable variable_;               ///< the first of them
     ArrayLayout layout_;
     std::size_t member_ = 0;
     MissingValues missing_;

@@ -6,6 +6,7 @@
 #include "index/readers/decoders/tiff/tiff_metadata.h"
 #include "index/readers/decoders/tiff/tiff_microscopes.h"
 #include "index/readers/formats/data_stream.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/system/input_file.h"
 
@@ -38,7 +39,7 @@ std::string full_description(const TiffFile& file, const fs::path& path) {
     const std::string name = ome_metadata_file(own);
     if (name.empty())
         return own;
-    const fs::path beside = path.parent_path() / fs::path(name).filename();
+    const fs::path beside = path.parent_path() / fs::path(path_named_in(path, name)).filename();
     if (lower_case(beside.extension().string()).starts_with(".tif"))
         return TiffFile(beside).description();
     constexpr std::uint64_t kLargest = std::uint64_t{256} << 20;
@@ -166,8 +167,13 @@ class TiffVolume final : public DecodedFile {
                 chosen_.offered.push_back(fmt::format("{} (another image)", stack_.images[i]));
     }
 
+    /// The name of the file that holds a plane, without its folder.
+    fs::path name_of_file(const TiffPlane& plane) const {
+        return fs::path(path_named_in(path_, plane.file)).filename();
+    }
+
     bool is_in_first(const TiffPlane& plane) const {
-        return plane.file.empty() || fs::path(plane.file).filename() == path_.filename();
+        return plane.file.empty() || name_of_file(plane) == path_.filename();
     }
 
     /// Whether the page of a plane is there; of other files, whether these are.
@@ -175,7 +181,7 @@ class TiffVolume final : public DecodedFile {
         if (is_in_first(plane))
             return plane.page < first_.pages();
         std::error_code ignored;
-        return fs::exists(path_.parent_path() / fs::path(plane.file).filename(), ignored);
+        return fs::exists(path_.parent_path() / name_of_file(plane), ignored);
     }
 
     /// ImageJ calibrates 8 and 16 bits only.
@@ -232,9 +238,10 @@ class TiffVolume final : public DecodedFile {
     TiffFile& file_of(const TiffPlane& plane) {
         if (is_in_first(plane))
             return first_;
-        const fs::path path = slices_.empty()
-                                  ? path_.parent_path() / fs::path(plane.file).filename()
-                                  : fs::path(plane.file);
+        const fs::path path =
+            slices_.empty()
+                ? path_.parent_path() / name_of_file(plane)
+                : fs::path(plane.file);
         if (!other_ || other_path_ != path) {
             other_.reset();
             other_ = std::make_unique<TiffFile>(path);

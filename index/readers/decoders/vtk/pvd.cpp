@@ -3,6 +3,7 @@
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/vtk/vtk_session.h"
 #include "index/readers/decoders/vtk/xml_markup.h"
+#include "index/readers/formats/named_file.h"
 #include "index/system/mapped_file.h"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ void read_collection(const fs::path& path, ListedFiles& files) {
             throw Error(
                 fmt::format("{}: {}: timestep \"{}\", expected a number", name, file, text));
         const char *part = set->GetAttribute("part"), *group = set->GetAttribute("group");
-        files.push_back({.path = path.parent_path() / file,
+        files.push_back({.path = file_named_in(path, file),
                          .time = time,
                          .part = fmt::format("{} of {}", part ? part : "0", group ? group : "")});
     }

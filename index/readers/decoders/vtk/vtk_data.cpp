@@ -55,6 +55,12 @@ vtkSmartPointer<vtkDataObject> read_xml(const fs::path& path) {
     if (auto* levels = vtkXMLUniformGridAMRReader::SafeDownCast(reader))
         levels->SetMaximumLevelsToReadByDefault(0);
     reader->SetFileName(path.c_str());
+    if (const auto text = with_slashes(markup, path)) {
+        reader->ReadFromInputStringOn();
+        const auto appended = file.bytes().subspan(markup.size());
+        reader->SetInputString(
+            *text + std::string(reinterpret_cast<const char*>(appended.data()), appended.size()));
+    }
     reader->Update();
     return reader->GetOutputDataObject(0);
 }

@@ -2,6 +2,7 @@
 #include "index/readers/decoders/vtk/xml_markup.h"
 
 #include "index/error.h"
+#include "index/readers/formats/named_file.h"
 
 #include <fmt/format.h>
 
@@ -104,6 +105,27 @@ void expect_names(std::string_view markup, const std::string& file) {
                 fmt::format("{}: cannot be read: an array at byte {} has no Name", file, at));
         at = end;
     }
+}
+
+std::optional<std::string> with_slashes(std::string_view markup,
+                                        const std::filesystem::path& file) {
+    if (markup.find('\\') == markup.npos)
+        return std::nullopt;
+    std::string text(markup);
+    bool changed = false;
+    for_each_tag(markup, [&](Tag tag) {
+        for (const std::string_view key : {" Source=", " file="}) {
+            const std::size_t quote = tag.text.find(key) + key.size();
+            if (quote < key.size() || quote >= tag.text.size())
+                continue;
+            const std::size_t end = tag.text.find(tag.text[quote], quote + 1);
+            const std::string named(tag.text.substr(quote + 1, end - quote - 1));
+            const std::string with = path_named_in(file, named);
+            changed = changed || with != named;
+            text.replace(tag.at + quote + 1, named.size(), with);
+        }
+    });
+    return changed ? std::optional(text) : std::nullopt;
 }
 
 bool holds_hard_infinities(std::string_view text) {

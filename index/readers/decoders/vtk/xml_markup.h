@@ -4,6 +4,7 @@
 #include "index/system/mapped_file.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -37,6 +38,10 @@ void expect_shallow(std::string_view markup, const std::string& file);
 /// understand.
 /// @throws Error naming the file
 void expect_names(std::string_view markup, const std::string& file);
+
+/// The markup with slashes in the names of other files (`Source`, `file`), see `path_named_in`.
+/// @return none where it has them already
+std::optional<std::string> with_slashes(std::string_view markup, const std::filesystem::path& file);
 
 /// Whether a text has numbers that VTK 9.1 reads wrongly: it reads `-inf` as `inf`, and does not
 /// know `Infinity`.

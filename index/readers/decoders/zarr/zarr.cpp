@@ -9,6 +9,7 @@
 #include "index/readers/decoders/zarr/zarr_groups.h"
 #include "index/readers/decoders/zarr/zarr_stated.h"
 #include "index/readers/formats/cropped_file.h"
+#include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
@@ -53,13 +54,25 @@ class ZarrVolume final : public DecodedFile {
         }
         const std::vector<StatedAttributes> objects = objects_of(*store_, *array_);
         layout_ = lay_out(stated_, objects, asked, info_.notes);
+        if (layout_.time && !steps_.empty())
+            throw Error(fmt::format("{}: each of {} groups holds several steps, choose one with "
+                                    "--array {}",
+                                    name_, steps_.size(), steps_.front()));
         member_ = member_of(stated_, layout_, asked);
         describe(level.attributes, objects.front(), asked);
+        if (!steps_.empty())
+            time_groups();
         part_ = crop_description(info_, options, name_);
     }
 
     const SeriesInfo& info() const override { return info_; }
-    std::size_t steps() const override { return layout_.time ? array_->shape()[*layout_.time] : 1; }
+    std::size_t steps() const override {
+        if (!steps_.empty())
+            return steps_.size();
+        if (layout_.time && info_.times.empty())
+            return array_->shape()[*layout_.time];
+        return layout_.time ? info_.times.size() : 1;
+    }
     std::uint32_t slices_at_once() const override {
         const std::uint32_t all = info_.grid.vertices[2], worth = slices_worth_asking(info_);
         constexpr std::uint32_t kOfPlain = 8; // each slab opens its chunks' files once more
@@ -89,7 +102,11 @@ class ZarrVolume final : public DecodedFile {
     }
 
   private:
-    std::string array_name() const { return array_->path().empty() ? "values" : array_->path(); }
+    std::string array_name() const {
+        return !steps_.empty()          ? name_of_steps_
+               : array_->path().empty() ? "values"
+                                        : array_->path();
+    }
 
     void open_array(const json& image, ReadOptions& options) {
         if (auto root = ZarrArray::open(*store_, "")) {
@@ -116,25 +133,82 @@ class ZarrVolume final : public DecodedFile {
         }
         std::vector<std::string> paths;
         find_arrays(*store_, "", 0, paths);
-        std::vector<StoredArray> offered;
+        std::vector<GroupedPath> volumes;
+        std::vector<std::optional<StoredType>> types;
         for (const std::string& path : paths) {
             const auto array = ZarrArray::open(*store_, path);
             const auto dimensions =
                 array ? std::ranges::count_if(array->shape(), [](auto n) { return n != 1; }) : 0;
-            if (dimensions >= 3)
-                offered.push_back({.name = path,
-                                   .type = array->type(),
-                                   .shape = fmt::format("{}", fmt::join(array->shape(), " x "))});
+            if (dimensions < 3)
+                continue;
+            types.push_back(array->type());
+            volumes.push_back({path, fmt::format("{}", fmt::join(array->shape(), " x "))});
         }
-        if (offered.empty())
+        if (volumes.empty())
             throw Error(fmt::format("{}: holds no array of three dimensions{}{}", name_,
                                     paths.empty() ? "" : ", only ", fmt::join(paths, ", ")));
+        const auto has_time = [&](const std::string& group) { return time_of(group).has_value(); };
+        std::vector<GroupedArray> arrays =
+            wanted.find('*') == wanted.npos ? grouped_arrays(volumes, has_time)
+                                            : std::vector{matching_arrays(volumes, wanted, name_)};
+        std::vector<StoredArray> offered;
+        for (const GroupedArray& each : arrays) {
+            if (!each.or_else.empty() && !options.any_array)
+                throw Error(fmt::format("{}: {}", name_, which_steps(each)));
+            if (!each.or_else.empty() && info_.notes.empty())
+                info_.notes.push_back(which_steps(each));
+            const std::size_t first = each.steps.front();
+            offered.push_back(
+                {.name = each.name,
+                 .type = types[first],
+                 .shape =
+                     volumes[first].kind +
+                     (each.steps.size() > 1 ? fmt::format(", {} steps", each.steps.size()) : "")});
+        }
         ReadOptions which = options;
         which.component.reset();
+        if (wanted.find('*') != wanted.npos)
+            which.array.reset(); // there is one
         const ChosenScalar chosen = choose_scalar(offered, which, name_);
         info_.arrays = chosen.offered;
-        array_ = ZarrArray::open(*store_, chosen.array.name);
+        const auto found = std::ranges::find(arrays, chosen.array.name, &GroupedArray::name);
+        array_ = ZarrArray::open(*store_, volumes[found->steps.front()].path);
+        if (found->steps.size() > 1) {
+            name_of_steps_ = found->name;
+            for (const std::size_t step : found->steps)
+                steps_.push_back(volumes[step].path);
+        }
         options.array.reset();
+    }
+
+    /// The time that a group states.
+    std::optional<double> time_of(const std::string& group) const {
+        const json attributes = attributes_of_group(*store_, group);
+        for (const char* name : {"time", "Time", "TIME", "t"})
+            if (const auto found = attributes.find(name);
+                found != attributes.end() && found->is_number())
+                return found->get<double>();
+        return std::nullopt;
+    }
+
+    /// Times of steps that have a group each: as the groups state them, or their names.
+    void time_groups() {
+        if (const auto named = times_of_groups(steps_)) {
+            info_.times = named->times;
+            info_.time_unit = named->unit;
+        }
+        std::vector<double> times;
+        for (const std::string& path : steps_)
+            for (std::size_t end = path.rfind('/'); end != path.npos && end > 0;
+                 end = path.rfind('/', end - 1))
+                if (const auto time = time_of(path.substr(0, end))) {
+                    times.push_back(*time);
+                    break;
+                }
+        if (times.size() == steps_.size() && times.front() != times.back()) {
+            info_.times = std::move(times);
+            info_.time_unit.clear();
+        }
     }
 
     void describe(const json& attributes, const StatedAttributes& of_array,
@@ -184,8 +258,7 @@ class ZarrVolume final : public DecodedFile {
         const auto long_dimensions = [&](const std::string& of) {
             return long_dimensions_of(*store_, *array_, of);
         };
-        if (auto note =
-                note_on_attributes(of_array, curved_coordinates(of_array, long_dimensions)))
+        if (auto note = note_on_attributes(of_array, curved_coordinates(of_array, long_dimensions)))
             info_.notes.push_back(std::move(*note));
         if (layout_.time)
             place_steps(stated_.axes[*layout_.time], info_);
@@ -222,6 +295,8 @@ class ZarrVolume final : public DecodedFile {
         }
         start[layout_.space[2]] += slices.first;
         count[layout_.space[2]] = slices.count;
+        if (!steps_.empty() && step != open_step_)
+            open_step(step);
         if (layout_.time)
             start[*layout_.time] = step;
         if (layout_.member)
@@ -231,9 +306,22 @@ class ZarrVolume final : public DecodedFile {
         array_->read(start, count, out);
     }
 
+    void open_step(std::size_t step) {
+        auto array = ZarrArray::open(*store_, steps_[step]);
+        const std::string name = fmt::format("{}: {}", name_, steps_[step]);
+        if (!array || array->shape() != array_->shape() || array->type() != array_->type() ||
+            scaling_by(attributes_of(array->attributes()), name) != info_.scaling)
+            throw Error(fmt::format("{} is not as {}", name, steps_.front()));
+        array_ = std::move(*array);
+        open_step_ = step;
+    }
+
     std::unique_ptr<ZarrStore> store_;
     std::string name_;
-    std::optional<ZarrArray> array_;
+    std::optional<ZarrArray> array_; ///< of steps in groups the one of the open step
+    std::vector<std::string> steps_; ///< arrays of the steps; empty: all are in one
+    std::string name_of_steps_;      ///< their path, with `*` for what differs
+    std::size_t open_step_ = 0;
     StatedArray stated_;
     ArrayLayout layout_;
     std::size_t member_ = 0;

@@ -61,7 +61,7 @@ ZarrLevel level_of(const ZarrStore& store, const std::string& array) {
 void find_arrays(const ZarrStore& store, const std::string& group, int depth,
                  std::vector<std::string>& paths) {
     constexpr int kDeepest = 6;
-    constexpr std::size_t kMost = 1000;
+    constexpr std::size_t kMost = 20'000;
     for (const std::string& name : store.names(group)) {
         if (depth >= kDeepest || paths.size() >= kMost || name.starts_with('.') ||
             name == "zarr.json")

@@ -25,7 +25,7 @@ struct ZarrLevel {
 /// Asks the groups around an array, from the nearest on: `1` and the root for `1/0`.
 ZarrLevel level_of(const ZarrStore& store, const std::string& array);
 
-/// Adds the paths of the arrays below a group, at most 1000.
+/// Adds the paths of the arrays below a group, at most 20,000.
 /// @param depth of the group
 void find_arrays(const ZarrStore& store, const std::string& group, int depth,
                  std::vector<std::string>& paths);

@@ -6,6 +6,7 @@
 // is LPS, whatever AnatomicalOrientation says.
 #include "index/error.h"
 #include "index/lower_case.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
@@ -177,9 +178,9 @@ void find_data(const MetaImageHeader& header, const fs::path& path, std::uint64_
     if (names.empty())
         throw Error(
             fmt::format("{}: ElementDataFile LIST, expected names of files after it", name));
-    layout.data = path.parent_path() / names.front();
+    layout.data = file_named_in(path, names.front());
     for (const std::string& one : names.size() > 1 ? names : std::vector<std::string>())
-        layout.parts.push_back({path.parent_path() / one, 0, 0});
+        layout.parts.push_back({file_named_in(path, one), 0, 0});
     const auto skipped = header.find({"HeaderSize"});
     if (!skipped)
         return;

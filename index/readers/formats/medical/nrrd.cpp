@@ -7,6 +7,7 @@
 #include "index/readers/formats/length_units.h"
 #include "index/readers/formats/medical/nrrd_axes.h"
 #include "index/readers/formats/medical/nrrd_header.h"
+#include "index/readers/formats/named_file.h"
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/reordered_file.h"
 #include "index/readers/formats/stored_file.h"
@@ -257,10 +258,10 @@ void find_data(const NrrdHeader& header, const fs::path& path, std::uint64_t val
             names = header.listed();
         if (names.empty())
             throw Error(fmt::format("{}: data file LIST, expected names of files after it", file));
-        layout.data = path.parent_path() / names.front();
+        layout.data = file_named_in(path, names.front());
         layout.offset = 0;
         for (const std::string& one : names.size() > 1 ? names : std::vector<std::string>())
-            layout.parts.push_back({path.parent_path() / one, 0, 0});
+            layout.parts.push_back({file_named_in(path, one), 0, 0});
     }
     const auto skip = [&](const char* key) {
         const auto text = header.find(key);

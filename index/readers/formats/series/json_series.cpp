@@ -2,6 +2,7 @@
 #include "index/readers/formats/series/json_series.h"
 
 #include "index/error.h"
+#include "index/readers/formats/named_file.h"
 #include "index/system/input_file.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ ListedFiles read_json_series(const std::filesystem::path& path) {
             !file.contains("time") || !file["time"].is_number())
             throw Error(fmt::format("{}: file {} has no name, or no time that is a number", name,
                                     files.size()));
-        files.push_back({.path = path.parent_path() / file["name"].get<std::string>(),
+        files.push_back({.path = file_named_in(path, file["name"].get<std::string>()),
                          .time = file["time"].get<double>()});
     }
     if (files.empty())

@@ -1,6 +1,8 @@
 // Takes names with numbers apart.
 #include "index/readers/formats/series/numbered_name.h"
 
+#include "index/readers/formats/series/dated_name.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -236,11 +238,16 @@ NumberedName taken_apart(const std::string& name, NameStyle style) {
     const NumberScan scan(name, style);
     std::string text;
     for (std::size_t i = 0; i < name.size();) {
-        if (!is_numeral(name[i])) {
+        const auto month = style.months ? month_word_at(name, i) : std::nullopt;
+        if (!is_numeral(name[i]) && !month) {
             text += name[i++];
             continue;
         }
-        NameNumber number = scan.number_at(i);
+        NameNumber number = month ? NameNumber{.text = name.substr(i, month->length),
+                                               .value = static_cast<double>(month->month),
+                                               .whole = {},
+                                               .begin = i}
+                                  : scan.number_at(i);
         text.resize(text.size() - (i - number.begin)); // the sign belongs to the number
         i = number.end();
         parts.texts.push_back(std::move(text));
@@ -282,11 +289,13 @@ bool natural_less(const NumberedName& a, const NumberedName& b) {
 ReadNames read_names(const std::vector<std::string>& names) {
     NameStyle style;
     std::vector<NumberedName> apart = all_apart(names, style);
-    NameStyle with_signs = style;
-    with_signs.signs_behind_letters = true;
-    if (std::vector<NumberedName> other = all_apart(names, with_signs);
-        patterns_among(other) < patterns_among(apart)) {
-        style = with_signs;
+    for (const auto more : {&NameStyle::signs_behind_letters, &NameStyle::months}) {
+        NameStyle with_more = style;
+        with_more.*more = true;
+        std::vector<NumberedName> other = all_apart(names, with_more);
+        if (patterns_among(other) >= patterns_among(apart))
+            continue;
+        style = with_more;
         apart = std::move(other);
     }
     NameStyle other_style = style;
@@ -309,6 +318,16 @@ ReadNames read_names(const std::vector<std::string>& names) {
                                          "{}",
                                          a, b);
         break;
+    }
+    if (style.months)
+        read.note = fmt::format("words in the names are read as months: {} before {}",
+                                last_part(names[read.order[0]]), last_part(names[read.order[1]]));
+    if (DateOrder dates = order_of_dates(names);
+        !dates.order.empty() && dates.order != read.order) {
+        read.order = std::move(dates.order);
+        read.note = std::move(dates.note);
+    } else if (dates.order.empty() && !dates.note.empty()) {
+        read.note = std::move(dates.note);
     }
     return read;
 }

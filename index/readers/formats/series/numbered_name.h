@@ -18,6 +18,8 @@ struct NameStyle {
     bool decimals = true;
     /// In `t-1` the number is below zero; else only in `t_-1` and `t=-1`, as in `run-1` it is not.
     bool signs_behind_letters = false;
+    /// `jan` and `January` are 1.
+    bool months = false;
 };
 
 /// A number in a name.
@@ -60,7 +62,9 @@ struct ReadNames {
     std::optional<std::string> note;
 };
 
-/// Numbers with a point are decimals, unless that cannot be: beside `1.9`, `1.10` counts.
+/// Numbers with a point are decimals, unless that cannot be: beside `1.9`, `1.10` counts. Names that
+/// differ in the words for months are in the order of the year, and dates with the year behind the month
+/// in their order, where both are told from the names (see `order_of_dates`).
 ReadNames read_names(const std::vector<std::string>& names);
 
 /// Which numbers differ among names with the same texts; empty if texts differ.

@@ -2,6 +2,7 @@
 #include "index/readers/formats/series/tiff_head.h"
 
 #include "index/readers/formats/data_stream.h"
+#include "index/readers/formats/named_file.h"
 #include "index/system/input_file.h"
 
 #include <algorithm>
@@ -126,14 +127,17 @@ std::vector<fs::path> not_named_by_others(const std::vector<fs::path>& files) {
         // The text of several files may stand in one beside them.
         for (const std::string& beside : attributes_in(said, "MetadataFile")) {
             std::error_code ignored;
-            const fs::path path = file.parent_path() / fs::path(beside).filename();
+            const fs::path path =
+                file.parent_path() / fs::path(path_named_in(file, beside)).filename();
             if (path.extension() == ".ome" && fs::is_regular_file(path, ignored))
                 said = read_text(path, kMost);
         }
         if (said.find("<OME") == said.npos)
             continue;
         for (const std::string& other : attributes_in(said, "FileName"))
-            if (const fs::path path = file.parent_path() / fs::path(other).filename(); path != file)
+            if (const fs::path path =
+                    file.parent_path() / fs::path(path_named_in(file, other)).filename();
+                path != file)
                 named.insert(path);
     }
     // The one that names the others need not be the first.

@@ -5,10 +5,9 @@
 #include "index/lower_case.h"
 #include "index/readers/formats/axis_positions.h"
 #include "index/readers/formats/length_units.h"
-#include "index/readers/formats/stated/axis_dates.h"
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stored_file.h"
-#include "index/volume/time_unit.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -316,22 +315,25 @@ void place_axes(const StatedArray& array, const ArrayLayout& layout, const ReadO
 }
 
 void place_steps(const StatedAxis& time, SeriesInfo& info) {
-    if (!time.at.empty() && says_dates(time.unit))
-        return place_absolute_dates(time.at, time.unit, time.calendar, info);
-    if (!time.at.empty()) {
-        info.times = time.at;
-    } else if (time.regular && std::isfinite(time.first) && std::isfinite(time.step) &&
-               time.step > 0 && (time.length > 1 || time.first != 0)) {
-        for (std::uint64_t i = 0; i < time.length; ++i)
-            info.times.push_back(time.first + static_cast<double>(i) * time.step);
-    } else {
-        if (time.regular && time.length > 1)
-            info.notes.push_back(fmt::format("steps are {} apart by the file: their times are not "
-                                             "used (--time-step)",
-                                             time.step));
+    const std::string unit = time.unit == "1" ? "" : time.unit;
+    if (!time.at.empty())
+        return place_times({.name = time.coordinate.empty() ? time.name : time.coordinate,
+                            .values = time.at,
+                            .unit = unit,
+                            .calendar = time.calendar,
+                            .missing = time.missing},
+                           info);
+    if (!time.regular || (time.length == 1 && time.first == 0))
+        return;
+    if (!std::isfinite(time.first) || !(time.step > 0)) {
+        info.notes.push_back(fmt::format("steps are {} apart by the file: their times are not "
+                                         "used (--time-step)",
+                                         time.step));
         return;
     }
-    info.time_unit = time.unit == "1" ? "" : with_calendar(time.unit, time.calendar);
+    for (std::uint64_t i = 0; i < time.length; ++i)
+        info.times.push_back(time.first + static_cast<double>(i) * time.step);
+    info.time_unit = unit;
 }
 
 std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,

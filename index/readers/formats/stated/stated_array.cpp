@@ -5,6 +5,7 @@
 #include "index/readers/formats/stated/stated_array.h"
 
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
 
@@ -150,6 +151,12 @@ void take_cf_attributes(const StatedAttributes& variable, StatedAxis& axis) {
     axis.standard_name = variable.text("standard_name");
     axis.positive = variable.text("positive");
     axis.calendar = variable.text("calendar");
+    if (axis.calendar.empty()) // as FMS has it
+        axis.calendar = variable.text("calendar_type");
+    const Scaling scaling = scaling_by(variable, axis.coordinate);
+    for (const char* name : {"_FillValue", "missing_value"})
+        for (const double value : variable.numbers(name))
+            axis.missing.push_back(scaling(value));
 }
 
 std::optional<std::size_t> coordinate_of(const std::string& dimension, const std::string& named,

@@ -35,6 +35,7 @@ struct StatedAxis {
 
     /// Attributes of the CF conventions that the variable of the coordinates has.
     std::string axis, standard_name, positive, calendar;
+    std::vector<double> missing; ///< coordinates that stand for missing ones, scaled
 };
 
 /// One array with its axes.

@@ -1,7 +1,9 @@
 // Folders as users have them: one series beside other files, or several, which are listed.
 #include "index/readers/formats/open_series.h"
+#include "index/readers/process/reader_pool.h"
 #include "tests/support/reader_fixtures.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace isochron::index {
@@ -48,6 +50,49 @@ TEST_F(UsersFolder, IsReadAsTheSeriesThatItHolds) {
     EXPECT_THAT(series->info().sources, ElementsAre("Größe 9.NRRD", "Größe 10.NRRD"));
     EXPECT_EQ(values_of<std::uint8_t>(*series, 1), std::vector<std::uint8_t>(8, 'c'));
     EXPECT_THAT(series->info().notes, IsEmpty());
+}
+
+/// Each reader opens all places that it may read: a reader for each link would open as many as the
+/// square of the links. `ln -s`, git-annex and DataLad make such folders.
+TEST_F(UsersFolder, OfLinksIsReadByTheReaderThatReadsTheFirst) {
+    constexpr std::size_t kLinks = 24;
+    const auto write_links = [&](const std::string& to) {
+        std::string list;
+        for (std::size_t i = 0; i < kLinks; ++i) {
+            const fs::path file = write(
+                fmt::format("{}_store/{}/t.vtk", to, i),
+                fmt::format("# vtk DataFile Version 3.0\n{}\nASCII\nDATASET STRUCTURED_POINTS\n"
+                            "DIMENSIONS 2 2 2\nORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\n"
+                            "SCALARS v float\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 {}\n",
+                            i, i));
+            const std::string name = fmt::format("t_{}.vtk", i);
+            fs::create_directories(folder_.path() / to);
+            fs::create_symlink(file, folder_.path() / to / name);
+            list += fmt::format(R"({}{{"name": "{}", "time": {}}})", i ? ", " : "", name, i);
+        }
+        return write(to + "/all.vtk.series", R"({"files": [)" + list + "]}");
+    };
+    const auto readers_for = [](const std::vector<fs::path>& given) {
+        const std::size_t before = readers_of_this_process().started();
+        const auto series = open_series(given);
+        for (std::size_t step = 0; step < kLinks; ++step)
+            EXPECT_EQ(values_of<float>(*series, step).back(), static_cast<float>(step));
+        return readers_of_this_process().started() - before;
+    };
+    const fs::path list = write_links("listed"), alone = write_links("links");
+    fs::remove(alone);
+    EXPECT_LE(readers_for({list}), 1u);
+    EXPECT_LE(readers_for({alone.parent_path()}), 1u);
+    std::vector<fs::path> folders;
+    for (std::size_t i = 0; i < kLinks; ++i) {
+        const std::string name = fmt::format("t_{}.zarr", i);
+        write(name + "/.zarray", R"({"zarr_format": 2, "shape": [2, 2, 2], "chunks": [2, 2, 2],
+            "dtype": "<f4", "compressor": null, "fill_value": 0, "order": "C", "filters": null})");
+        folders.push_back(folder_.path() / name);
+        const std::vector<float> values(8, static_cast<float>(i));
+        write(name + "/0.0.0", text_of(values));
+    }
+    EXPECT_LE(readers_for(folders), 1u);
 }
 
 TEST_F(UsersFolder, MayHaveAFolderForEachStep) {

@@ -69,6 +69,14 @@ INSTANTIATE_TEST_SUITE_P(
         NamesOfTimes{"parts", {"run.1.9", "run.1.10", "run.2.1"}},
         NamesOfTimes{"dates", {"w_2020-01-09_18:00", "w_2020-01-10_00:00", "w_2020-02-01_00:00"}},
         NamesOfTimes{"long_numbers", {"t99999999999999999998", "t99999999999999999999"}},
+        NamesOfTimes{"months",
+                     {"c_jan.raw", "c_feb.raw", "c_mar.raw", "c_apr.raw", "c_may.raw", "c_jun.raw",
+                      "c_jul.raw", "c_aug.raw", "c_sep.raw", "c_oct.raw", "c_nov.raw",
+                      "c_dec.raw"}},
+        NamesOfTimes{"long_months", {"January", "February", "May", "August", "December"}},
+        NamesOfTimes{"months_with_years", {"v_nov2019", "v_jan2020", "v_feb2020", "v_jan2021"}},
+        NamesOfTimes{"days_first", {"v_31-12-2019", "v_01-01-2020", "v_15-01-2020"}},
+        NamesOfTimes{"no_months", {"decay_1", "decay_2", "marble_1"}},
         NamesOfTimes{"words", {"a1e", "a1e3x", "a2e", "b"}}),
     [](const auto& each) { return each.param.what; });
 
@@ -88,6 +96,10 @@ TEST(NumbersInNames, SayWhichReadingWasTakenWhereTheOtherGivesAnotherOrder) {
                 HasSubstr("read as decimals: t_0.25 before t_0.5"));
     EXPECT_THAT(read_names({"1.10", "1.9"}).note.value_or(""),
                 HasSubstr("not as decimals: 1.9 before 1.10"));
+    EXPECT_THAT(read_names({"c_apr", "c_jan"}).note.value_or(""),
+                HasSubstr("read as months: c_jan before c_apr"));
+    EXPECT_THAT(read_names({"c_01-01-2020", "c_31-12-2019"}).note.value_or(""),
+                HasSubstr("read as day-month-year: c_31-12-2019 before c_01-01-2020"));
     EXPECT_EQ(read_names({"t_1", "t_2"}).note, std::nullopt);
     EXPECT_EQ(read_names({"t_0.1", "t_0.2"}).note, std::nullopt) << "either reading";
 }
@@ -143,6 +155,16 @@ TEST_F(NamedSteps, HaveTimesFromTheNumbersThatDiffer) {
     options.times_from_names = true;
     EXPECT_THAT(open(options)->info().times, ElementsAre(-0.1, 0, 0.25));
     EXPECT_EQ(values(*open(options)), "abc");
+}
+
+TEST_F(NamedSteps, HaveTheUnitBehindTheNumberThatDiffers) {
+    ReadOptions options;
+    options.times_from_names = true;
+    write({"t_2ms.nrrd", "t_10ms.nrrd", "t_25ms.nrrd"});
+    EXPECT_THAT(open(options)->info().times, ElementsAre(2, 10, 25));
+    EXPECT_EQ(open(options)->info().time_unit, "ms");
+    options.time_unit = "us";
+    EXPECT_EQ(open(options)->info().time_unit, "us");
 }
 
 TEST_F(NamedSteps, AreEvenlySpacedAsFarAsTheirDigitsTell) {

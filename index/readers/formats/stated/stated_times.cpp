@@ -1,0 +1,191 @@
+// Makes times and dates of what files state.
+#include "index/readers/formats/stated/stated_times.h"
+
+#include "index/lower_case.h"
+#include "index/volume/calendar.h"
+#include "index/volume/time_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace isochron::index {
+namespace {
+
+/// [s] since 1970; none where it is no date.
+std::optional<double> seconds_of(const std::string& text) {
+    int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+    double second = 0;
+    char between = 0;
+    if (std::sscanf(text.c_str(), "%5d-%2d-%2d%c%2d:%2d:%6lf", &year, &month, &day, &between, &hour,
+                    &minute, &second) != 7 ||
+        std::string("_T ").find(between) == std::string::npos || hour < 0 || hour > 23 ||
+        minute < 0 || minute > 59 || !(second >= 0 && second < 61))
+        return std::nullopt;
+    const auto days = day_number({year, month, day}, Calendar::gregorian);
+    if (!days)
+        return std::nullopt;
+    return static_cast<double>(*days * 86400 + hour * 3600 + minute * 60) + second;
+}
+
+/// What the digits before the point of such a number are.
+struct AbsoluteUnit {
+    const char* begin; ///< how the name of the unit begins
+    int months, days;  ///< whether there are digits of it
+};
+constexpr std::array<AbsoluteUnit, 3> kAbsoluteUnits{
+    {{"day as %y%m%d", 1, 1}, {"month as %y%m", 1, 0}, {"year as %y", 0, 0}}};
+
+const AbsoluteUnit* absolute_unit(const std::string& unit) {
+    const std::string lower = lower_case(unit);
+    const auto known = std::ranges::find_if(
+        kAbsoluteUnits, [&](const AbsoluteUnit& each) { return lower.starts_with(each.begin); });
+    return known == kAbsoluteUnits.end() ? nullptr : known;
+}
+
+/// Days from a fixed date; the fraction is one of the day, the month or the year.
+std::optional<double> days_of(double number, const AbsoluteUnit& unit, Calendar calendar) {
+    constexpr double kMost = 1e9;
+    if (!(std::abs(number) < kMost))
+        return std::nullopt;
+    const double whole = std::floor(number), fraction = number - whole;
+    auto digits = static_cast<long long>(whole);
+    Date date, next;
+    if (unit.days) {
+        date.day = static_cast<int>(digits % 100);
+        digits /= 100;
+    }
+    if (unit.months) {
+        date.month = static_cast<int>(digits % 100);
+        digits /= 100;
+    }
+    date.year = static_cast<int>(digits);
+    const auto begin = day_number(date, calendar);
+    if (!begin)
+        return std::nullopt;
+    if (unit.days)
+        return static_cast<double>(*begin) + fraction;
+    next = date;
+    if (!unit.months || ++next.month == 13) {
+        next.month = 1;
+        ++next.year;
+    }
+    const auto end = day_number(next, calendar);
+    return end ? std::optional(static_cast<double>(*begin) +
+                               fraction * static_cast<double>(*end - *begin))
+               : std::nullopt;
+}
+
+/// Days since the first day of numbers that are dates; none where one is no date.
+std::optional<StatedTimes> days_of(const StatedTimes& stated, const AbsoluteUnit& unit) {
+    const auto calendar = calendar_of(lower_case(stated.calendar));
+    StatedTimes days = stated;
+    for (double& number : days.values) {
+        const auto day = calendar ? days_of(number, unit, *calendar) : std::nullopt;
+        if (!day)
+            return std::nullopt;
+        number = *day;
+    }
+    const double begin = std::floor(days.values.front());
+    const auto first = date_of(static_cast<std::int64_t>(begin), *calendar);
+    for (double& day : days.values)
+        day -= begin;
+    days.unit = fmt::format("days since {:04}-{:02}-{:02}", first->year, first->month, first->day);
+    return days;
+}
+
+/// Whether a number stands for no time. An ordinary number that a file names does so only where the
+/// times could not ascend with it.
+bool is_missing(double value, std::span<const double> named, bool ascend) {
+    constexpr double kOrdinary = 1e15, kFillOfReals = 9.969209968386869e36,
+                     kFillOfI32 = -2147483647, kFillOfI64 = -9.2233720368547758e18;
+    const auto is = [&](double missing) {
+        const bool ordinary = std::abs(missing) < kOrdinary;
+        return value == missing ? !(ordinary && ascend)
+                                : !ordinary && std::abs(value - missing) < 1e-6 * std::abs(missing);
+    };
+    return !std::isfinite(value) || value == kFillOfI32 || is(kFillOfReals) || is(kFillOfI64) ||
+           std::ranges::any_of(named, is);
+}
+
+/// Leaves out the last steps if their times are missing; makes NaN of other missing times.
+void drop_missing(StatedTimes& stated, SeriesInfo& info) {
+    std::vector<double>& values = stated.values;
+    const bool ascend = std::ranges::adjacent_find(
+                            values, [](double a, double b) { return !(a < b); }) == values.end();
+    for (double& value : values)
+        if (is_missing(value, stated.missing, ascend))
+            value = std::numeric_limits<double>::quiet_NaN();
+    const std::size_t all = values.size();
+    while (!values.empty() && std::isnan(values.back()))
+        values.pop_back();
+    if (all == 0)
+        return;
+    if (values.empty())
+        info.notes.push_back(
+            fmt::format("{} holds fill values alone: steps have no times", stated.name));
+    else if (const std::size_t first = values.size(), last = all - 1; first <= last)
+        info.notes.push_back(
+            fmt::format("{} no time (a fill value in {}), as where a run was stopped: left out",
+                        first == last ? fmt::format("step {} has", first)
+                                      : fmt::format("steps {} to {} have", first, last),
+                        stated.name));
+}
+
+} // namespace
+
+void place_times(StatedTimes stated, SeriesInfo& info) {
+    drop_missing(stated, info);
+    if (stated.values.empty())
+        return;
+    const AbsoluteUnit* const absolute = absolute_unit(stated.unit);
+    const auto days = absolute ? days_of(stated, *absolute) : std::nullopt;
+    if (days)
+        stated = *days;
+    info.times = std::move(stated.values);
+    info.time_unit = with_calendar(stated.unit, stated.calendar);
+    const std::size_t since = lower_case(stated.unit).find(" since ");
+    const bool says_dates =
+        absolute || (since != stated.unit.npos &&
+                     stated.unit.find_first_of("0123456789", since) != stated.unit.npos);
+    if (says_dates && !has_dates(info.times, info.time_unit))
+        info.notes.push_back(fmt::format("times in \"{}\" of the calendar \"{}\" are no dates: "
+                                         "they are taken for numbers",
+                                         stated.unit, stated.calendar));
+    else if (counts_months(info.time_unit))
+        info.notes.push_back(fmt::format("times in \"{}\" are counted in months of the calendar, "
+                                         "not in parts of a mean year",
+                                         stated.unit));
+}
+
+void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info) {
+    std::vector<double> times;
+    for (const std::string& date : dates) {
+        const auto seconds = seconds_of(date);
+        if (!seconds) {
+            info.notes.push_back(
+                fmt::format("{} of step {} is no date: steps have no times", name, times.size()));
+            return;
+        }
+        times.push_back(*seconds);
+    }
+    if (times.empty())
+        return;
+    std::string first = dates.front().substr(0, 19);
+    const double begin = *seconds_of(first);
+    for (double& at : times)
+        at -= begin;
+    std::ranges::replace(first, '_', ' ');
+    std::ranges::replace(first, 'T', ' ');
+    info.times = std::move(times);
+    info.time_unit = "seconds since " + first;
+}
+
+} // namespace isochron::index

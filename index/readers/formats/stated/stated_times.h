@@ -1,0 +1,32 @@
+// Times as files state them after the CF conventions and their relatives: numbers or text, with a
+// unit, a calendar and fill values, in whatever container.
+#pragma once
+
+#include "index/volume/volume_series.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::index {
+
+/// A time for each step, in their order.
+struct StatedTimes {
+    std::string name; ///< by which notes call them: `time`
+    std::vector<double> values;
+    std::string unit;          ///< `days since 2000-01-01`; `day as %Y%m%d.%f` where they are dates
+    std::string calendar = {}; ///< its name in CF or FMS, in any case; empty: the usual one
+    std::vector<double> missing = {}; ///< values that stand for missing ones
+};
+
+/// Sets times and their unit. The unit includes its reference date and, if it is not the usual one,
+/// its calendar. Steps at the end whose times are missing are left out, so that there are fewer times
+/// than there were; a missing one before them is NaN. Notes say so, and where dates are no dates.
+void place_times(StatedTimes stated, SeriesInfo& info);
+
+/// Sets times to the seconds since the first of such dates: `2005-08-28_12:00:00`. Where a text is
+/// none, a note says so, and there are no times.
+/// @param name by which the note calls them
+void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info);
+
+} // namespace isochron::index

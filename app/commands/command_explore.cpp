@@ -17,7 +17,7 @@ namespace {
 /// @return true: the options ask for nothing else
 bool only_describes(const ExploreOptions& options) {
     if (options.check_config) {
-        check_config(*options.check_config);
+        check_config(read_config(*options.check_config));
         return true;
     }
     if (!options.list_devices)
@@ -25,8 +25,8 @@ bool only_describes(const ExploreOptions& options) {
     const Config config = configure(options);
     for (const std::string& line : describe_devices(config))
         print_safely(fmt::format("{}\n", line));
-    for (const std::string& warning : device_warnings(config))
-        print_safely(fmt::format("warning: {}\n", warning));
+    for (const ConfigProblem& problem : device_problems_of(config))
+        print_safely(fmt::format("{}\n", line_of(problem, config)));
     return true;
 }
 

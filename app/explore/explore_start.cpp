@@ -227,8 +227,6 @@ void warn_of_colors(const Config& config, const index::IndexFile& file) {
 void warn(const Config& config) {
     for (const ConfigProblem& problem : problems_of(config))
         print_safely(fmt::format("isochron: {}\n", line_of(problem, config)), stderr);
-    for (const std::string& warning : device_warnings(config))
-        print_safely(fmt::format("isochron: warning: {}\n", one_line(warning)), stderr);
 }
 
 } // namespace isochron::app

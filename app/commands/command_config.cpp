@@ -38,6 +38,7 @@ Config sound_config(const std::string& text, const std::string& source,
     try {
         Config config = parse_config(text, name);
         config.name = source;
+        config.text.clear(); // it is not the text of the source
         config.installation = installation;
         for (const ConfigProblem& problem : problems_of(config))
             if (problem.wrong && !asks_for_tracker(problem))

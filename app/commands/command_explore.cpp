@@ -4,7 +4,11 @@
 #include "app/config/tracker_setup.h"
 #include "app/explore/exploration.h"
 #include "app/explore/explore_start.h"
+#include "app/output/guarded_outputs.h"
+#include "app/output/picture_note.h"
+#include "app/output/room_plan.h"
 #include "app/safe_text.h"
+#include "stereo/image_file.h"
 
 #include <fmt/format.h>
 
@@ -13,11 +17,29 @@
 namespace isochron::app {
 namespace {
 
+/// Draws the room of a configuration into the file that the options name.
+void draw_room(const Config& config, const ExploreOptions& options) {
+    if (!stereo::is_picture_name(*options.picture))
+        throw UsageError(
+            fmt::format("--picture: expected a name that ends with .png, .tif, .jpg or "
+                        ".exr, got {}",
+                        *options.picture));
+    guard_outputs({{*options.picture, OutputKind::picture}}, {{*options.check_config}},
+                  options.force);
+    stereo::write_image(room_plan(config, problems_of(config)), *options.picture,
+                        note_of_room_plan());
+}
+
 /// Describes the configuration or its devices if the options ask for that.
 /// @return true: the options ask for nothing else
 bool only_describes(const ExploreOptions& options) {
+    if (options.picture && !options.check_config)
+        throw UsageError("--picture draws a configuration: expected --check-config FILE, too");
     if (options.check_config) {
-        check_config(*options.check_config);
+        const Config config = read_config(*options.check_config);
+        if (options.picture)
+            draw_room(config, options);
+        check_config(config);
         return true;
     }
     if (!options.list_devices)
@@ -25,8 +47,8 @@ bool only_describes(const ExploreOptions& options) {
     const Config config = configure(options);
     for (const std::string& line : describe_devices(config))
         print_safely("{}\n", line);
-    for (const std::string& warning : device_warnings(config))
-        print_safely("warning: {}\n", warning);
+    for (const ConfigProblem& problem : device_problems_of(config))
+        print_safely("{}\n", line_of(problem, config));
     return true;
 }
 

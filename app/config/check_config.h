@@ -4,13 +4,14 @@
 #include "app/config/config.h"
 #include "app/config/config_problem.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace isochron::app {
 
 std::vector<ConfigProblem> problems_of(const Config& config);
+/// Those of the trackers and their devices.
+std::vector<ConfigProblem> device_problems_of(const Config& config);
 
 /// The problem as a line, with `warning:` if it may be intended:
 /// `cave.toml:12: windows.viewports.projection: it is mirrored`.
@@ -23,7 +24,7 @@ void expect_sound(const Config& config);
 std::string describe(const Config& config);
 
 /// Prints the description, then every problem.
-/// @throws ConfigError when the file cannot be read, or a problem is an error
-void check_config(const std::filesystem::path& path);
+/// @throws ConfigError when a problem is an error
+void check_config(const Config& config);
 
 } // namespace isochron::app

@@ -1,16 +1,26 @@
-// Finds the problems in the devices of a configuration.
-#include "app/config/check/check_parts.h"
+// Checks of trackers and their devices.
+#include "app/config/check/check.h"
 
 #include "app/config/tracker_setup.h"
+#include "app/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 namespace isochron::app {
 namespace {
+
+using interaction::DTrackKind;
 
 /// Every device of every tracker, in one form.
 struct ListedDevice {
@@ -18,6 +28,7 @@ struct ListedDevice {
     std::string key;    ///< key of the tracker's table
     std::string source; ///< the tracked body, sensor or channel that it reads
     int line;           ///< line of the tracker
+    bool has_buttons;   ///< whether its source can have buttons, and is there for them
 };
 
 std::string source_read_by(const interaction::DTrackOptions& dtrack,
@@ -33,14 +44,129 @@ std::string source_read_by(const interaction::VrpnOptions&, const interaction::V
                                   : fmt::format("sensor {} of {}", device.sensor, device.tracker);
 }
 
-std::vector<ListedDevice> listed(const DeviceConfig& devices) {
+bool is_for_buttons(const interaction::DTrackDevice& device) {
+    return device.kind == DTrackKind::flystick;
+}
+bool is_for_buttons(const interaction::OscDevice& device) {
+    return !device.device.buttons.empty() || !device.device.valuators.empty();
+}
+bool is_for_buttons(const interaction::VrpnDevice& device) {
+    return !device.buttons.empty() || !device.analog.empty();
+}
+
+std::vector<ListedDevice> listed(const CheckedRoom& room) {
     std::vector<ListedDevice> all;
-    each_tracker(devices, [&](const char* key, const auto& tracker) {
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
         for (const auto& each : tracker.devices)
-            if (const std::string source = source_read_by(tracker, each); !source.empty())
-                all.push_back({each.device, key, source, tracker.line});
+            all.push_back({each.device, key, source_read_by(tracker, each), tracker.line,
+                           is_for_buttons(each)});
     });
     return all;
+}
+
+/// Whether a viewer's head is what a device tracks.
+bool is_head(const CheckedRoom& room, const std::string& device) {
+    return std::ranges::count(room.installation().viewers, device, &stereo::Viewer::head) > 0;
+}
+
+/// Mouse, keyboard and a headset provide `head`; any other name needs a tracker.
+void heads_without_tracker(const CheckedRoom& room, const Tell& tell) {
+    const auto devices = listed(room);
+    for (const stereo::Viewer& viewer : room.installation().viewers) {
+        const std::string& head = viewer.head;
+        const bool tracked =
+            head == "head" || std::ranges::any_of(devices, [&](const ListedDevice& device) {
+                return device.options.name == head && device.options.has_pose;
+            });
+        if (!tracked)
+            tell(room, viewer.line.number,
+                 fmt::format("no tracker provides device {}, which tracks viewer {}", head,
+                             viewer.name));
+    }
+}
+
+/// A tracker that tracks no head.
+void trackers_without_head(const CheckedRoom& room, const Tell& tell) {
+    const auto devices = listed(room);
+    if (!devices.empty() && !room.config().openxr.enabled && is_head(room, "head") &&
+        std::ranges::none_of(devices, [&](const ListedDevice& device) {
+            return device.options.has_pose && is_head(room, device.options.name);
+        }))
+        tell(room, devices.front().line,
+             "no tracked device is called head: mouse and keyboard move it", devices.front().key);
+}
+
+/// Buttons of a device with a name that nothing acts on, and names with a slip.
+void names_without_effect(const CheckedRoom& room, const Tell& tell) {
+    const auto devices = listed(room);
+    const std::vector<std::string> known{"head", "wand", "wand2"};
+    const auto acts = [&](const std::string& name) {
+        return is_head(room, name) || std::ranges::count(known, name) > 0;
+    };
+    const bool hand = std::ranges::any_of(devices, [](const ListedDevice& device) {
+        return device.options.name == "wand" || device.options.name == "wand2";
+    });
+    for (const ListedDevice& device : devices) {
+        const std::string& name = device.options.name;
+        if (acts(name))
+            continue;
+        const bool letters = std::ranges::all_of(
+            name, [](char c) { return std::isalpha(static_cast<unsigned char>(c)); });
+        const std::string near = letters ? nearest_word(name, known) : "";
+        const bool taken = std::ranges::any_of(
+            devices, [&](const ListedDevice& other) { return other.options.name == near; });
+        if (!near.empty() && !taken)
+            tell(room, device.line,
+                 fmt::format("nothing acts on a device called {}; did you mean '{}'?", name, near),
+                 device.key);
+        else if (device.has_buttons && !hand)
+            tell(room, device.line,
+                 fmt::format("nothing acts on a device called {}: the hand with the buttons is "
+                             "called wand",
+                             name),
+                 device.key);
+    }
+}
+
+void sources_read_twice(const CheckedRoom& room, const Tell& tell) {
+    std::map<std::string, std::string> first;
+    for (const ListedDevice& device : listed(room)) {
+        if (device.source.empty())
+            continue;
+        const auto [known, is_new] = first.emplace(device.source, device.options.name);
+        if (!is_new)
+            tell(room, device.line,
+                 fmt::format("{} and {} are both {}", known->second, device.options.name,
+                             device.source),
+                 device.key);
+    }
+}
+
+/// Two trackers that both give a device its pose: only the first one counts.
+void poses_given_twice(const CheckedRoom& room, const Tell& tell) {
+    const auto devices = listed(room);
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (const auto& a = devices[j], &b = devices[i];
+                a.options.name == b.options.name && a.options.has_pose && b.options.has_pose)
+                tell(room, b.line,
+                     fmt::format("{} has its pose from the tracker of line {} already{}",
+                                 b.options.name, a.line,
+                                 b.key == "osc" ? ": pose = false for a box of buttons" : ""),
+                     b.key);
+    if (room.config().openxr.enabled)
+        for (const ListedDevice& device : devices)
+            if (device.options.name == "head" && device.options.has_pose)
+                tell(room, device.line, "a headset tracks head, too: openxr.enabled", device.key);
+}
+
+/// Calls `visit(endpoint, key, tracker)` for each tracker that listens on a port.
+template <class Visit>
+void each_listener(const CheckedRoom& room, Visit&& visit) {
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
+        if constexpr (requires { tracker.endpoint; })
+            visit(tracker.endpoint, std::string(key), tracker);
+    });
 }
 
 /// Whether one of two addresses also receives what is sent to the other.
@@ -51,75 +177,327 @@ bool overlap(const interaction::Endpoint& a, const interaction::Endpoint& b) {
     return a.port == b.port && (a.address == b.address || any(a.address) || any(b.address));
 }
 
-class DeviceJudge {
-  public:
-    DeviceJudge(const Config& config, Findings& findings)
-        : config_(config), devices_(listed(config.devices)), findings_(findings) {}
+void ports_taken_twice(const CheckedRoom& room, const Tell& tell) {
+    struct Listener {
+        interaction::Endpoint endpoint;
+        std::string key;
+        int line;
+    };
+    std::vector<Listener> before;
+    each_listener(room, [&](const interaction::Endpoint& endpoint, const std::string& key,
+                            const auto& tracker) {
+        for (const Listener& other : before)
+            if (overlap(endpoint, other.endpoint))
+                tell(room, tracker.line,
+                     fmt::format("{} is the {} tracker's of line {} already", to_string(endpoint),
+                                 other.key, other.line),
+                     key);
+        before.push_back({endpoint, key, tracker.line});
+    });
+}
 
-    void judge() {
-        heads();
-        sources();
-        ports();
-        for (const ConfigProblem& missing : missing_trackers(config_))
-            findings_.wrong(missing.line, missing.key, missing.text);
+void unlikely_ports(const CheckedRoom& room, const Tell& tell) {
+    constexpr int kFirstFree = 1024, kVrpn = 3883;
+    constexpr int kOfDTrack[]{50105, 50110}; // on which the controller takes commands
+    each_listener(room, [&](const interaction::Endpoint& endpoint, const std::string& key,
+                            const auto& tracker) {
+        const int port = endpoint.port;
+        const char* why = port < kFirstFree ? "only the administrator may listen there"
+                          : port == kVrpn   ? "it is VRPN's"
+                          : std::ranges::count(kOfDTrack, port) > 0
+                              ? "DTrack takes commands there; data go to the port of its output "
+                                "settings"
+                              : nullptr;
+        if (why)
+            tell(room, tracker.line, fmt::format("{}: {}", port, why), key);
+    });
+}
+
+bool is_this_machine(const std::string& address) {
+    return address.starts_with("127.") || address == "::1";
+}
+
+/// Addresses at which nothing arrives.
+void unlikely_addresses(const CheckedRoom& room, const Tell& tell) {
+    each_listener(room, [&](const interaction::Endpoint& endpoint, const std::string& key,
+                            const auto& tracker) {
+        const std::string& own = endpoint.address;
+        const int first = std::atoi(own.c_str());
+        std::string why;
+        if (own.find('.') != own.npos && ((first >= 224 && first < 240) || own.ends_with(".255")))
+            why = "is an address of many machines; expected this machine's";
+        if constexpr (requires { tracker.from; })
+            if (tracker.from && !is_this_machine(tracker.from->address)) {
+                if (is_this_machine(own))
+                    why = fmt::format("hears this machine alone, and from is {}",
+                                      tracker.from->address);
+                else if (own == tracker.from->address)
+                    why = "is from, the sender: address is this machine's";
+            }
+        if (!why.empty())
+            tell(room, tracker.line, fmt::format("{} {}", own, why), key);
+    });
+}
+
+void trackers_not_built_in(const CheckedRoom& room, const Tell& tell) {
+    for (const ConfigProblem& missing : missing_trackers(room.config()))
+        tell(room, missing.line, missing.text, missing.key);
+}
+
+/// Whether a rotation turns by amounts that are round in radians when they are read as degrees.
+bool looks_like_radians(const glm::quat& rotation) {
+    const glm::quat q = rotation.w < 0 ? -rotation : rotation;
+    const glm::vec3 axis(q.x, q.y, q.z);
+    const float sine = glm::length(axis);
+    if (sine <= 0)
+        return false;
+    // Rotations as small as these add up axis by axis.
+    const glm::vec3 degrees = axis * (glm::degrees(2 * std::atan2(sine, q.w)) / sine);
+    constexpr float kRound = glm::quarter_pi<float>(), kNear = 0.02f, kFull = 6.4f;
+    bool turns = false;
+    for (int i = 0; i < 3; ++i) {
+        const float turn = std::abs(degrees[i]);
+        const float whole = kRound * std::round(turn / kRound);
+        if (turn > kFull || std::abs(turn - whole) > kNear)
+            return false;
+        turns |= whole > 0;
     }
+    return turns;
+}
 
-  private:
-    /// Mouse, keyboard and a headset provide `head`; any other name needs a tracker.
-    void heads() {
-        for (const stereo::Viewer& viewer : config_.installation.viewers) {
-            const std::string& head = viewer.head;
-            const bool tracked =
-                head == "head" || std::ranges::any_of(devices_, [&](const ListedDevice& device) {
-                    return device.options.name == head && device.options.has_pose;
-                });
-            if (!tracked)
-                findings_.wrong(viewer.line.number, "viewers.head",
-                                fmt::format("no tracker provides device {}, which tracks viewer {}",
-                                            head, viewer.name));
+/// DTrack sends millimeters, which are read as such; other sources say nothing of their unit.
+void scales(const CheckedRoom& room, const Tell& tell) {
+    each_tracker(room.config().devices, [&]<class T>(const char* key, const T& tracker) {
+        constexpr bool kKnown = std::same_as<T, interaction::DTrackOptions>;
+        const double scale = tracker.common.calibration.scale;
+        if (scale < (kKnown ? 0.5 : 0.9e-3) || scale > 2)
+            tell(room, tracker.line,
+                 fmt::format("{:.4g}: meters for each meter that the tracker reports, expected 1{}",
+                             scale,
+                             kKnown ? ", as DTrack's millimeters are read as such"
+                                    : ", or 0.001 where it takes millimeters for meters"),
+                 key);
+    });
+}
+
+void places_of_trackers(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kBeside = 5; // [m] from walls and viewers
+    std::vector<const Wall*> walls;
+    for (const Wall& wall : room.walls())
+        walls.push_back(&wall);
+    const glm::vec3 eyes = room.installation().viewers.front().position;
+    Box box{glm::min(eyes, glm::vec3(0)), glm::max(eyes, glm::vec3(0))};
+    if (!walls.empty())
+        box = {glm::min(box.low, CheckedRoom::box_of(walls).low),
+               glm::max(box.high, CheckedRoom::box_of(walls).high)};
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
+        const glm::vec3 at = tracker.common.calibration.room_from_tracker.position;
+        const float away = glm::distance(at, glm::clamp(at, box.low, box.high));
+        if (away > kBeside)
+            tell(
+                room, tracker.line,
+                fmt::format("the tracker's origin is {:.4g} m from walls and viewer: meters in the "
+                            "room{}",
+                            away, other_unit(glm::length(at), 0.3f, 5)),
+                key);
+    });
+}
+
+void orientations_of_trackers(const CheckedRoom& room, const Tell& tell) {
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
+        if (looks_like_radians(tracker.common.calibration.room_from_tracker.orientation))
+            tell(room, tracker.line, "its angles are round in radians, and are read as degrees",
+                 key);
+    });
+}
+
+/// DTrack's frame is calibrated with y or z up.
+void tilted_trackers(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kLevel = 0.9945f; // cosine of 6 degrees
+    for (const interaction::DTrackOptions& tracker : room.config().devices.dtrack) {
+        const glm::quat turn = tracker.common.calibration.room_from_tracker.orientation;
+        const glm::vec3 up = glm::inverse(turn) * glm::vec3(0, 1, 0); // in the tracker's axes
+        if (std::max(up.y, up.z) < kLevel && !looks_like_radians(turn))
+            tell(room, tracker.line,
+                 fmt::format("the room's up is ({:.2f} {:.2f} {:.2f}) in the tracker's axes, "
+                             "expected +Y, or +Z as with [0, -90, 0]: heading, pitch, roll in "
+                             "degrees",
+                             up.x + 0.0f, up.y + 0.0f, up.z + 0.0f),
+                 "dtrack");
+    }
+}
+
+void offsets(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kOnHead = 0.35f, kInHand = 0.6f, kElsewhere = 1.5f; // [m] from a sensor
+    for (const ListedDevice& device : listed(room)) {
+        const std::string& name = device.options.name;
+        const float arm = glm::length(device.options.calibration.sensor_from_thing.position);
+        const bool head = is_head(room, name);
+        const float most = head ? kOnHead : name.starts_with("wand") ? kInHand : kElsewhere;
+        if (arm > most)
+            tell(room, device.line,
+                 fmt::format("{}: {:.4g} m from its sensor{}: offsets are in meters", name, arm,
+                             head ? " to between the eyes" : ""),
+                 device.key);
+    }
+}
+
+void rotations(const CheckedRoom& room, const Tell& tell) {
+    for (const ListedDevice& device : listed(room))
+        if (looks_like_radians(device.options.calibration.sensor_from_thing.orientation))
+            tell(room, device.line,
+                 fmt::format("{}: its angles are round in radians, and are read as degrees",
+                             device.options.name),
+                 device.key);
+}
+
+/// A marker has no orientation: the eyes would not turn with the head.
+void markers_as_heads(const CheckedRoom& room, const Tell& tell) {
+    const auto& walls = room.walls();
+    const bool around = std::ranges::any_of(walls, [&](const Wall& wall) {
+        return glm::dot(wall.normal, walls.front().normal) < 0.3f;
+    });
+    for (const interaction::DTrackOptions& tracker : room.config().devices.dtrack)
+        for (const interaction::DTrackDevice& each : tracker.devices)
+            if (each.kind == DTrackKind::marker && is_head(room, each.device.name) && around)
+                tell(room, tracker.line,
+                     fmt::format("{}: a marker has no orientation, so the eyes do not turn to the "
+                                 "walls at the side: expected a body",
+                                 each.device.name),
+                     "dtrack");
+}
+
+/// Text that says which number a list has twice; empty: none.
+template <class T>
+std::string twice(const std::vector<T>& numbers) {
+    std::set<T> before;
+    for (const T number : numbers)
+        if (!before.insert(number).second)
+            return fmt::format("{} is in it twice", number);
+    return {};
+}
+
+void button_lists(const CheckedRoom& room, const Tell& tell) {
+    constexpr std::uint32_t kMost = 15; // of a Flystick, with room for those to come
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
+        for (const auto& each : tracker.devices) {
+            const auto& buttons = each.device.buttons;
+            std::string why = twice(buttons);
+            bool powers = buttons.size() >= 4;
+            for (std::size_t i = 0; i < buttons.size(); ++i)
+                powers = powers && buttons[i] == 1u << std::min<std::size_t>(i, 31);
+            if (powers)
+                why = "buttons have numbers from 0, no bits";
+            if constexpr (requires { each.kind; }) {
+                if (!buttons.empty() && each.kind != DTrackKind::flystick)
+                    why = fmt::format("a {} has no buttons, a flystick has", name_of(each.kind));
+                else if (!buttons.empty() && std::ranges::max(buttons) > kMost)
+                    why = fmt::format("{} is no button of a Flystick, they are counted from 0",
+                                      std::ranges::max(buttons));
+            } else if constexpr (requires { each.tracker; }) {
+                if (!buttons.empty() && each.buttons.empty())
+                    why = "without button = NAME@HOST there are none";
+            }
+            if (!why.empty())
+                tell(room, tracker.line,
+                     fmt::format("{}: [{}]: {}", each.device.name, fmt::join(buttons, ", "), why),
+                     key);
         }
-    }
+    });
+}
 
-    void sources() {
-        std::map<std::string, std::string> first;
-        for (const ListedDevice& device : devices_) {
-            const auto [known, is_new] = first.emplace(device.source, device.options.name);
-            if (!is_new)
-                findings_.warn(device.line, device.key + ".devices",
-                               fmt::format("{} and {} are both {}", known->second,
-                                           device.options.name, device.source));
+void valuator_lists(const CheckedRoom& room, const Tell& tell) {
+    each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
+        for (const auto& each : tracker.devices) {
+            const auto& valuators = each.device.valuators;
+            std::string why = twice(valuators);
+            if constexpr (requires { each.kind; }) {
+                if (!valuators.empty() && each.kind != DTrackKind::flystick)
+                    why = fmt::format("a {} has no valuators, a flystick has", name_of(each.kind));
+                else if (!valuators.empty() && std::ranges::max(valuators) > 7)
+                    why = fmt::format("{} is no valuator of a Flystick, they are counted from 0",
+                                      std::ranges::max(valuators));
+            } else if constexpr (requires { each.tracker; }) {
+                if (!valuators.empty() && each.analog.empty())
+                    why = "without analog = NAME@HOST there are none";
+            }
+            if (!why.empty())
+                tell(room, tracker.line,
+                     fmt::format("{}: [{}]: {}", each.device.name, fmt::join(valuators, ", "), why),
+                     key);
         }
-    }
+    });
+}
 
-    void ports() {
-        struct Listener {
-            interaction::Endpoint endpoint;
-            std::string key;
-            int line;
-        };
-        std::vector<Listener> listeners;
-        each_tracker(config_.devices, [&](const char* key, const auto& tracker) {
-            if constexpr (requires { tracker.endpoint; })
-                listeners.push_back({tracker.endpoint, key, tracker.line});
-        });
-        for (std::size_t i = 0; i < listeners.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                if (overlap(listeners[i].endpoint, listeners[j].endpoint))
-                    findings_.wrong(listeners[i].line, listeners[i].key + ".port",
-                                    fmt::format("{} is the {} tracker's of line {} already",
-                                                to_string(listeners[i].endpoint), listeners[j].key,
-                                                listeners[j].line));
-    }
+void valuator_factors(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kMost = 20;
+    for (const ListedDevice& device : listed(room))
+        for (const float factor : device.options.valuator_factors)
+            if (factor == 0 || std::abs(factor) > kMost)
+                tell(room, device.line,
+                     fmt::format("{}: {:g} {}; 1 leaves a valuator as it is, from -1 to 1",
+                                 device.options.name, factor,
+                                 factor == 0 ? "makes a valuator stand still"
+                                             : "moves it at the slightest touch"),
+                     device.key);
+}
 
-    const Config& config_;
-    std::vector<ListedDevice> devices_;
-    Findings& findings_;
+void limits_of_prediction(const CheckedRoom& room, const Tell& tell) {
+    for (const ListedDevice& device : listed(room)) {
+        const interaction::PredictionOptions& prediction = device.options.prediction;
+        const interaction::Seconds wanted = prediction.display_delay + device.options.latency;
+        if (prediction.on && device.options.has_pose && wanted > 2 * prediction.limit)
+            tell(room, device.line,
+                 fmt::format("{}: {:.4g} ms are to be predicted, of which the limit lets through "
+                             "{:.4g} ms",
+                             device.options.name, 1e3 * wanted.count(),
+                             1e3 * prediction.limit.count()),
+                 device.key);
+    }
+}
+
+/// `Tracker0@host`, not `host@Tracker0`.
+void names_of_vrpn(const CheckedRoom& room, const Tell& tell) {
+    for (const interaction::VrpnOptions& tracker : room.config().devices.vrpn)
+        for (const interaction::VrpnDevice& each : tracker.devices)
+            for (const std::string& name : {each.tracker, each.buttons, each.analog}) {
+                const std::size_t at = std::min(name.find('@'), name.size());
+                if (!name.empty() && (at == 0 || at + 1 >= name.size() ||
+                                      interaction::is_address(name.substr(0, at))))
+                    tell(room, tracker.line,
+                         fmt::format("{}: '{}': expected NAME@HOST", each.device.name, name),
+                         "vrpn");
+            }
+}
+
+constexpr Check kOfDevices[]{
+    {"viewers.head", Check::wrong, heads_without_tracker},
+    {"*.devices", Check::odd, sources_read_twice},
+    {"*.port", Check::wrong, ports_taken_twice},
+    {"*", Check::wrong, trackers_not_built_in},
+    {"*.devices.name", Check::odd, trackers_without_head},
+    {"*.devices.name", Check::odd, names_without_effect},
+    {"*.devices.name", Check::odd, poses_given_twice},
+    {"*.port", Check::odd, unlikely_ports},
+    {"*.address", Check::odd, unlikely_addresses},
+    {"*.scale", Check::odd, scales},
+    {"*.position", Check::odd, places_of_trackers},
+    {"*.orientation", Check::odd, orientations_of_trackers},
+    {"*.orientation", Check::odd, tilted_trackers},
+    {"*.devices.offset", Check::odd, offsets},
+    {"*.devices.rotation", Check::odd, rotations},
+    {"*.devices.marker", Check::odd, markers_as_heads},
+    {"*.devices.buttons", Check::odd, button_lists},
+    {"*.devices.valuators", Check::odd, valuator_lists},
+    {"*.devices.valuator_factors", Check::odd, valuator_factors},
+    {"*.prediction_limit_ms", Check::odd, limits_of_prediction},
+    {"*.devices.tracker", Check::odd, names_of_vrpn},
 };
 
 } // namespace
 
-void check_devices(const Config& config, Findings& findings) {
-    DeviceJudge(config, findings).judge();
+std::span<const Check> checks_of_devices() {
+    return kOfDevices;
 }
 
 } // namespace isochron::app

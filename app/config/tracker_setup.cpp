@@ -154,19 +154,4 @@ std::vector<ConfigProblem> missing_trackers(const Config& config) {
     return lacking;
 }
 
-std::vector<std::string> device_warnings(const Config& config) {
-    std::vector<std::string> warnings;
-    const auto warn = [&](std::string_view text) {
-        warnings.push_back(fmt::format("{}: {}", config.name, text));
-    };
-    bool head = false;
-    each_tracker(config.devices, [&](const char*, const auto& tracker) {
-        for (const auto& each : tracker.devices)
-            head |= each.device.name == "head" && each.device.has_pose;
-    });
-    if (!config.devices.empty() && !head && !config.openxr.enabled)
-        warn("no tracked device is called head: mouse and keyboard move it");
-    return warnings;
-}
-
 } // namespace isochron::app

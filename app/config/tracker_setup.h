@@ -21,7 +21,4 @@ std::vector<std::string> describe_devices(const Config& config);
 /// The trackers that the configuration asks for and this program was built without.
 std::vector<ConfigProblem> missing_trackers(const Config& config);
 
-/// Warnings about the devices, one line each; empty if there are none.
-std::vector<std::string> device_warnings(const Config& config);
-
 } // namespace isochron::app

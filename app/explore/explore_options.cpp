@@ -48,6 +48,9 @@ void add_explore_options(Command& command, ExploreOptions& options) {
     command.option("--check-config", options.check_config,
                    "List the windows, screens, viewers and devices of this configuration and its "
                    "errors, and exit");
+    command.option("--picture", options.picture,
+                   "With --check-config: draw floor plan and elevations of the room, with walls, "
+                   "eyes, trackers and data, into this file (.png, .tif, .jpg, .exr)");
     command.flag("--emulate", options.emulate,
                  "Show the whole installation in one window: the room from outside, with the "
                  "picture on every wall");
@@ -82,8 +85,8 @@ void add_explore_options(Command& command, ExploreOptions& options) {
     command.option("--record", options.record, "Record the session to this file (JSON Lines)");
     command.flag(
         "--force", options.force,
-        "Let --record replace an existing recording, and --report and --session any file but "
-        "one that is read; else these replace only a report and a session");
+        "Let --record replace an existing recording, and --report, --session and --picture any "
+        "file but one that is read; else these replace only a report, a session, a picture");
     command.option("--session", options.session,
                    "Save the session in this file (NAME.isochron-session) instead of the user's "
                    "state folder; it is saved every 30 s and at the end");

@@ -17,7 +17,7 @@ struct ExploreOptions {
     /// The array of files with several shapes that was chosen; empty: the user is asked.
     std::optional<std::string> array;
     std::string config = "desktop";
-    std::optional<std::string> check_config, context, stereo, quality, footprint, shape;
+    std::optional<std::string> check_config, picture, context, stereo, quality, footprint, shape;
     std::optional<std::string> record, report, between, control;
     std::optional<double> isovalue, seconds;
     std::optional<std::uint32_t> step;

@@ -225,8 +225,6 @@ void warn_of_colors(const Config& config, const index::IndexFile& file) {
 void warn(const Config& config) {
     for (const ConfigProblem& problem : problems_of(config))
         print_safely(stderr, "isochron: {}\n", line_of(problem, config));
-    for (const std::string& warning : device_warnings(config))
-        print_safely(stderr, "isochron: warning: {}\n", warning);
 }
 
 } // namespace isochron::app

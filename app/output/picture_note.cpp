@@ -56,6 +56,11 @@ glm::ivec2 size_from(const json& value) {
             interaction::natural(list[1], "size", kLargestWindow)};
 }
 
+std::string note_without_data(const char* shows) {
+    const json value{{"format", kNoteFormat}, {"version", kNoteVersion}, {shows, true}};
+    return fmt::format("{}{}{}", kBegin, value.dump(), kEnd);
+}
+
 PictureNote note_from_json(const json& value) {
     interaction::Members members(value, "picture");
     if (interaction::text(members.at("format"), "format") != kNoteFormat)
@@ -65,6 +70,9 @@ PictureNote note_from_json(const json& value) {
         throw interaction::Error(
             "it shows the test pattern, which `isochron replay --test-pattern` "
             "draws");
+    if (members.find("room_plan"))
+        throw interaction::Error("it shows a configuration, which `isochron explore --check-config "
+                                 "FILE --picture` draws");
     const auto text = [&](const char* key) { return interaction::text(members.at(key), key); };
     PictureNote note;
     note.program = text("program");
@@ -156,8 +164,11 @@ std::string text_of(const PictureNote& note) {
 }
 
 std::string note_of_test_pattern() {
-    const json value{{"format", kNoteFormat}, {"version", kNoteVersion}, {"test_pattern", true}};
-    return fmt::format("{}{}{}", kBegin, value.dump(), kEnd);
+    return note_without_data("test_pattern");
+}
+
+std::string note_of_room_plan() {
+    return note_without_data("room_plan");
 }
 
 PictureNote note_from(const std::string& text) {

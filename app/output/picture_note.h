@@ -56,6 +56,8 @@ struct PictureNote {
 std::string text_of(const PictureNote& note);
 /// The note of a picture that shows the test pattern: only by whom it was written.
 std::string note_of_test_pattern();
+/// The note of the figure of a configuration, alike.
+std::string note_of_room_plan();
 /// Parses a note. @throws interaction::Error, which does not name the file: none, of a test pattern,
 /// ...
 PictureNote note_from(const std::string& text);

@@ -117,7 +117,7 @@ CONSTANTS = {
     ("docs/guide/export.md", "128 MiB"): ("app/commands/command_export.cpp", "kMostKept = std::uint64_t{128} << 20"),
     ("docs/guide/headsets.md", "100 ms"): ("app/quality/frame_quality.h", "kStillAfter{0.1}"),
     ("docs/guide/tracking.md", "2 %"): ("interaction/trackers/calibration.cpp", "kNearlyOrthogonal = 0.02"),
-    ("docs/guide/walls.md", "2 %"): ("app/config/check_config.cpp", "kSquare = 0.02f"),
+    ("docs/guide/walls.md", "2 %"): ("app/config/check/check_screens.cpp", "kSquare = 0.02f"),
 }
 
 

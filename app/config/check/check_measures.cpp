@@ -1,205 +1,349 @@
-// Finds measures of a configuration that no room has.
-#include "app/config/check/check_parts.h"
+// Checks of viewers, their eyes, and of what is placed before them.
+#include "app/config/check/check.h"
 
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <string_view>
 
 namespace isochron::app {
 namespace {
 
-constexpr float kArmsLength = 1.5f;    ///< [m] from a sensor to what it is fixed on, at most
-constexpr float kSteepestHead = 40.0f; ///< [degrees] off the eyes, of a screen on the head
-/// Limits of the units that trackers have.
-constexpr double kLargestScale = 10, kSmallestScale = 1e-4;
+using stereo::Viewer;
 
-/// The line of `key = ` in a table of a file; 0: it is not there.
-int line_of_key(const std::string& text, std::string_view table, std::string_view key) {
-    std::istringstream lines(text);
-    std::string current;
-    int number = 0;
-    for (std::string line; std::getline(lines, line);) {
-        ++number;
-        const std::size_t start = line.find_first_not_of(" \t");
-        if (start == line.npos)
-            continue;
-        const std::string_view rest = std::string_view(line).substr(start);
-        if (rest.starts_with('['))
-            current = rest.substr(1, rest.find(']') - 1);
-        const std::size_t end = rest.find_first_of(" \t=");
-        if (current == table && rest.substr(0, end) == key)
-            return number;
-    }
-    return 0;
+/// Calls `visit(viewer, number)` for each viewer.
+template <class Visit>
+void each_viewer(const CheckedRoom& room, Visit&& visit) {
+    const auto& viewers = room.installation().viewers;
+    for (std::size_t i = 0; i < viewers.size(); ++i)
+        visit(viewers[i], i);
 }
 
-bool is_usual(const stereo::Screen& screen) {
-    const stereo::Screen usual;
-    return screen.lower_left == usual.lower_left && screen.upper_left == usual.upper_left &&
-           screen.upper_right == usual.upper_right;
+std::string at_place(const glm::vec3& place) {
+    return fmt::format("({:g} {:g} {:g})", place.x, place.y, place.z);
 }
 
-/// Whether a rotation turns by amounts that are round in radians when they are read as degrees.
-bool looks_like_radians(const glm::quat& rotation) {
-    const glm::quat q = rotation.w < 0 ? -rotation : rotation;
-    const glm::vec3 axis(q.x, q.y, q.z);
-    const float sine = glm::length(axis);
-    if (sine <= 0)
-        return false;
-    // Rotations as small as these add up axis by axis.
-    const glm::vec3 degrees = axis * (glm::degrees(2 * std::atan2(sine, q.w)) / sine);
-    constexpr float kRound = glm::quarter_pi<float>(), kNear = 0.02f, kFull = 6.4f;
-    bool turns = false;
-    for (int i = 0; i < 3; ++i) {
-        const float turn = std::abs(degrees[i]);
-        const float whole = kRound * std::round(turn / kRound);
-        if (turn > kFull || std::abs(turn - whole) > kNear)
-            return false;
-        turns |= whole > 0;
-    }
-    return turns;
+void viewers_without_viewport(const CheckedRoom& room, const Tell& tell) {
+    each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
+        if (std::ranges::none_of(room.viewports(), [&](const PlacedViewport& place) {
+                return place.viewport.viewer == number;
+            }))
+            tell(room, viewer.line.number,
+                 fmt::format("no viewport is for viewer {}", viewer.name));
+    });
 }
 
-class MeasureJudge {
-  public:
-    MeasureJudge(const Config& config, Findings& findings)
-        : config_(config), screens_(viewports_of(config)), findings_(findings) {}
+void shared_heads(const CheckedRoom& room, const Tell& tell) {
+    each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
+        for (std::size_t j = 0; j < number; ++j)
+            if (const Viewer& other = room.installation().viewers[j]; viewer.head == other.head)
+                tell(room, viewer.line.number,
+                     fmt::format("device {} tracks viewer {} and viewer {}", viewer.head,
+                                 other.name, viewer.name));
+    });
+}
 
-    void judge() {
-        viewers();
-        planes();
-        for (const PlacedViewport& screen : screens_)
-            projection(screen);
-        each_tracker(config_.devices, [&](const char* key, const auto& tracker) {
-            for (const auto& each : tracker.devices)
-                calibration(key, tracker.line, each.device);
+/// Where the floor is: the lowest floor that is a wall; or else the origin, if walls begin about
+/// there or above; or else the foot of the walls.
+float floor_level(const std::vector<const Wall*>& walls) {
+    constexpr float kUnder = 0.3f; // [m] that the foot of a wall may be under the floor
+    float floor = std::numeric_limits<float>::max();
+    for (const Wall* wall : walls)
+        if (wall->is_floor())
+            floor = std::min(floor, wall->middle.y);
+    if (floor < std::numeric_limits<float>::max())
+        return floor;
+    const float foot = walls.empty() ? 0 : CheckedRoom::box_of(walls).low.y;
+    return foot >= -kUnder ? 0 : foot;
+}
+
+/// Eyes far from all walls, above people, or on the floor.
+void places_of_viewers(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kRoomAround = 3, kTallest = 2.5f, kLowest = 0.35f, kWallHigh = 1.5f; // [m]
+    each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
+        const auto walls = room.walls_of(number);
+        const glm::vec3 at = viewer.position;
+        const int line = viewer.line.number;
+        if (!walls.empty()) {
+            const Box box = CheckedRoom::box_of(walls);
+            const float away = glm::distance(at, glm::clamp(at, box.low, box.high));
+            if (away > std::max(kRoomAround, glm::distance(box.low, box.high)))
+                return tell(room, line,
+                            fmt::format("{} is {:.4g} m from all of the screens, {:.4g} m up: "
+                                        "positions are in meters{}",
+                                        viewer.name, away, at.y, other_unit(at.y, 0.9f, 2.1f)));
+        }
+        const float level = floor_level(walls), up = at.y - level;
+        const float foot = walls.empty() ? level : CheckedRoom::box_of(walls).low.y; // of a stage
+        if (up > kTallest + 0.5f || at.y - std::max(level, foot) > kTallest)
+            return tell(room, line,
+                        fmt::format("{}: the eyes are {:.2f} m above the floor: are position and "
+                                    "corners in meters, from one origin on the floor?{}",
+                                    viewer.name, up, other_unit(at.y, 0.9f, 2.1f)));
+        const bool stands_in_room = std::ranges::any_of(walls, [&](const Wall* wall) {
+            return wall->is_floor() || (!wall->is_level() && wall->size.y >= kWallHigh &&
+                                        CheckedRoom::box_of(walls).low.y > -0.3f);
         });
-    }
+        if (stands_in_room && up < kLowest)
+            tell(room, line,
+                 fmt::format("{}: the eyes are {:.3g} m above the floor, at {}: y points up, in "
+                             "meters",
+                             viewer.name, up, at_place(at)));
+    });
+}
 
-  private:
-    void warn(int line, const std::string& key, const std::string& text) {
-        const auto same = [&](const ConfigProblem& known) {
-            return known.line == line && known.key == key && known.text == text;
-        };
-        if (std::ranges::none_of(findings_.found, same))
-            findings_.warn(line, key, text);
-    }
-
-    /// A viewer far outside of the room that the screens around them make.
-    void viewers() {
-        const auto& all = config_.installation.viewers;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            constexpr float kEmpty = std::numeric_limits<float>::max();
-            glm::vec3 low(kEmpty), high(-kEmpty);
-            for (const PlacedViewport& each : screens_) {
-                if (each.viewport.screen.carried_by_head || each.viewport.viewer != i)
+/// Walls that face each other, and a viewer who is not between them.
+void viewers_outside(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kBeside = 0.3f; // [m]
+    each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
+        const auto walls = room.walls_of(number);
+        for (const Wall* wall : walls)
+            for (const Wall* across : walls) {
+                if (wall->is_level() || glm::dot(wall->normal, across->normal) > -0.9f)
                     continue;
-                for (const glm::vec3& corner :
-                     corners_in_room(each.viewport.screen, {}, each.window.size)) {
-                    low = glm::min(low, corner);
-                    high = glm::max(high, corner);
-                }
+                const float top = CheckedRoom::box_of(walls).high.y;
+                if (viewer.position.y > top + kBeside)
+                    return tell(room, viewer.line.number,
+                                fmt::format("{} at {} looks over walls that face each other and "
+                                            "end {:.2f} m up: corners are in meters",
+                                            viewer.name, at_place(viewer.position), top));
             }
-            if (low.x > high.x)
-                continue;
-            constexpr float kRoomAround = 3; // [m] even for a small display
-            const float margin = std::max(kRoomAround, glm::distance(low, high));
-            const glm::vec3 at = all[i].position;
-            const float away = glm::distance(at, glm::clamp(at, low, high));
-            if (away > margin)
-                warn(all[i].line.number, "viewer.position",
-                     fmt::format("{} is {:.4g} m from all of the screens, {:.4g} m up: positions "
-                                 "are in meters",
-                                 all[i].name, away, at.y));
-        }
-    }
+    });
+}
 
-    void planes() {
-        float nearest = std::numeric_limits<float>::max(), farthest = 0;
-        for (const PlacedViewport& each : screens_) {
-            const auto& viewer = config_.installation.viewers[each.viewport.viewer];
-            const float away =
-                stereo::distance_to(each.viewport.screen, {viewer.position, {1, 0, 0, 0}});
-            nearest = std::min(nearest, std::abs(away));
-            farthest = std::max(farthest, std::abs(away));
-        }
-        const float front = config_.installation.near_plane, back = config_.installation.far_plane;
-        if (front >= farthest)
-            warn(line_of_key(config_.text, "rendering", "near"), "rendering.near",
-                 fmt::format("{:.4g} m is behind all screens, the farthest of which is {:.4g} m "
-                             "from its viewer: what is nearer is not drawn",
-                             front, farthest));
-        if (back <= nearest)
-            warn(line_of_key(config_.text, "rendering", "far"), "rendering.far",
-                 fmt::format("{:.4g} m is in front of all screens, the nearest of which is {:.4g} "
-                             "m from its viewer: what is farther is not drawn",
-                             back, nearest));
+void viewers_at_walls(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kTooNear = 0.15f, kLarge = 1; // [m]
+    for (const Wall& wall : room.walls()) {
+        const Viewer& viewer = room.viewer_of(wall);
+        const float away = glm::dot(viewer.position - wall.middle, wall.normal);
+        if (away > 0 && away < kTooNear && std::min(wall.size.x, wall.size.y) > kLarge &&
+            wall.is_met(viewer.position, -wall.normal))
+            tell(room, viewer.line.number,
+                 fmt::format("{} at {} touches {}, {:.0f} mm away: meters in the room", viewer.name,
+                             at_place(viewer.position), name_of(*wall.place), 1000 * away));
     }
+}
 
-    void projection(const PlacedViewport& each) {
-        const stereo::Screen& screen = each.viewport.screen;
-        const bool others_in_room = std::ranges::any_of(screens_, [&](const PlacedViewport& other) {
-            return !other.viewport.screen.carried_by_head && !is_usual(other.viewport.screen);
-        });
-        if (!screen.carried_by_head && is_usual(screen) && !screen.fit_aspect && others_in_room)
-            warn(each.line, "windows.viewports.projection",
-                 fmt::format("window {} has no corners, those of others are given: it shows a "
-                             "screen of 1.6 x 0.9 m, 1 m ahead",
-                             each.window.name));
-        if (!screen.carried_by_head)
-            return;
-        // The lower right corner is across from the upper left one.
-        const glm::vec3 middle = 0.5f * (screen.lower_left + screen.upper_right);
-        const float length = glm::length(middle);
-        const float off = length > 0 ? glm::degrees(std::acos(-middle.z / length)) : 0;
-        if (off > kSteepestHead && others_in_room)
-            warn(each.line, "windows.viewports.projection",
-                 fmt::format("window {}: the middle of a screen that the head carries is {:.0f} "
-                             "degrees off where the eyes look: its corners are measured from "
-                             "between the eyes, not in the room",
-                             each.window.name, off));
+bool has_stereo(const CheckedRoom& room, std::size_t viewer) {
+    return std::ranges::any_of(room.viewports(), [&](const PlacedViewport& place) {
+        return place.viewport.viewer == viewer && place.window.stereo != stereo::StereoMode::mono;
+    });
+}
+
+void distances_of_eyes(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kNarrow = 0.045f, kWide = 0.08f; // [m] of people
+    each_viewer(room, [&](const Viewer& viewer, std::size_t number) {
+        const float apart = viewer.eye_separation;
+        const char* why = nullptr;
+        if (apart <= 0 && viewer.left_eye)
+            why = "left_eye and right_eye are one place";
+        else if (apart <= 0 && has_stereo(room, number))
+            why = "stereo shows both eyes one picture";
+        else if ((apart < kNarrow && apart > 0 && has_stereo(room, number)) || apart > kWide)
+            why = "people's eyes are 50 to 75 mm apart; meters from one eye to the other";
+        if (why)
+            tell(room, viewer.line.number,
+                 fmt::format("{}: the eyes are {:.3g} mm apart: {}", viewer.name, 1000 * apart,
+                             why));
+    });
+}
+
+void places_of_eyes(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kFar = 0.2f, kBeside = 1e-4f; // [m]
+    for (const Viewer& viewer : room.installation().viewers) {
+        if (!viewer.left_eye || !viewer.right_eye || viewer.eye_separation <= 0)
+            continue;
+        const glm::vec3 left = *viewer.left_eye, right = *viewer.right_eye;
+        const float aside = (right.x - left.x) / viewer.eye_separation;
+        const float off = 0.5f * glm::length(left + right);
+        std::string why;
+        if (aside < 0.8f)
+            why = fmt::format("the right eye is not to the right of the left one, but {}",
+                              std::abs(right.y - left.y) > std::abs(right.z - left.z)
+                                  ? "above or below it"
+                                  : "before or behind it");
+        else if (off > kFar)
+            why = fmt::format("the eyes are around a place {:.2f} m from the head", off);
+        else if (left.x > -kBeside || right.x < kBeside)
+            why = "both eyes are on one side of the origin, which is the point between the eyes";
+        if (!why.empty())
+            tell(room, viewer.line.number,
+                 fmt::format("{}: {}: meters in the frame of the head (x right, y up, z back)",
+                             viewer.name, why));
     }
+}
 
-    void calibration(const std::string& tracker, int line,
-                     const interaction::DeviceOptions& device) {
-        const interaction::Calibration& known = device.calibration;
-        if (known.scale > kLargestScale || known.scale < kSmallestScale)
-            warn(line, tracker + ".scale",
-                 fmt::format("{:.4g}: meters for each meter that the tracker reports, expected "
-                             "1, or 0.001 where it takes millimeters for meters",
-                             known.scale));
-        const float arm = glm::length(known.sensor_from_thing.position);
-        if (arm > kArmsLength)
-            warn(line, tracker + ".devices.offset",
-                 fmt::format("{}: {:.4g} m from its sensor: offsets are in meters", device.name,
-                             arm));
-        if (looks_like_radians(known.room_from_tracker.orientation))
-            warn(line, tracker + ".orientation",
-                 "its angles are round in radians, and are read as degrees");
-        if (looks_like_radians(known.sensor_from_thing.orientation))
-            warn(line, tracker + ".devices.rotation",
-                 fmt::format("{}: its angles are round in radians, and are read as degrees",
-                             device.name));
+/// Nothing says how two pictures come to a tracked viewer whose eyes are described.
+void forgotten_stereo(const CheckedRoom& room, const Tell& tell) {
+    const bool eyes_given = room.has("viewer.eye_separation") || room.has("viewer.left_eye") ||
+                            room.has("viewers.eye_separation") || room.has("viewers.left_eye");
+    if (eyes_given && !room.has("windows.stereo") && !room.config().devices.empty() &&
+        room.walls().size() > 1 && room.viewer_of(room.walls().front()).eye_separation > 0)
+        tell(room, room.walls().front().window().line.number,
+             "no window has a stereo mode, so both eyes of a tracked viewer see one picture: "
+             "\"mono\" says that it is meant");
+}
+
+float nearest_screen(const CheckedRoom& room) {
+    float nearest = std::numeric_limits<float>::max();
+    for (const PlacedViewport& each : room.viewports())
+        nearest = std::min(
+            nearest, std::abs(stereo::distance_to(each.viewport.screen,
+                                                  {room.viewer_of(each).position, {1, 0, 0, 0}})));
+    return nearest;
+}
+
+float farthest_screen(const CheckedRoom& room) {
+    float farthest = 0;
+    for (const PlacedViewport& each : room.viewports())
+        farthest = std::max(
+            farthest, std::abs(stereo::distance_to(each.viewport.screen,
+                                                   {room.viewer_of(each).position, {1, 0, 0, 0}})));
+    return farthest;
+}
+
+/// The way from the first viewer's eyes to the middle of the data, if the file says where that is.
+std::optional<glm::vec3> way_to_data(const CheckedRoom& room) {
+    if (!room.has("placement"))
+        return std::nullopt;
+    const PlacementOptions& placed = room.config().placement;
+    return glm::vec3(0, placed.height, -placed.distance) -
+           room.installation().viewers.front().position;
+}
+
+void order_of_planes(const CheckedRoom& room, const Tell& tell) {
+    if (room.installation().near_plane >= room.installation().far_plane)
+        tell(room, 0, "it is not nearer than rendering.far");
+}
+
+void near_planes(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kReach = 0.5f; // [m]
+    const float front = room.installation().near_plane, farthest = farthest_screen(room);
+    if (front >= farthest)
+        tell(room, 0,
+             fmt::format("{:.4g} m is behind all screens, the farthest of which is {:.4g} m from "
+                         "its viewer: what is nearer is not drawn",
+                         front, farthest));
+    else if (front > kReach)
+        tell(room, 0,
+             fmt::format("{:.4g} m: what is nearer to the eyes is not drawn, and that is within "
+                         "reach: meters",
+                         front));
+}
+
+void far_planes(const CheckedRoom& room, const Tell& tell) {
+    const float back = room.installation().far_plane, nearest = nearest_screen(room);
+    const auto way = way_to_data(room);
+    const auto half = static_cast<float>(0.5 * room.config().placement.size);
+    if (back <= nearest)
+        tell(room, 0,
+             fmt::format("{:.4g} m is in front of all screens, the nearest of which is {:.4g} m "
+                         "from its viewer: what is farther is not drawn",
+                         back, nearest));
+    else if (way && back < glm::length(*way) - half)
+        tell(room, 0,
+             fmt::format("{:.4g} m is before the data, which begin {:.4g} m away: what is farther "
+                         "is not drawn",
+                         back, glm::length(*way) - half));
+}
+
+/// Whether a part of the data's cube is seen through a wall, or before one.
+bool is_seen(const CheckedRoom& room, const glm::vec3& way) {
+    const auto half = static_cast<float>(0.5 * room.config().placement.size);
+    const auto walls = room.walls_of(0);
+    for (float x = -1; x <= 1; x += 0.5f)
+        for (float y = -1; y <= 1; y += 0.5f)
+            for (float z = -1; z <= 1; z += 0.5f)
+                for (const Wall* wall : walls)
+                    if (wall->is_met(room.installation().viewers.front().position,
+                                     way + half * glm::vec3(x, y, z)))
+                        return true;
+    return false;
+}
+
+/// Data that no wall shows, that are too small where they are, or that are around the viewer.
+void places_of_data(const CheckedRoom& room, const Tell& tell) {
+    const auto way = way_to_data(room);
+    const auto walls = room.walls_of(0);
+    const PlacementOptions& placed = room.config().placement;
+    if (!way || room.config().openxr.enabled || placed.fill > 0)
+        return;
+    const auto size = static_cast<float>(placed.size), half = 0.5f * size;
+    const float away = glm::length(*way);
+    const bool on_walls = std::ranges::none_of(room.viewports(), [](const PlacedViewport& place) {
+        return place.viewport.screen.carried_by_head;
+    });
+    std::string why;
+    if (!walls.empty() && on_walls) {
+        const Box box = CheckedRoom::box_of(walls);
+        const glm::vec3 sides = box.high - box.low;
+        const float largest = std::max({sides.x, sides.y, sides.z});
+        if (!is_seen(room, *way))
+            why = fmt::format("no wall shows any of the data to a viewer at {}",
+                              at_place(room.installation().viewers.front().position));
+        else if (way->z > half && std::ranges::none_of(walls, [](const Wall* wall) {
+                     return wall->normal.z < -0.7f;
+                 }))
+            why = "the data are behind the viewer, where no wall is; the front is at -Z";
+        else if (placed.height + half < floor_level(walls))
+            why = "the data are under the floor";
+        else if (size > 4 * largest &&
+                 std::max({std::abs(way->x), std::abs(way->y), std::abs(way->z)}) < half)
+            why = fmt::format("the data are around the viewer, in a room of {:.4g} m: meters",
+                              largest);
     }
+    const bool small = size < 0.05f * away,
+               far_off = size < 0.12f * away && away - size > 2.5f * farthest_screen(room);
+    if (why.empty() && (small || far_off))
+        why = fmt::format("the data are {:.1f} degrees wide and out of reach: meters",
+                          glm::degrees(size / away));
+    if (!why.empty())
+        tell(room, 0,
+             fmt::format("size = {:g}, height = {:g}, distance = {:g}: {}", placed.size,
+                         placed.height, placed.distance, why));
+}
 
-    const Config& config_;
-    std::vector<PlacedViewport> screens_;
-    Findings& findings_;
+void fading(const CheckedRoom& room, const Tell& tell) {
+    constexpr float kNone = 0.5f, kWhole = 1; // [m]
+    const glm::vec2 fade = room.config().comfort.near_fade;
+    const auto way = way_to_data(room);
+    if (fade.x > kNone || fade.y > kWhole)
+        tell(room, 0,
+             fmt::format("nothing is drawn nearer than {:g} m, and all only beyond {:g} m: data "
+                         "within reach vanish",
+                         fade.x, fade.y));
+    else if (way && fade.y > glm::length(*way) + 0.5 * room.config().placement.size)
+        tell(room, 0,
+             fmt::format("all data fade, as they are nearer than {:g} m at their place, {:.2f} m "
+                         "away",
+                         fade.y, glm::length(*way)));
+}
+
+constexpr Check kOfViewers[]{
+    {"viewers", Check::odd, viewers_without_viewport},
+    {"viewers.head", Check::wrong, shared_heads},
+    {"viewer.position", Check::odd, places_of_viewers},
+    {"viewer.position", Check::odd, viewers_outside},
+    {"viewer.position", Check::odd, viewers_at_walls},
+    {"viewers.eye_separation", Check::odd, distances_of_eyes},
+    {"viewers.left_eye", Check::odd, places_of_eyes},
+    {"windows.stereo", Check::odd, forgotten_stereo},
+    {"rendering.near", Check::wrong, order_of_planes},
+    {"rendering.near", Check::odd, near_planes},
+    {"rendering.far", Check::odd, far_planes},
+    {"placement", Check::odd, places_of_data},
+    {"comfort.near_fade", Check::odd, fading},
 };
 
 } // namespace
 
-void check_measures(const Config& config, Findings& findings) {
-    MeasureJudge(config, findings).judge();
+std::span<const Check> checks_of_viewers() {
+    return kOfViewers;
 }
 
 } // namespace isochron::app

@@ -58,6 +58,38 @@ TEST_F(InstallationCommand, CheckConfigNamesWhatIsWrongAndFails) {
     EXPECT_THAT(result.err, testing::HasSubstr("no display"));
 }
 
+TEST_F(InstallationCommand, CheckConfigDrawsTheRoomAndReplacesOnlyItsOwnPictures) {
+    folder.write("notes.png", "mine");
+    const std::vector<std::string> draw{"explore", "--check-config", "cave4", "--picture"};
+    const auto into = [&](const std::string& file, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments = draw;
+        arguments.push_back(file);
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return isochron(arguments);
+    };
+    for (int i = 0; i < 2; ++i) // again, over its own
+        EXPECT_EQ(into("room.png").status, 0);
+    EXPECT_EQ(folder.read("room.png").substr(1, 3), "PNG");
+    ChildResult result = into("notes.png");
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("notes.png: exists and is not a picture that this program"));
+    EXPECT_EQ(folder.read("notes.png"), "mine");
+    EXPECT_EQ(into("notes.png", {"--force"}).status, 0);
+    EXPECT_EQ(into("room.txt").status, 2);
+    EXPECT_EQ(isochron({"explore", "--picture", "room.png"}).status, 2);
+
+    // What is wrong is drawn, too.
+    folder.write("lab.toml", "[[windows]]\n[[windows.viewports]]\n[windows.viewports.projection]\n"
+                             "lower_left = [1, 1, -1]\nupper_left = [1, 3, -1]\nupper_right = [-1, "
+                             "3, -1]\n");
+    result = isochron({"explore", "--check-config", "lab.toml", "--picture", "lab.png"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(folder.read("lab.png").substr(1, 3), "PNG");
+    result = isochron({"explore", "--check-config", "lab.toml", "--picture", "lab.toml"});
+    EXPECT_NE(result.status, 0);
+    EXPECT_THAT(folder.read("lab.toml"), testing::StartsWith("[[windows]]"));
+}
+
 TEST_F(InstallationCommand, AShippedNameMeansTheShippedConfigurationWhateverLiesThere) {
     std::filesystem::create_directory(folder.path() / "hmd");
     folder.write("cave4", "[[windows]]\nname = \"mine\"\n");

@@ -44,7 +44,8 @@ TEST(CheckConfig, EveryShippedConfigurationIsFoundByNameAndNothingIsWrongWithIt)
         const Config config = read_config(name);
         for (const ConfigProblem& problem : problems_of(config))
             ADD_FAILURE() << line_of(problem, config);
-        EXPECT_NO_THROW(check_config(test_support::source_root() + "/configs/" + name + ".toml"))
+        EXPECT_NO_THROW(
+            check_config(read_config(test_support::source_root() + "/configs/" + name + ".toml")))
             << name;
     }
     EXPECT_THAT(shipped_config_names(),

@@ -171,13 +171,6 @@ TEST(DeviceConfig, EveryDeviceIsDescribed) {
                                      "there is one"));
 }
 
-TEST(DeviceConfig, AHeadThatNobodyTracksIsWarnedOf) {
-    const auto warnings = device_warnings(
-        parse_config("[dtrack]\n[[dtrack.devices]]\nname = \"hat\"\nbody = 0\n", "lab.toml"));
-    EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("no tracked device is called head")));
-    EXPECT_TRUE(device_warnings(parse_config("", "desk.toml")).empty());
-}
-
 TEST(DeviceConfig, APortThatIsTakenIsNamed) {
     UdpSocket taken({"127.0.0.1", 0});
     const Config config =

@@ -1,0 +1,46 @@
+// A check of a configuration: a row of a table, which says what the check is about and how it looks.
+//
+//     constexpr Check kEyes[]{{"viewers.left_eye", Check::odd, eyes_in_one_place}};
+#pragma once
+
+#include "app/config/check/checked_room.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+class Tell;
+
+struct Check {
+    enum Severity : bool { odd, wrong }; ///< a warning, as it may be intended; an error
+    const char* key;                     ///< `*` stands for the key of a tracker
+    Severity severity;
+    void (*look)(const CheckedRoom& room, const Tell& tell);
+};
+
+/// Tells what a check has found, under the check's key. What has been told already is left out.
+class Tell {
+  public:
+    Tell(const Check& check, std::vector<ConfigProblem>& found) : check_(check), found_(found) {}
+    /// @param line of the file; 0: the line of the check's key, if the file has it
+    void operator()(const CheckedRoom& room, int line, const std::string& text,
+                    const std::string& tracker = {}) const;
+
+  private:
+    const Check& check_;
+    std::vector<ConfigProblem>& found_;
+};
+
+// The checks of each topic. A further check is a function and its row in one of these.
+std::span<const Check> checks_of_screens();
+std::span<const Check> checks_of_walls(); ///< how the screens of a room stand to one another
+std::span<const Check> checks_of_viewers();
+std::span<const Check> checks_of_devices();
+std::span<const Check> checks_of_values(); ///< of numbers that are unlikely to be meant
+
+/// What some checks find, in their order.
+std::vector<ConfigProblem> findings_of(std::span<const Check> checks, const CheckedRoom& room);
+
+} // namespace isochron::app

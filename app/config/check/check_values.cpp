@@ -1,0 +1,173 @@
+// Checks of numbers that are possible and unlikely to be meant, such as seconds for milliseconds.
+#include "app/config/check/check.h"
+
+#include "app/config/check/usual_values.h"
+#include "app/config/config_words.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace isochron::app {
+namespace {
+
+/// What lengths, times and the like are often given in by mistake: `value` of it is `value * factor`
+/// of the unit that is expected.
+struct Confusion {
+    std::string_view expected;
+    const char* given;
+    double factor;
+};
+constexpr Confusion kConfusions[]{
+    {"ms", "seconds", 1e3},
+    {"ms", "microseconds", 1e-3},
+    {"s", "milliseconds", 1e-3},
+    {"m/s", "km/s", 1e3},
+    {"m/s", "mm/s", 1e-3},
+    {"m/s", "cm/s", 1e-2},
+    {"m", "centimeters", 1e-2},
+    {"m", "millimeters", 1e-3},
+    {"degrees/s", "radians/s", 57.29577951},
+    {"rad/s", "degrees/s", 1 / 57.29577951},
+    {"MB", "GB", 1024},
+    {"MB", "kB", 1.0 / 1024},
+    {"kB", "MB", 1024},
+    {"kB", "bytes", 1.0 / 1024},
+};
+
+std::string confused(const UsualValues& usual, double value) {
+    for (const Confusion& each : kConfusions)
+        if (const double meant = value * each.factor;
+            each.expected == usual.unit && meant >= usual.low && meant <= usual.high)
+            return fmt::format("; {:g} {} would be {:g} {}", value, each.given, meant, usual.unit);
+    return {};
+}
+
+/// Calls `visit(path, value in the file's unit, line)` for each number of a table and those within.
+template <Table T, class Visit>
+void each_number(T& table, const std::string& path, int line, const Visit& visit) {
+    each_field(
+        [&]<class V>(const Field& field, V&& member) {
+            using Value = std::remove_cvref_t<V>;
+            const std::string key = path + field.key;
+            if constexpr (Tables<Value>) {
+                for (auto& item : member) {
+                    int at = line;
+                    if constexpr (requires { item.line.number; })
+                        at = item.line.number;
+                    else if constexpr (requires { item.line = 0; })
+                        at = item.line;
+                    each_number(item, key + ".", at, visit);
+                }
+            } else if constexpr (Table<Value>) {
+                each_number(member, key + ".", line, visit);
+            } else if constexpr (kIsDuration<Value>) {
+                visit(key, member.count() * field.per, line);
+            } else if constexpr (std::is_arithmetic_v<Value> && !std::same_as<Value, bool>) {
+                visit(key, static_cast<double>(member) * field.per, line);
+            }
+        },
+        table);
+}
+
+/// `latency_ms` for `dtrack.latency_ms`.
+std::string_view last_name(std::string_view path) {
+    return path.substr(path.rfind('.') + 1);
+}
+
+void unusual_values(const CheckedRoom& room, const Tell& tell) {
+    Config config = room.config();                 // the list of keys takes what can be changed
+    std::set<std::pair<std::string, double>> told; // devices have what their tracker says
+    each_number(config, "", 0, [&](const std::string& path, double value, int line) {
+        const std::string_view name = last_name(path);
+        for (const UsualValues& usual : usual_values()) {
+            const bool same = path == usual.key || (std::string_view(usual.key).starts_with('*') &&
+                                                    name == last_name(usual.key));
+            // Halves of the last digit of a float are no matter.
+            const double slack = 1e-5 * std::abs(value);
+            if (!same || value == 0 ||
+                (value >= usual.low - slack && value <= usual.high + slack) ||
+                !told.emplace(name, value).second)
+                continue;
+            tell(room, line,
+                 fmt::format("{:.6g} {} is unusual, expected {:g} to {:g}{}", value, usual.unit,
+                             usual.low, usual.high, confused(usual, value)),
+                 path);
+        }
+    });
+}
+
+void order_of_budgets(const CheckedRoom& room, const Tell& tell) {
+    const QualityConfig& quality = room.config().quality;
+    if (quality.longest_ms > 0 && quality.longest_ms < quality.frame_budget_ms)
+        tell(room, 0,
+             fmt::format("{:g} ms is less than quality.frame_budget_ms, {:g} ms",
+                         quality.longest_ms, quality.frame_budget_ms));
+}
+
+void order_of_vignette(const CheckedRoom& room, const Tell& tell) {
+    const interaction::ComfortOptions& comfort = room.config().comfort;
+    if (comfort.vignette_full < comfort.vignette_speed)
+        tell(room, 0, "it is closed at a lower speed than it begins to close at, vignette_speed");
+    if (comfort.vignette_turn_full < comfort.vignette_turn)
+        tell(room, 0, "it is closed at a slower turn than it begins to close at, vignette_turn");
+}
+
+void dark_lights(const CheckedRoom& room, const Tell& tell) {
+    const render::CellAppearance& light = room.config().rendering.appearance;
+    if (light.ambient + light.head_light + light.key_light < 0.05f)
+        tell(room, 0, "with all lights at 0, surfaces are black");
+    else if (light.key_light > 0 &&
+             light.key_direction.y < -0.5f * glm::length(light.key_direction))
+        tell(room, 0,
+             "lighting.key_direction points down: it is the way to the light, and y is up");
+}
+
+void unseen_surfaces(const CheckedRoom& room, const Tell& tell) {
+    const Config& config = room.config();
+    for (const ConfiguredSurface& surface : config.surfaces)
+        if (surface.opacity <= 0)
+            tell(room, room.line_of("surfaces.opacity"), "an opacity of 0 shows no surface");
+        else if (glm::distance(surface.color, config.rendering.background) < 0.05f)
+            tell(room, room.line_of("surfaces.color"), "a surface of the background's color");
+        else if (!surface.isovalue && (surface.quantile <= 0 || surface.quantile >= 1))
+            tell(room, room.line_of("surfaces.quantile"),
+                 fmt::format("at a quantile of {:g} there is no surface", surface.quantile));
+    if (config.surfaces.empty() &&
+        glm::distance(config.rendering.surface_color, config.rendering.background) < 0.05f)
+        tell(room, room.line_of("rendering.surface_color"), "it is rendering.background's color");
+}
+
+void percentiles(const CheckedRoom& room, const Tell& tell) {
+    const auto& given = room.config().start.coloring.percentiles;
+    if (given && (*given)[1] <= 1)
+        tell(room, 0,
+             fmt::format("{:g} and {:g}: percentiles go from 0 to 100", (*given)[0], (*given)[1]));
+}
+
+/// Keys of a headset, and nothing that turns it on.
+void headset_left_off(const CheckedRoom& room, const Tell& tell) {
+    if (room.has("openxr") && !room.has("openxr.enabled"))
+        tell(room, room.line_of("openxr"), "without enabled = true no headset is used");
+}
+
+constexpr Check kOfValues[]{
+    {"*", Check::odd, unusual_values},
+    {"quality.longest_ms", Check::odd, order_of_budgets},
+    {"comfort.vignette_full", Check::odd, order_of_vignette},
+    {"lighting", Check::odd, dark_lights},
+    {"surfaces", Check::odd, unseen_surfaces},
+    {"coloring.percentiles", Check::odd, percentiles},
+    {"openxr.enabled", Check::odd, headset_left_off},
+};
+
+} // namespace
+
+std::span<const Check> checks_of_values() {
+    return kOfValues;
+}
+
+} // namespace isochron::app

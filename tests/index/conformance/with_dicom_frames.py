@@ -159,6 +159,16 @@ for name, (group, tags, times, unit, note) in groups.items():
     apart = [save(enhanced([(t, z) for z in (2, 0, 3, 1)], moving, group, tags, series), named("apart")) for t in (2, 0, 1)]
     expect(apart, moving, times=times, unit=unit, note=note, **grid)
 
+# Ultrasound places its volumes in a space of its own.
+echo = enhanced([(t, z) for z in (2, 0, 3, 1) for t in (1, 0, 2)], moving, *groups["offset"][:2], new_series())
+echo.SharedFunctionalGroupsSequence[0].PlaneOrientationVolumeSequence = sequence(ImageOrientationVolume=[1.0, 0, 0, 0, 1, 0])
+del echo.SharedFunctionalGroupsSequence[0].PlaneOrientationSequence
+for item in echo.PerFrameFunctionalGroupsSequence:
+    item.PlanePositionVolumeSequence = sequence(ImagePositionVolume=[float(v) for v in
+                                                                     item.PlanePositionSequence[0].ImagePositionPatient])
+    del item.PlanePositionSequence
+expect(save(echo, "echo.dcm"), moving, times=[0.5, 2, 4.25], unit="s", **grid)
+
 # Dimensions that are volumes of their own.
 for group, tag, values, chosen in [("SegmentIdentificationSequence", "ReferencedSegmentNumber", [1, 2, 3], "segment 2"),
                                    ("MREchoSequence", "EffectiveEchoTime", [2.5, 5.0, 7.5], "echo time 5 ms"),
@@ -238,7 +248,8 @@ for name, tags, said in [
     data = save(blank(flat, new_series(), PixelSpacing=[0.75, 0.5], **tags), named("film"))
     refuse(data, f"a film, 12 frames of one slice ({said}")
     expect(data, flat, spacing=(0.5, 0.75, 3), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
-expect(save(blank(flat, new_series(), **{**nuclear, "Modality": "US"}), named("solid")), flat, spacing=(0.5, 0.75, 2))
+expect(save(blank(flat, new_series(), **{**nuclear, "Modality": "US"}, FrameTime=33), named("solid")), flat,
+       spacing=(0.5, 0.75, 2), note="they are taken for slices")
 offsets = blank(flat, new_series(), Modality="RTDOSE", PixelSpacing=[0.75, 0.5], ImagePositionPatient=[-10, 20, 5],
                 ImageOrientationPatient=[1, 0, 0, 0, 1, 0], GridFrameOffsetVector=[-2 * i for i in range(12)],
                 FrameIncrementPointer=[Tag("GridFrameOffsetVector")])

@@ -56,7 +56,8 @@ void place(const DicomTags& root, const FrameTags& tags, DicomFile& file, const 
                           double& rounding) {
         for (const Source& source : sources)
             if (auto found = tags.numbers(source.group, source.tag); found.size() == count) {
-                rounding = tags.rounding(source.group, source.tag);
+                if (source.of_patient) // as text
+                    rounding = tags.rounding(source.group, source.tag);
                 file.of_patient = source.of_patient;
                 return found;
             }

@@ -93,7 +93,12 @@ void take_film(const DicomTags& root, DicomFile& file, FrameCounts& counts) {
         for (const Tag& tag : {kFrameTime, kFrameTimeVector})
             pointed =
                 pointed || (pointers[i] == tag.GetGroup() && pointers[i + 1] == tag.GetElement());
-    if (!pointed || root.number(kSpacingBetweenSlices).value_or(0) != 0)
+    const bool spaced = root.number(kSpacingBetweenSlices).value_or(0) != 0;
+    if (pointed && spaced)
+        file.notes.push_back(
+            "its frames are said to follow in time, and SpacingBetweenSlices: they "
+            "are taken for slices");
+    if (!pointed || spaced)
         return;
     const auto steps = root.numbers(kFrameTimeVector);
     const double rate = root.number({0x0018, 0x0040}).value_or(0);

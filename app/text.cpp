@@ -77,6 +77,13 @@ std::string with_unit(double value, const std::string& unit) {
     return fmt::format("{:.6g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
+std::string upper_text(double bound, const std::string& unit) {
+    if (!(bound > 0))
+        return with_unit(bound, unit);
+    const double step = std::pow(10, std::floor(std::log10(bound)) - 3);
+    return fmt::format("{:.4g}{}", std::ceil(bound / step) * step, with_space(unit));
+}
+
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
     std::string nearest;
     std::size_t best = std::numeric_limits<std::size_t>::max();

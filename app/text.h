@@ -23,6 +23,9 @@ std::string grouped(std::uint64_t number);
 /// A number without the digits that rounding left behind: `0.3`, not `0.30000000000000004`.
 std::string human_number(double number);
 
+/// A bound with its unit in four digits, rounded up, so that it still holds.
+std::string upper_text(double bound, const std::string& unit);
+
 /// `12.5 ms`, `0.0341`, `1.2e+07`: a number with its unit, short enough for a label.
 std::string with_unit(double value, const std::string& unit);
 

@@ -5,7 +5,6 @@
 #include "app/command_line/subcommands.h"
 #include "app/commands/mesh_cuts.h"
 #include "app/commands/mesh_packing.h"
-#include "app/commands/simplified.h"
 #include "app/indexing/open_index.h"
 #include "app/output/export_request.h"
 #include "app/output/guarded_outputs.h"
@@ -184,8 +183,6 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
         if (given && format.of_cells)
             throw UsageError(
                 fmt::format("{}: is for triangles, and {} holds cells", option, format.name));
-    if (arguments.cuts.simplify && !can_simplify())
-        throw UsageError("--simplify: this build is without meshoptimizer (libmeshoptimizer-dev)");
     if (arguments.compress && !mesh_packing())
         throw UsageError("--compress: this build is without meshoptimizer (libmeshoptimizer-dev)");
 }
@@ -201,7 +198,7 @@ std::string sizes_of(const index::ExportCount& count, const index::SurfaceFormat
 
 void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
            const std::vector<fs::path>& files, const index::ExportRequest& request,
-           const index::ExportCount& count, double moved) {
+           const index::ExportCount& count, const SimplifiedBy& moved) {
     if (arguments.json) {
         nlohmann::ordered_json names = nlohmann::ordered_json::array();
         for (const fs::path& file : files)
@@ -214,8 +211,10 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                                  {"vertices", count.vertices},
                                  {"triangles", count.triangles},
                                  {"empty_steps", count.empty_steps}};
-        if (arguments.cuts.simplify)
-            j["error"] = moved;
+        if (arguments.cuts.simplify) {
+            j["error"] = moved.moved;
+            j["error_cells"] = moved.cells;
+        }
         print_safely(SafeText::json(j));
         return;
     }
@@ -224,8 +223,9 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
                  request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
                  sizes_of(count, format));
     if (arguments.cuts.simplify)
-        print_safely("simplified: the surface has moved by about {}\n",
-                     with_unit(moved, request.plan.length_unit));
+        print_safely("simplified: the surface has moved by at most {} ({})\n",
+                     upper_text(moved.moved, request.plan.length_unit),
+                     upper_text(moved.cells, "cells"));
     if (!count.empty_steps.empty())
         print_safely(
             stderr,
@@ -257,7 +257,7 @@ void run_export(const ExportArguments& arguments) {
     const auto file = array_called(open_index(arguments.file, kept), arguments.array);
     keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
-    double moved = 0;
+    SimplifiedBy moved;
     request.reshape = reshaping(arguments.cuts, file->info().grid, request.plan, moved);
     const std::vector<fs::path> files =
         index::files_of_export(*target.format, target.name, request.plan, request.surfaces.size());
@@ -353,14 +353,14 @@ void add_export(Command& program) {
         .values(6)
         .type_name("X Y Z NX NY NZ");
     command
-        .option(
-            "--simplify", arguments->cuts.simplify,
-            "Fewer triangles: the surface may move by about this distance, in the unit of the file")
-        .positive()
+        .option("--simplify", arguments->cuts.simplify,
+                "Fewer triangles: the surface moves by this distance at most, in the unit of the "
+                "file, or "
+                "in sides of a cell (the shortest): 0.5cells. How far it has moved is measured")
         .type_name("ERROR");
     command.flag("--quantize", arguments->quantize,
                  "In glTF, coordinates of 16 bits and normals of 8 (KHR_mesh_quantization): a "
-                 "vertex moves by less than 1/130,000 of the surface's longest side");
+                 "vertex moves by less than 1/75,000 of the surface's longest side");
     command.flag(
         "--compress", arguments->compress,
         "In glTF, pack vertices and triangles without loss (EXT_meshopt_compression); with "
@@ -376,7 +376,9 @@ void add_export(Command& program) {
         "Each file appears whole or not at all. Triangles are counter-clockwise as seen "
         "from the side of\nlower values, to which normals point. JSON keys: files, steps, "
         "fraction, isovalues, cells, vertices,\ntriangles (both 0 in csv), empty_steps, error "
-        "(with --simplify: about how far the surface has moved).");
+        "and error_cells (with\n--simplify: no point of the surface, and none of what is left, has "
+        "moved "
+        "farther).");
     command.on_run([arguments] { run_export(*arguments); });
 }
 

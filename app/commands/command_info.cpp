@@ -75,8 +75,10 @@ void add_info(Command& program) {
                  "index has it");
     command.flag(
         "--measure-time", arguments->measure_time,
-        "Measure how well the blend of two steps stands for what lies between them, and say "
-        "what `explore` shows there: the blend, or the step before (hold)");
+        "Measure anew how well the blend of two steps stands for what lies between them, and say "
+        "whether to show the blend there or the step before (hold); else what the build measured "
+        "is "
+        "said, by which `explore` goes");
     command.flag("--json", arguments->json, "Print one JSON object");
     add_reading_options(command, arguments->sources);
     command.footer(
@@ -104,7 +106,11 @@ void add_info(Command& program) {
         "color (only with an array to color by: array, value_unit, type, low, high, nan_values,\n"
         "bytes), lattice and max_variation (of the paper's tree), tree_entries and coherence (only "
         "with a\n"
-        "tree), content_hash, sources, notes, tree (only with --tree: first_step, last_step, "
+        "tree), content_hash, sources, notes, between (null where it is not known: advice, hold or "
+        "blend,\n"
+        "expected_voxels, every_second_voxels, every_fourth_voxels, lone_parts, compared_cells), "
+        "tree (only "
+        "with --tree: first_step, last_step, "
         "depth\n"
         "and cells of each node, depth first). Of files of values: file to intercept as above, "
         "first_step\n(low, high, nan_values), arrays (all that there are), sources and notes.");

@@ -1,12 +1,10 @@
 // What of a surface is exported: a part of it, or fewer triangles.
 #pragma once
 
-#include "index/export/surface_writer.h"
+#include "index/export/surface_export.h"
 #include "index/surface/cell_mesh.h"
 #include "index/volume/grid.h"
-#include "index/volume/query.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,18 +15,25 @@ namespace isochron::app {
 struct MeshCuts {
     std::optional<std::string> crop; ///< `X0:X1,Y0:Y1,Z0:Z1`, vertices of the grid
     std::vector<double> clip;        ///< a point on a plane and its normal; empty: no plane
-    std::optional<double> simplify;  ///< the surface may move about so far [unit of the file]
+    /// How far the surface may move: in the unit of the file, or `0.5cells`.
+    std::optional<std::string> simplify;
+};
+
+/// The largest results of `simplify`.
+struct SimplifiedBy {
+    double moved = 0; ///< [unit of the file]
+    double cells = 0; ///< [shortest side of a cell]
 };
 
 /// What is done with each mesh before it is written; null: nothing.
-/// @param grid outlives the function, as `moved` does
-/// @param plan says the file's unit of length
-/// @param moved gets the largest result of `simplify`
-/// @return throws Error where `simplify` leaves nothing of a surface
+/// @param grid outlives the function, as `plan` and `moved` do
+/// @param plan says the file's unit and precision
+/// @param moved gets how far surfaces have moved, with what the file rounds
+/// @return throws Error where `simplify` leaves nearly nothing of a surface, or asks for less than the
+///         file rounds
 /// @throws UsageError: an option's value makes no sense
-std::function<void(index::CellMesh&, const index::Query&)> reshaping(const MeshCuts& cuts,
-                                                                     const index::Grid& grid,
-                                                                     const index::ExportPlan& plan,
-                                                                     double& moved);
+decltype(index::ExportRequest::reshape) reshaping(const MeshCuts& cuts, const index::Grid& grid,
+                                                  const index::ExportPlan& plan,
+                                                  SimplifiedBy& moved);
 
 } // namespace isochron::app

@@ -134,8 +134,15 @@ SafeText tree_text(const index::IndexFile& file) {
     return text;
 }
 
-std::string blends_text(const index::IndexFile& file) {
-    const auto quality = index::blend_quality(file);
+/// What was kept when the index was built or, if it is asked for, what is measured now.
+std::optional<index::BlendQuality> quality_of(const IndexReport& report) {
+    const index::IndexFile& file = report.file;
+    const auto measured =
+        report.blends ? index::measure_blends(file.chunks(), file.stats()) : std::nullopt;
+    return measured ? measured : file.metadata().blends;
+}
+
+std::string blends_text(const std::optional<index::BlendQuality>& quality) {
     if (!quality)
         return "not known: that takes three steps, bricks and values in the index";
     return fmt::format(
@@ -150,8 +157,7 @@ std::string blends_text(const index::IndexFile& file) {
                               : "");
 }
 
-nlohmann::ordered_json blends_json(const index::IndexFile& file) {
-    const auto quality = index::blend_quality(file);
+nlohmann::ordered_json blends_json(const std::optional<index::BlendQuality>& quality) {
     if (!quality)
         return nullptr;
     nlohmann::ordered_json j{{"advice", quality->holds() ? "hold" : "blend"},
@@ -256,8 +262,8 @@ SafeText as_text(const IndexReport& report) {
                          "cells stay as they are ({} entries; lattice {}, max variation {})",
                          coherence(file), grouped(entries_of(file)), file.tree_options().lattice,
                          file.tree_options().max_variation));
-    if (report.blends)
-        line("between", blends_text(file));
+    if (const auto quality = quality_of(report); quality || report.blends)
+        line("between", blends_text(quality));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
     text += sources_text(info.sources);
     for (const std::string& note : info.notes)
@@ -328,8 +334,7 @@ nlohmann::ordered_json as_json(const IndexReport& report) {
     j["content_hash"] = fmt::format("{:016x}", file.content_hash());
     j["sources"] = info.sources;
     j["notes"] = info.notes;
-    if (report.blends)
-        j["between"] = blends_json(file);
+    j["between"] = blends_json(quality_of(report));
     if (report.tree) {
         j["tree"] = nlohmann::ordered_json::array();
         for (const auto& node : time_nodes(file))

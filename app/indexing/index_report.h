@@ -14,7 +14,7 @@ struct IndexReport {
     std::string name; ///< as the user gave it
     const index::IndexFile& file;
     bool tree = false;   ///< report the cells of every time node as well
-    bool blends = false; ///< measure how well blends stand for what lies between the steps
+    bool blends = false; ///< measure anew how well blends stand for what lies between the steps
 };
 
 /// Sizes of the whole file and of its parts, also where `file` is one of several arrays: `4.10 MiB:

@@ -49,10 +49,9 @@ std::array<std::uint8_t, 3> color_at(const std::vector<glm::vec3>& map, double s
                                           static_cast<float>(place - static_cast<double>(low)))));
 }
 
-void clip(index::CellMesh& mesh, const index::Grid& grid, const interaction::ClipPlane& plane) {
-    index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
-        return glm::dot(grid.physical(position_of(vertex)) - plane.point, plane.normal) <= 0;
-    });
+bool is_left(const index::MeshVertex& vertex, const index::Grid& grid,
+             const interaction::ClipPlane& plane) {
+    return glm::dot(grid.physical(position_of(vertex)) - plane.point, plane.normal) <= 0;
 }
 
 index::ExportRequest shown_request(const ExplorerState& state,
@@ -98,8 +97,10 @@ index::ExportRequest shown_request(const ExplorerState& state,
     }
     if (state.clip.shown && state.pictures.surfaces.clipped && !format.of_cells)
         request.reshape = [plane = state.clip, grid = info.grid](index::CellMesh& mesh,
-                                                                 const index::Query&) {
-            clip(mesh, grid, plane);
+                                                                 const index::Query&, const auto&) {
+            index::keep_triangles(mesh, [&](const index::MeshVertex& vertex) {
+                return is_left(vertex, grid, plane);
+            });
         };
     return request;
 }

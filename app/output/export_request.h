@@ -28,8 +28,9 @@ std::array<std::uint8_t, 3> color_bytes(const glm::vec3& srgb);
 /// @param map linear colors @param share 0 to 1, clamped; NaN: 0
 std::array<std::uint8_t, 3> color_at(const std::vector<glm::vec3>& map, double share);
 
-/// Removes what a clip plane cuts away, in whole triangles: those with a corner beyond the plane.
-void clip(index::CellMesh& mesh, const index::Grid& grid, const interaction::ClipPlane& plane);
+/// Whether a clip plane leaves a vertex: triangles are cut away whole, those with a corner beyond it.
+bool is_left(const index::MeshVertex& vertex, const index::Grid& grid,
+             const interaction::ClipPlane& plane);
 
 /// What the state shows: its surfaces with their colors, at its moment or at all steps of its range,
 /// in its format and colors, cut by its clip plane. On a grid whose ids are wide, colors by time of

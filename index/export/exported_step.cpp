@@ -1,6 +1,8 @@
 // The places of vertices in files.
 #include "index/export/exported_step.h"
 
+#include "index/export/simplified_mesh.h"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -17,23 +19,35 @@ float linear_light(std::uint8_t srgb) {
 }
 
 ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
-    : grid_(grid), factor_(plan.unit_factor), turned_(glm::determinant(grid.direction) < 0) {
-    if (plan.double_precision)
+    : grid_(grid), factor_(plan.unit_factor), double_(plan.double_precision),
+      quantized_(plan.quantized), turned_(glm::determinant(grid.direction) < 0) {
+    constexpr double kMost = 1e-3; // share of a cell's side
+    const double side = shortest_side(grid) * factor_;
+    find_farthest();
+    if (double_ || farthest_ * std::numeric_limits<float>::epsilon() <= kMost * side)
         return;
-    double farthest = 0;
+    origin_ = glm::dvec3(glm::vec3(grid.origin * factor_));
+    find_farthest();
+}
+
+void ExportedPlaces::find_farthest() {
+    farthest_ = 0;
     for (int corner = 0; corner < 8; ++corner) {
         glm::dvec3 index(0.0);
         for (int axis = 0; axis < 3; ++axis)
             if (corner >> axis & 1)
                 index[axis] =
-                    static_cast<double>(grid.vertices[static_cast<std::size_t>(axis)] - 1);
-        const glm::dvec3 at = glm::abs(grid.physical(index) * factor_);
-        farthest = std::max({farthest, at.x, at.y, at.z});
+                    static_cast<double>(grid_.vertices[static_cast<std::size_t>(axis)] - 1);
+        const glm::dvec3 at = glm::abs(grid_.physical(index) * factor_ - origin_);
+        farthest_ = std::max({farthest_, at.x, at.y, at.z});
     }
-    constexpr double kMost = 1e-3; // share of a voxel
-    const double voxel = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z}) * factor_;
-    if (farthest * std::numeric_limits<float>::epsilon() > kMost * voxel)
-        origin_ = glm::dvec3(glm::vec3(grid.origin * factor_));
+}
+
+double ExportedPlaces::rounding(double longest_side) const {
+    const double step = double_ ? std::numeric_limits<double>::epsilon()
+                                : double{std::numeric_limits<float>::epsilon()};
+    const double half_steps = farthest_ * step / 2 + (quantized_ ? longest_side / 65535 / 2 : 0);
+    return std::sqrt(3.0) * half_steps; // along three axes
 }
 
 std::string words_of(const ExportPlan& plan, const ExportedPlaces& places) {

@@ -88,6 +88,9 @@ class ExportedPlaces {
     glm::dvec3 of(const MeshVertex& vertex) const {
         return grid_.physical(position_of(vertex)) * factor_ - origin_;
     }
+    /// Distance by which the file may move a vertex by rounding its coordinates, in its unit.
+    /// @param longest_side of what the vertices fill, in the file's unit
+    double rounding(double longest_side) const;
     /// Whether triangles must be turned, so that they are counter-clockwise as seen from the side
     /// of lower values.
     bool turned() const { return turned_; }
@@ -97,9 +100,13 @@ class ExportedPlaces {
     }
 
   private:
+    void find_farthest();
+
     const Grid& grid_;
     double factor_;
     glm::dvec3 origin_{0.0};
+    double farthest_ = 0; ///< no coordinate in the file is larger
+    bool double_, quantized_;
     bool turned_;
 };
 

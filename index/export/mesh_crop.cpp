@@ -1,11 +1,11 @@
 // Removes triangles and the vertices that no other triangle uses.
 #include "index/export/mesh_crop.h"
 
+#include "index/surface/mesh_cases.h"
+
 #include <limits>
 
 namespace isochron::index {
-namespace {
-
 bool is_within(const MeshVertex& vertex, const VertexBox& box) {
     const glm::dvec3 at = position_of(vertex);
     for (int axis = 0; axis < 3; ++axis)
@@ -15,26 +15,27 @@ bool is_within(const MeshVertex& vertex, const VertexBox& box) {
     return true;
 }
 
-} // namespace
-
-void crop(CellMesh& mesh, const VertexBox& box) {
-    keep_triangles(mesh, [&](const MeshVertex& corner) { return is_within(corner, box); });
-}
-
 void keep_triangles(CellMesh& mesh, const std::function<bool(const MeshVertex& corner)>& keeps) {
     std::vector<bool> within(mesh.vertices.size());
     for (std::size_t i = 0; i < within.size(); ++i)
         within[i] = keeps(mesh.vertices[i]);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-        if (!within[mesh.triangles[i]] || !within[mesh.triangles[i + 1]] ||
-            !within[mesh.triangles[i + 2]])
-            continue;
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            mesh.triangles[kept + corner] = mesh.triangles[i + corner];
-        kept += 3;
+    std::size_t kept = 0, kept_cells = 0, next = 0;
+    for (const std::uint8_t which : mesh.cases) {
+        const std::size_t before = kept;
+        for (const std::size_t end = next + 3u * mesh_cases()[which].triangles; next < end;
+             next += 3) {
+            if (!within[mesh.triangles[next]] || !within[mesh.triangles[next + 1]] ||
+                !within[mesh.triangles[next + 2]])
+                continue;
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                mesh.triangles[kept + corner] = mesh.triangles[next + corner];
+            kept += 3;
+        }
+        if (kept > before)
+            mesh.cases[kept_cells++] = which;
     }
     mesh.triangles.resize(kept);
+    mesh.cases.resize(kept_cells);
     drop_unused_vertices(mesh);
 }
 

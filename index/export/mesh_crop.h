@@ -14,12 +14,11 @@ struct VertexBox {
     std::array<std::uint32_t, 3> first{}, last{}; ///< x, y, z
 };
 
-/// Removes the triangles with a corner outside of the box, and the vertices that no triangle uses
-/// then. The others keep their order; `cases` stay those of all cells.
-void crop(CellMesh& mesh, const VertexBox& box);
+bool is_within(const MeshVertex& vertex, const VertexBox& box);
 
-/// Removes triangles with a corner that is not to be kept, and vertices that none is left to use.
-/// What stays keeps its order, as in `crop`.
+/// Removes triangles with a corner that is not to be kept, the vertices that none is left to use, and the
+/// cases of cells that have none left. What stays keeps its order.
+/// @param mesh as it was made: all triangles of its cases
 void keep_triangles(CellMesh& mesh, const std::function<bool(const MeshVertex& corner)>& keeps);
 
 /// Removes vertices that no triangle uses.

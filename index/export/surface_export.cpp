@@ -82,7 +82,7 @@ class StepMaker {
             complete = whole && (!by_crossing || add_first_crossings(number, found, *whole));
             if (complete) {
                 if (request_.reshape)
-                    request_.reshape(*whole, query);
+                    request_.reshape(*whole, query, look);
                 mesh.add(*std::move(whole));
             }
         } else {

@@ -42,8 +42,10 @@ struct ExportRequest {
     std::vector<SurfaceWish> surfaces;
     std::optional<ValuesWish> values; ///< needs `ExportPlan::values_name`
     /// Changes each mesh before it is colored and written; may be null. Called on one thread. It gets
-    /// the whole mesh, which is in memory then, and what it is the surface of.
-    std::function<void(CellMesh& mesh, const Query& query)> reshape;
+    /// the whole mesh, which is in memory then, what it is the surface of, and what to call now and then
+    /// where it takes long (it throws where the export is canceled).
+    std::function<void(CellMesh& mesh, const Query& query, const std::function<void()>& look)>
+        reshape;
     std::stop_token stop = {}; ///< ends the export: it throws Error then
 };
 

@@ -83,25 +83,76 @@ std::vector<SampledChunk> sampled(const ChunkStore& store, const IndexStats& sta
     return spread(all, kMostChunks);
 }
 
-/// Scaled values of one chunk at a step.
-std::vector<double> values_of(const ChunkStore& store, std::uint32_t step, const SampledChunk& at,
-                              const std::stop_token& stop) {
-    const StepView view(store, Instant(step));
-    const ChunkPtr chunk = view.chunks(at.layer, std::array{at.place}, stop).front();
-    return visit_value_type(view.type(), [&]<class T>(std::type_identity<T>) {
-        const auto* values = reinterpret_cast<const T*>(chunk->values.data());
-        std::vector<double> scaled(chunk->values.size() / sizeof(T));
-        for (std::size_t i = 0; i < scaled.size(); ++i)
-            scaled[i] = view.scaling()(static_cast<double>(values[i]));
-        return scaled;
-    });
-}
-
-/// The cells of a chunk.
-class CellsOfChunk {
+/// A chunk, alone or with those around it.
+class ChunkBox {
   public:
-    CellsOfChunk(const ChunkStore& store, const SampledChunk& at)
-        : size_(store.grid().size(at.layer, at.place)) {}
+    /// @param reach chunks to each side
+    ChunkBox(const ChunkGrid& grid, const SampledChunk& at, std::uint32_t reach) : grid_(grid) {
+        const auto [x, y] = grid.at(at.place);
+        const std::array middle{x, y, at.layer};
+        const auto size = grid.size(at.layer, at.place);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            first_[axis] = middle[axis] - std::min(middle[axis], reach);
+            end_[axis] = std::min(middle[axis] + reach + 1, grid.counts()[axis]);
+            core_[axis] = (middle[axis] - first_[axis]) * kChunkEdge;
+            core_end_[axis] = core_[axis] + size[axis] - 1;
+        }
+        const auto last = grid.size(end_[2] - 1, grid.place(end_[0] - 1, end_[1] - 1));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            size_[axis] = (end_[axis] - first_[axis] - 1) * kChunkEdge + last[axis];
+    }
+
+    /// Vertices along x, y and z.
+    const std::array<std::uint32_t, 3>& size() const { return size_; }
+    /// Whether a cell lies in the chunk itself.
+    bool in_chunk(const glm::ivec3& cell) const {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (const int at = cell[static_cast<int>(axis)];
+                std::cmp_less(at, core_[axis]) || !std::cmp_less(at, core_end_[axis]))
+                return false;
+        return true;
+    }
+    /// Scaled values at a step.
+    std::vector<double> values(const ChunkStore& store, std::uint32_t step,
+                               const std::stop_token& stop) const {
+        const StepView view(store, Instant(step));
+        std::vector<double> all(std::size_t{size_[0]} * size_[1] * size_[2]);
+        for (std::uint32_t z = first_[2]; z < end_[2]; ++z)
+            for (std::uint32_t y = first_[1]; y < end_[1]; ++y)
+                for (std::uint32_t x = first_[0]; x < end_[0]; ++x) {
+                    const std::uint32_t place = grid_.place(x, y);
+                    put(view, *view.chunks(z, std::array{place}, stop).front(),
+                        {x - first_[0], y - first_[1], z - first_[2]}, all);
+                }
+        return all;
+    }
+
+  private:
+    void put(const StepView& view, const Chunk& chunk, const std::array<std::uint32_t, 3>& at,
+             std::vector<double>& all) const {
+        visit_value_type(view.type(), [&]<class T>(std::type_identity<T>) {
+            const auto* values = reinterpret_cast<const T*>(chunk.values.data());
+            const auto [nx, ny, nz] = chunk.size;
+            for (std::size_t z = 0; z < nz; ++z)
+                for (std::size_t y = 0; y < ny; ++y) {
+                    const std::size_t row =
+                        (at[2] * kChunkEdge + z) * size_[1] + at[1] * kChunkEdge + y;
+                    double* const to = all.data() + row * size_[0] + at[0] * kChunkEdge;
+                    for (std::size_t x = 0; x < nx; ++x)
+                        to[x] = view.scaling()(static_cast<double>(*values++));
+                }
+        });
+    }
+
+    const ChunkGrid& grid_;
+    std::array<std::uint32_t, 3> first_{}, end_{}; ///< chunks
+    std::array<std::uint32_t, 3> core_{}, core_end_{}, size_{};
+};
+
+/// The cells of a box.
+class CellsOfBox {
+  public:
+    explicit CellsOfBox(const ChunkBox& box) : box_(box), size_(box.size()) {}
 
     std::size_t count() const { return std::size_t{nx()} * ny() * nz(); }
     bool contains(const glm::ivec3& cell) const {
@@ -136,6 +187,7 @@ class CellsOfChunk {
         }
         return found;
     }
+    bool in_chunk(std::size_t cell) const { return box_.in_chunk(place(cell)); }
     /// Calls `f(number)` for the cell itself and its up to 26 neighbors.
     template <class F>
     void around(std::size_t cell, const F& f) const {
@@ -150,21 +202,24 @@ class CellsOfChunk {
     std::uint32_t nx() const { return size_[0] - 1; }
     std::uint32_t ny() const { return size_[1] - 1; }
     std::uint32_t nz() const { return size_[2] - 1; }
+    const ChunkBox& box_;
     std::array<std::uint32_t, 3> size_; ///< vertices
 };
 
-/// Parts of one surface that lie in none of the cells of the other one, nor next to them.
-std::uint64_t lone_parts(const CellsOfChunk& cells, std::vector<bool> surface,
+/// Parts of one surface in the chunk that lie in none of the cells of the other one, nor next to them.
+std::uint64_t lone_parts(const CellsOfBox& cells, std::vector<bool> surface,
                          const std::vector<bool>& other) {
     std::uint64_t lone = 0;
     std::vector<std::size_t> part;
     for (std::size_t first = 0; first < surface.size(); ++first) {
-        if (!surface[first])
+        if (!surface[first] || !cells.in_chunk(first))
             continue;
         bool met = false;
+        std::size_t in_chunk = 0;
         part = {first};
         surface[first] = false;
-        for (std::size_t i = 0; i < part.size(); ++i)
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            in_chunk += cells.in_chunk(part[i]) ? 1 : 0;
             cells.around(part[i], [&](std::size_t near) {
                 met = met || other[near];
                 if (surface[near]) {
@@ -172,30 +227,39 @@ std::uint64_t lone_parts(const CellsOfChunk& cells, std::vector<bool> surface,
                     part.push_back(near);
                 }
             });
-        lone += !met && part.size() > BlendQuality::kSmallPart ? 1 : 0;
+        }
+        lone += !met && in_chunk > BlendQuality::kSmallPart ? 1 : 0;
     }
     return lone;
 }
-std::uint64_t lone_parts(const CellsOfChunk& cells, const std::vector<double>& truth,
+std::uint64_t lone_parts(const CellsOfBox& cells, const std::vector<double>& truth,
                          const std::vector<double>& blend, double isovalue) {
     const auto of_truth = cells.active(truth, isovalue), of_blend = cells.active(blend, isovalue);
     return lone_parts(cells, of_truth, of_blend) + lone_parts(cells, of_blend, of_truth);
 }
 
+/// In the blend of the steps beside one, and in the blend that is expected of steps half as far away.
+struct LoneParts {
+    std::uint64_t second = 0, nearer = 0;
+    bool operator==(const LoneParts&) const = default;
+};
+
 /// A step in a chunk, and what the blend of two others makes of it.
 class LeftOut {
   public:
-    LeftOut(const ChunkStore& store, const SampledChunk& at, const std::stop_token& stop)
-        : store_(store), at_(at), stop_(stop), cells_(store, at),
-          truth_(values_of(store, at.step, at, stop)) {}
+    /// @param reach chunks to each side that are looked at, too
+    LeftOut(const ChunkStore& store, const SampledChunk& at, std::uint32_t reach,
+            const std::stop_token& stop)
+        : store_(store), at_(at), stop_(stop), box_(store.grid(), at, reach), cells_(box_),
+          truth_(box_.values(store, at.step, stop)) {}
 
     /// @param beside steps to either side
     std::vector<double> blend(std::uint32_t beside) const {
         const std::vector<double>& times = store_.info().times;
         const std::uint32_t before = at_.step - beside, after = at_.step + beside;
         const double share = (times[at_.step] - times[before]) / (times[after] - times[before]);
-        std::vector<double> blend = values_of(store_, before, at_, stop_);
-        const std::vector<double> last = values_of(store_, after, at_, stop_);
+        std::vector<double> blend = box_.values(store_, before, stop_);
+        const std::vector<double> last = box_.values(store_, after, stop_);
         for (std::size_t i = 0; i < blend.size(); ++i)
             blend[i] = std::lerp(blend[i], last[i], share);
         return blend;
@@ -219,8 +283,13 @@ class LeftOut {
                 distances.push_back(std::min(distance, BlendQuality::kFarthest));
         }
     }
-    std::uint64_t lone(const std::vector<double>& blend) const {
-        return lone_parts(cells_, truth_, blend, at_.isovalue);
+    /// @param fourth none in a series of fewer than five steps
+    LoneParts lone(const std::vector<double>& second,
+                   const std::optional<std::vector<double>>& fourth) const {
+        LoneParts lone{lone_parts(cells_, truth_, second, at_.isovalue), 0};
+        lone.nearer = fourth ? lone_parts(cells_, truth_, nearer(second, *fourth), at_.isovalue)
+                             : lone.second;
+        return lone;
     }
     /// What is expected of the blend of steps half as far away as those of `second`.
     std::vector<double> nearer(const std::vector<double>& second,
@@ -246,7 +315,8 @@ class LeftOut {
     const ChunkStore& store_;
     const SampledChunk at_;
     const std::stop_token& stop_;
-    const CellsOfChunk cells_;
+    const ChunkBox box_;
+    const CellsOfBox cells_;
     const std::vector<double> truth_;
 };
 
@@ -268,17 +338,21 @@ std::optional<BlendQuality> measure_blends(const ChunkStore& store, const IndexS
     std::vector<double> of_second, of_fourth;
     for (const SampledChunk& chunk : sampled(store, stats)) {
         stop_if_asked(stop);
-        const LeftOut step(store, chunk, stop);
+        const LeftOut step(store, chunk, 0, stop);
         const std::vector<double> second = step.blend(1);
         step.add_distances(second, of_second);
-        quality.lone_second += step.lone(second);
-        if (steps < 5) {
-            quality.lone = quality.lone_second;
-            continue;
+        std::optional<std::vector<double>> fourth;
+        if (steps >= 5) {
+            fourth = step.blend(2);
+            step.add_distances(*fourth, of_fourth);
         }
-        const std::vector<double> fourth = step.blend(2);
-        step.add_distances(fourth, of_fourth);
-        quality.lone += step.lone(step.nearer(second, fourth));
+        LoneParts lone = step.lone(second, fourth);
+        if (lone != LoneParts{}) { // what they belong to may lie in the next chunk
+            const LeftOut wide(store, chunk, 1, stop);
+            lone = wide.lone(wide.blend(1), fourth ? std::optional(wide.blend(2)) : std::nullopt);
+        }
+        quality.lone_second += lone.second;
+        quality.lone += lone.nearer;
     }
     if (of_second.empty())
         return std::nullopt;

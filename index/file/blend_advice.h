@@ -10,7 +10,7 @@
 namespace isochron::index {
 
 /// Compares at three isovalues, in at most 64 chunks, of steps that are spread over the series, and
-/// reads these chunks alone. The same for any number of threads.
+/// reads these chunks alone, and those around one where a part of a surface seems to have no partner. The same for any number of threads.
 /// @param store of the volume itself @param stats of its values
 /// @return none with fewer than three steps, where no cell is active, in an index that refers to its
 ///         sources, or without bricks

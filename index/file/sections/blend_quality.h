@@ -26,8 +26,8 @@ inline double share_of_nearer(double grown) {
 
 /// The surface of the blend beside that of a step that was left out. Distances are in voxels, 95 %
 /// of the cells are not farther off, and none counts as farther than kFarthest. A part of a surface
-/// is lone if it has more than kSmallPart cells in a row, none of which is next to a cell of the
-/// other surface.
+/// is lone if it has more than kSmallPart cells in a row in a chunk, and no cell there or in the chunks
+/// around it that is next to one of the other surface.
 struct BlendQuality {
     static constexpr double kFarthest = 16;
     static constexpr std::size_t kSmallPart = 50;

@@ -167,6 +167,29 @@ TEST(BlendAdvice, HoldsWhereASmallPartVanishesThoughNearlyAllOfTheSurfaceIsRight
     EXPECT_TRUE(fast->holds());
 }
 
+/// A front moves through the borders of chunks: what it becomes in the blend may lie in the next one.
+TEST(BlendAdvice, LooksForThePartnersOfFlatFrontsInTheNextChunks) {
+    const auto front = [](int axis, double by, double width) {
+        std::array<std::uint32_t, 3> size{17, 17, 17};
+        size[static_cast<std::size_t>(axis)] = 48;
+        return TestField(size, 17, ValueType::f32, [=](double x, double y, double z, double t) {
+            return std::tanh((std::array{x, y, z}[static_cast<std::size_t>(axis)] - 8 - by * t) /
+                             width);
+        });
+    };
+    for (const int axis : {0, 1, 2})
+        for (const double by : {0.7, 1.5}) {
+            const auto quality = measured(front(axis, by, 2));
+            ASSERT_TRUE(quality);
+            EXPECT_EQ(quality->lone, 0u) << "axis " << axis << ", " << by << " voxels a step";
+            EXPECT_FALSE(quality->holds());
+        }
+    // One that is thinner than its way in a step is there twice in the blend.
+    const auto thin = measured(front(0, 2.8, 0.4));
+    ASSERT_TRUE(thin);
+    EXPECT_TRUE(thin->holds());
+}
+
 /// Gaps are held whatever the advice is, so it is about the other distances.
 TEST(BlendAdvice, LeavesGapsOut) {
     constexpr std::uint32_t kGap = 5, kMissing = 20;

@@ -17,6 +17,7 @@ endforeach()
 # The Python module finds the program's readers from its own place, too.
 if(TARGET isochron_python)
   install(TARGETS isochron_python LIBRARY DESTINATION ${ISOCHRON_PYTHON_FOLDER}/isochron COMPONENT python)
+  install(DIRECTORY ${ISOCHRON_PYTHON_INFO} DESTINATION ${ISOCHRON_PYTHON_FOLDER} COMPONENT python)
   install(DIRECTORY app/python/isochron DESTINATION ${ISOCHRON_PYTHON_FOLDER} COMPONENT python
     PATTERN __pycache__ EXCLUDE)
 endif()

@@ -49,7 +49,7 @@ if(TARGET isochron_python)
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   set(interpreter "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next})")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "isochron (= ${PROJECT_VERSION}), ${interpreter}, python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray, python3-dask, python3-vtk9")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
 "Isochron's index of time-varying volumes for Python: active cells, surfaces
 and values at any step as arrays of NumPy, an xarray Dataset, and pictures.")

@@ -260,11 +260,12 @@ std::string unexpected(const CLI::App& command) {
     return fmt::format("{}: unknown option{}", word, meant(nearest_word(word, names)));
 }
 
-/// The parser's complaint in one line, with the command whose help explains more.
+/// The parser's complaint in one line.
+/// @param name gets the command whose help explains more
 std::string complaint(const CLI::App& program, const std::vector<std::string>& typed,
-                      const CLI::ParseError& error) {
+                      const CLI::ParseError& error, std::string& name) {
     const CLI::App* command = &program;
-    std::string name = program.get_name();
+    name = program.get_name();
     while (!command->get_subcommands().empty()) {
         command = command->get_subcommands().front();
         name += " " + command->get_name();
@@ -288,7 +289,7 @@ std::string complaint(const CLI::App& program, const std::vector<std::string>& t
         if (const std::size_t equals = what.find(" = "); equals != std::string::npos)
             what.replace(equals, 3, ": expected a number, got ");
     }
-    return fmt::format("{} (see {} --help)", what, name);
+    return what;
 }
 
 /// Flags that had another spelling up to version 0.1, and their spelling now.
@@ -354,12 +355,27 @@ int parse_and_run(const ProgramText& text,
     } catch (const CLI::Success& request) {
         return program.exit(request);
     } catch (const CLI::ParseError& error) {
-        return fail(text.name, complaint(program, typed, error), 2);
+        std::string command;
+        const std::string what = complaint(program, typed, error, command);
+        return fail(text.name, fmt::format("{} (see {} --help)", what, command), 2);
     }
     return 0;
 }
 
 } // namespace
+
+void read_words(const std::vector<std::string>& words,
+                const std::function<void(Command& command)>& add) {
+    CLI::App app;
+    Command command(app, words);
+    add(command);
+    try {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& error) {
+        std::string name;
+        throw UsageError(complaint(app, words, error, name));
+    }
+}
 
 int run_program(const ProgramText& text, std::initializer_list<void (*)(Command& program)> commands,
                 int argc, const char* const* argv) {

@@ -112,6 +112,11 @@ class Command {
     const std::vector<std::string>* typed_;
 };
 
+/// Takes the options of a command that is not typed: the words are made by a program.
+/// @param add adds the options @throws UsageError naming the option that is wrong
+void read_words(const std::vector<std::string>& words,
+                const std::function<void(Command& command)>& add);
+
 /// What a program says of itself.
 struct ProgramText {
     const char* name;

@@ -2,6 +2,7 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
+#include "app/indexing/asked_build.h"
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/index_report.h"
@@ -10,11 +11,7 @@
 #include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
-#include "index/file/index_states.h"
-#include "index/indexing/appended_series.h"
-#include "index/indexing/index_build.h"
 #include "index/readers/formats/format.h"
-#include "index/system/growing_file.h"
 #include "index/system/team.h"
 #include "stereo/cluster.h"
 
@@ -22,9 +19,10 @@
 
 #include <limits>
 #include <memory>
-#include <new>
-#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -73,21 +71,6 @@ BuildSources opened(const std::vector<fs::path>& files, const BuildArguments& ar
     }
 }
 
-/// Appends in place where that can be, else builds anew.
-/// @param file the index that grows; null where a new one is built
-/// @return what a user should know, or nothing
-SafeText write_index(const BuildSources& sources, const BuildArguments& arguments,
-                     const index::BuildOptions& options, const index::IndexFile* held,
-                     index::GrowingFile* file, const index::Progress& progress, index::Team& team) {
-    const std::string reason = held ? reason_to_rewrite(*held, options) : std::string();
-    if (held && reason.empty()) {
-        index::append_index(*sources.volume, *held, *file, arguments.out, options, progress, team);
-        return {};
-    }
-    index::build_index(*sources.volume, arguments.out, options, progress, team);
-    return held ? SafeText("note: written anew: {}\n", reason) : SafeText();
-}
-
 /// @param sources opened from `files`; null: not yet
 void guard_index(const BuildArguments& arguments, std::vector<fs::path> files,
                  const BuildSources* sources) {
@@ -109,73 +92,40 @@ void guard_index(const BuildArguments& arguments, std::vector<fs::path> files,
 void build_with(index::Team& team, const BuildArguments& asked, const Command& command,
                 const CancelOnSignal& signals) {
     const bool reports = team.rank() == 0 && !asked.quiet;
-    BuildArguments arguments = asked;
-    std::optional<index::GrowingFile> file;
-    std::shared_ptr<const index::IndexFile> held;
-    if (asked.append) {
-        std::error_code ignored;
-        if (!fs::exists(asked.out, ignored))
-            throw index::Error(fmt::format(
-                "{}: there is no index to append to yet; build it once without --append",
-                asked.out.string()));
-        team.together([&] { file.emplace(asked.out, team.rank() == 0); });
-        team.together([&] {
-            held = index::IndexFile::open(asked.out);
-            if (const auto lost = index::lost_state(*held))
-                throw index::Error(*lost); // appending would overwrite what is left of it
-            arguments = with_held(asked, *held);
-        });
-    }
+    AskedBuild build(asked, team);
+    const BuildArguments& arguments = build.arguments();
     if (const std::string note = former_tiers_note(asked.tiers); reports && !note.empty())
         print_safely(stderr, "isochron: {}\n", note);
-    BuildSources sources;
-    index::BuildOptions options;
+    bool has_work = false;
+    std::vector<std::string> left_out;
     team.together([&] {
         const std::vector<fs::path> files = expand_patterns(arguments.files);
         guard_index(arguments, files, nullptr); // at once, as opening may take long
-        sources = opened(files, arguments, command);
+        BuildSources sources = opened(files, arguments, command);
         guard_index(arguments, files, &sources);
-        if (held)
-            append_sources(sources, held, arguments.out.string());
-        options = build_options(arguments, sources);
-        for (std::size_t i = 0; held && arguments.tiers.empty() && i < options.further.size(); ++i)
-            options.further[i].plan = held->array(i + 1).plan();
-        if (arguments.refer) {
-            options.referral = referral_to(files, arguments);
-            options.referral->options.array = sources.array;
-            options.referral->options.component = sources.component;
-        }
+        left_out = sources.notes;
+        has_work = build.take(std::move(sources), files);
     });
-    if (!sources.volume) { // nothing to append
+    if (!has_work) {
         if (reports)
             print_safely("{}: holds every step of these files already\n", arguments.out.string());
         return;
     }
-    const index::SeriesInfo& info = sources.volume->info();
-    const std::size_t known = held ? held->info().steps() : 0;
-    SafeText note;
-    try {
-        ProgressBar bar(stderr,
-                        static_cast<double>(info.step_bytes()) *
-                            static_cast<double>(info.steps() - known),
-                        ProgressBar::Of::all);
-        note = write_index(
-            sources, arguments, options, held.get(), file ? &*file : nullptr,
-            [&](std::string_view phase, double fraction) {
-                signals.check();
-                if (reports)
-                    bar.show(phase, fraction);
-            },
-            team);
-    } catch (const std::bad_alloc&) {
-        throw index::Error(
-            fmt::format("{}: there is not enough memory to build it", arguments.out.string()));
+    std::string anew;
+    {
+        ProgressBar bar(stderr, build.bytes(), ProgressBar::Of::all);
+        anew = build.write([&](std::string_view phase, double fraction) {
+            signals.check();
+            if (reports)
+                bar.show(phase, fraction);
+        });
     }
     if (reports)
-        print_safely("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)), note);
+        print_safely("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)),
+                     anew.empty() ? SafeText() : SafeText("note: written anew: {}\n", anew));
     if (reports)
-        for (const std::string& left_out : sources.notes)
-            print_safely("note: {}\n", left_out);
+        for (const std::string& array : left_out)
+            print_safely("note: {}\n", array);
 }
 
 /// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.
@@ -237,53 +187,13 @@ void add_build(Command& program) {
         .type_name("NAME.isochron");
     add_reading_options(command, *arguments);
 
-    const char* index_group = "Index";
-    command
-        .option("--tiers", arguments->tiers,
-                "Search structures to build: bricks, tree (the paper's), both with a comma between "
-                "them, or `none` (default: bricks)")
-        .type_name("LIST")
-        .group(index_group);
-    command
-        .option("--codec", arguments->codec,
-                "How values are compressed (default: what suits each chunk best)")
-        .one_of({"none", "lz4", "zstd"})
-        .group(index_group);
-    command
-        .flag("--append", arguments->append,
-              "Add the steps that NAME.isochron does not hold yet. FILES are all steps, the held "
-              "ones first. Options that are not given stay as they were")
-        .group(index_group);
-    command
-        .flag("--refer", arguments->refer,
-              "Store references to FILES instead of a copy of their values")
-        .group(index_group);
-    command
-        .option("--threads", arguments->build.threads,
-                "Threads to build with (0: one for each processor)")
-        .between(0u, 1024u)
-        .group(index_group);
+    const auto [lattice, variation] = add_index_options(command, *arguments);
     command
         .option("--timeout", arguments->timeout,
                 "In an MPI job: end the job when a process is silent for this many seconds")
         .between(0.1, 86400.0)
         .shows_default()
-        .group(index_group);
-    const Option lattice =
-        command
-            .option(
-                "--lattice", arguments->build.tree.lattice,
-                "Add the paper's tree; its lattice has L x L elements (the paper's SpanSpaceSize)")
-            .between(1u, 4096u)
-            .shows_default()
-            .group(index_group);
-    const Option variation = command
-                                 .option("--max-variation", arguments->build.tree.max_variation,
-                                         "Add the paper's tree; a cell is stored once for a time "
-                                         "span in which it has at most this many lattice elements")
-                                 .between(1u, 64u)
-                                 .shows_default()
-                                 .group(index_group);
+        .group("Index");
     command.flag("--force", arguments->build.replaces_any,
                  "Let --out replace a file that is no index");
     command.flag("--quiet", arguments->quiet, "Print errors only");
@@ -291,7 +201,7 @@ void add_build(Command& program) {
         "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
         "0, no file is left behind\nand an older index is unchanged. mpirun -n N isochron "
         "build ... spreads the work over N processes that\nshare a file system.");
-    command.on_run([arguments, lattice, variation, command] {
+    command.on_run([arguments, lattice = lattice, variation = variation, command] {
         arguments->build.with_tree = lattice.given() || variation.given();
         set_up_readers(*arguments);
         run_build(with_path_within(*arguments), command);

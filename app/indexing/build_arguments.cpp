@@ -402,4 +402,61 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group(raw);
 }
 
+std::pair<Option, Option> add_index_options(Command& command, BuildArguments& arguments) {
+    const char* index_group = "Index";
+    command
+        .option("--tiers", arguments.tiers,
+                "Search structures to build: bricks, tree (the paper's), both with a comma between "
+                "them, or `none` (default: bricks)")
+        .type_name("LIST")
+        .group(index_group);
+    command
+        .option("--codec", arguments.codec,
+                "How values are compressed (default: what suits each chunk best)")
+        .one_of({"none", "lz4", "zstd"})
+        .group(index_group);
+    command
+        .flag("--append", arguments.append,
+              "Add the steps that NAME.isochron does not hold yet. FILES are all steps, the held "
+              "ones first. Options that are not given stay as they were")
+        .group(index_group);
+    command
+        .flag("--refer", arguments.refer,
+              "Store references to FILES instead of a copy of their values")
+        .group(index_group);
+    command
+        .option("--threads", arguments.build.threads,
+                "Threads to build with (0: one for each processor)")
+        .between(0u, 1024u)
+        .group(index_group);
+    const Option lattice =
+        command
+            .option(
+                "--lattice", arguments.build.tree.lattice,
+                "Add the paper's tree; its lattice has L x L elements (the paper's SpanSpaceSize)")
+            .between(1u, 4096u)
+            .shows_default()
+            .group(index_group);
+    const Option variation = command
+                                 .option("--max-variation", arguments.build.tree.max_variation,
+                                         "Add the paper's tree; a cell is stored once for a time "
+                                         "span in which it has at most this many lattice elements")
+                                 .between(1u, 64u)
+                                 .shows_default()
+                                 .group(index_group);
+    return {lattice, variation};
+}
+
+BuildArguments build_arguments_of(const std::vector<std::string>& words) {
+    BuildArguments arguments;
+    read_words(words, [&](Command& command) {
+        add_reading_options(command, arguments);
+        add_index_options(command, arguments);
+    });
+    arguments.build.with_tree = std::ranges::any_of(words, [](const std::string& word) {
+        return word.starts_with("--lattice=") || word.starts_with("--max-variation=");
+    });
+    return arguments;
+}
+
 } // namespace isochron::app

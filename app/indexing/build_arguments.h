@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -62,5 +63,10 @@ void set_up_readers(const BuildArguments& arguments);
 
 /// Adds the options that say how files are read.
 void add_reading_options(Command& command, BuildArguments& arguments);
+/// Adds the options that say what the index holds. @return those of the paper's tree
+std::pair<Option, Option> add_index_options(Command& command, BuildArguments& arguments);
+/// The options that a program gives as words, without files and output.
+/// @throws UsageError naming the option that is wrong
+BuildArguments build_arguments_of(const std::vector<std::string>& words);
 
 } // namespace isochron::app

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -22,7 +21,6 @@ namespace isochron::app {
 namespace {
 
 using SeriesPtr = std::unique_ptr<index::VolumeSeries>;
-using Open = std::function<SeriesPtr(const index::ReadOptions&)>;
 
 /// What may stand behind a vector's name, or behind a scalar's what is computed of it.
 bool is_component(std::string_view word) {
@@ -35,7 +33,8 @@ bool is_component(std::string_view word) {
 }
 
 /// @param name of an array, or of an array and a component
-ArraySource open_called(const Open& open, index::ReadOptions options, const std::string& name) {
+ArraySource open_called(const OpenSource& open, index::ReadOptions options,
+                        const std::string& name) {
     options.array = name;
     const std::size_t dot = name.rfind('.');
     const bool may_be_two = !options.component && dot != name.npos && dot > 0 &&
@@ -62,7 +61,7 @@ std::string name_in(const std::string& offered) {
     return offered.substr(0, end) + (vector ? std::string(kMagnitude) : "");
 }
 
-std::vector<std::string> offered_by(const Open& open, index::ReadOptions options) {
+std::vector<std::string> offered_by(const OpenSource& open, index::ReadOptions options) {
     options.array.reset();
     options.any_array = true;
     return open(options)->info().arrays;
@@ -71,7 +70,7 @@ std::vector<std::string> offered_by(const Open& open, index::ReadOptions options
 /// Names of arrays with patterns such as `u*` replaced by the arrays that match. A pattern that is
 /// itself the name of an array, as of groups in HDF5 that are steps, stays, and so does one that no
 /// array matches: the format may know it.
-std::vector<std::string> without_patterns(const Open& open, const BuildArguments& arguments) {
+std::vector<std::string> without_patterns(const OpenSource& open, const BuildArguments& arguments) {
     std::vector<std::string> names, offered;
     for (const std::string& given : arguments.arrays) {
         if (given.find_first_of("*?[") == given.npos) {
@@ -112,7 +111,7 @@ std::vector<std::string> names_among(const index::VolumeSeries& series) {
 }
 
 /// Opens every array that goes with the first.
-void open_all(const Open& open, const index::ReadOptions& options,
+void open_all(const OpenSource& open, const index::ReadOptions& options,
               const std::vector<std::string>& names, BuildSources& sources) {
     for (const std::string& name : names) {
         try {
@@ -137,7 +136,7 @@ void open_all(const Open& open, const index::ReadOptions& options,
         throw index::Error(sources.notes.empty() ? "no array can be read" : sources.notes.front());
 }
 
-void open_arrays(const Open& open, const BuildArguments& arguments, BuildSources& sources) {
+void open_arrays(const OpenSource& open, const BuildArguments& arguments, BuildSources& sources) {
     const index::ReadOptions options = read_options(arguments);
     if (arguments.all_arrays) {
         index::ReadOptions any = options;
@@ -171,19 +170,24 @@ bool is_among(const BuildSources& sources, const std::optional<std::string>& nam
 
 } // namespace
 
+BuildSources open_sources(const OpenSource& open, const BuildArguments& arguments) {
+    BuildSources sources;
+    open_arrays(open, arguments, sources);
+    if (arguments.color && (arguments.color_component || !is_among(sources, arguments.color)))
+        sources.colors = open(color_options(arguments));
+    return sources;
+}
+
 BuildSources open_sources(const std::vector<std::filesystem::path>& files,
                           const BuildArguments& arguments, const index::Progress& progress) {
-    BuildSources sources;
     // An index is a series too: of an older file version it becomes one of this.
-    if (files.size() != 1 || !index::is_index(files.front())) {
-        const Open open = [&](const index::ReadOptions& options) {
-            return index::open_series(files, options, progress);
-        };
-        open_arrays(open, arguments, sources);
-        if (arguments.color && (arguments.color_component || !is_among(sources, arguments.color)))
-            sources.colors = open(color_options(arguments));
-        return sources;
-    }
+    if (files.size() != 1 || !index::is_index(files.front()))
+        return open_sources(
+            [&](const index::ReadOptions& options) {
+                return index::open_series(files, options, progress);
+            },
+            arguments);
+    BuildSources sources;
     if (arguments.refer)
         throw UsageError("--refer: an index has no files of values to refer to");
     const std::filesystem::path& index = files.front();

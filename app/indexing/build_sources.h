@@ -5,6 +5,7 @@
 #include "index/progress.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,12 @@ struct BuildSources {
     std::vector<ArraySource> further;
     std::vector<std::string> notes; ///< on arrays that were left out
 };
+
+/// Opens the array that options name, of whatever holds the values.
+using OpenSource =
+    std::function<std::unique_ptr<index::VolumeSeries>(const index::ReadOptions& options)>;
+/// Opens the arrays that the arguments name. @throws index::Error, UsageError
+BuildSources open_sources(const OpenSource& open, const BuildArguments& arguments);
 
 /// Opens files of values, or one index, which may have an older file version.
 /// @param progress of many files; may be empty

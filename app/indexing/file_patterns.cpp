@@ -1,7 +1,7 @@
 // Names and patterns of input files, as a user gives them.
 #include "app/indexing/file_patterns.h"
 
-#include "index/error.h"
+#include "index/missing_file.h"
 #include "index/name_pattern.h"
 
 #include <fmt/format.h>
@@ -55,7 +55,7 @@ std::vector<fs::path> expand_patterns(const std::vector<std::string>& arguments)
         if (found.empty())
             found = matching(index::escaped(argument, "["));
         if (found.empty())
-            throw index::Error(fmt::format("{}: no file matches", argument));
+            throw index::MissingFile(fmt::format("{}: no file matches", argument));
         files.insert(files.end(), found.begin(), found.end());
     }
     return files;

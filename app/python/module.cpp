@@ -1,9 +1,12 @@
 // The Python module isochron._native: what isochron/__init__.py is made of.
 #include "app/python/runs.h"
 
-#include "index/error.h"
+#include "app/command_line/command_line.h"
 #include "index/file/named_index.h"
+#include "index/interrupted.h"
+#include "index/missing_file.h"
 #include "index/system/module.h"
+#include "index/volume/time_unit.h"
 #include "version_number.h"
 
 #include <pybind11/numpy.h>
@@ -11,8 +14,14 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
+#include <exception>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <system_error>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,8 +57,9 @@ auto unlocked(F&& f) {
     return f();
 }
 
-py::array cells(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue) {
-    CellNumbers found = unlocked([&] { return array.cells({step, fraction}, isovalue); });
+py::array cells(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
+                std::size_t level) {
+    CellNumbers found = unlocked([&] { return array.cells({step, fraction}, isovalue, level); });
     if (!found.are_wide)
         return flat(std::move(found.narrow));
     const auto count = static_cast<py::ssize_t>(found.wide.size());
@@ -65,46 +75,73 @@ py::tuple change(RunArray& array, std::int64_t step, std::int64_t fraction, doub
 }
 
 template <class Number>
-py::tuple as_tuple(Triangles<Number>&& mesh) {
+py::tuple as_tuple(Triangles<Number>&& mesh, const WishedOfMesh& wished) {
     const auto points = static_cast<py::ssize_t>(mesh.points.size() / 3);
     const auto faces = static_cast<py::ssize_t>(mesh.faces.size() / 3);
+    py::object normals = py::none(), values = py::none();
+    if (wished.normals)
+        normals = owned(std::move(mesh.normals), {points, 3});
+    if (wished.values)
+        values = owned(std::move(mesh.values), {points});
     return py::make_tuple(owned(std::move(mesh.points), {points, 3}),
-                          owned(std::move(mesh.faces), {faces, 3}));
+                          owned(std::move(mesh.faces), {faces, 3}), normals, values);
 }
 
 py::tuple mesh(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
-               bool absolute) {
+               bool absolute, std::size_t level, bool normals,
+               const std::optional<std::string>& values) {
+    const WishedOfMesh wished{normals, values};
+    const RunArray::AskedInstant at{step, fraction};
     if (absolute)
-        return as_tuple(unlocked([&] { return array.mesh({step, fraction}, isovalue); }));
-    return as_tuple(unlocked([&] { return array.mesh_from_origin({step, fraction}, isovalue); }));
+        return as_tuple(unlocked([&] { return array.mesh(at, isovalue, level, wished); }), wished);
+    return as_tuple(unlocked([&] { return array.mesh_from_origin(at, isovalue, level, wished); }),
+                    wished);
+}
+
+/// The step at which each cell is first active, and the fraction, or none.
+py::tuple first_crossings(const RunArray& array, double isovalue, bool blended) {
+    index::FirstCrossings found =
+        unlocked([&] { return array.first_crossings(isovalue, blended); });
+    const auto cells = static_cast<py::ssize_t>(found.steps.size());
+    py::object fractions = py::none();
+    if (found.blended())
+        fractions = owned(std::move(found.fractions), {cells});
+    return py::make_tuple(owned(std::move(found.steps), {cells}), fractions);
+}
+
+py::dtype dtype_of(index::ValueType type) {
+    return index::visit_value_type(
+        type, [](auto of) -> py::dtype { return py::dtype::of<typename decltype(of)::type>(); });
 }
 
 py::dtype type_of(const RunArray& array) {
-    return index::visit_value_type(array.file().info().type, [](auto type) -> py::dtype {
-        return py::dtype::of<typename decltype(type)::type>();
-    });
+    return dtype_of(array.file().info().type);
 }
 
 /// Stored values of a step, or scaled ones between two.
-py::array values(const RunArray& array, std::int64_t step, std::int64_t fraction, const Box& box) {
+py::array values(const RunArray& array, std::int64_t step, std::int64_t fraction, const Box& box,
+                 std::size_t level) {
     std::vector<py::ssize_t> shape;
     for (const auto& [first, end] : box)
         shape.push_back(static_cast<py::ssize_t>(end) - first);
     if (fraction == 0)
-        return owned(unlocked([&] { return array.values({step, 0}, box); }), shape, type_of(array));
-    return owned(unlocked([&] { return array.blended_values({step, fraction}, box); }), shape,
-                 py::dtype::of<double>());
+        return owned(unlocked([&] {
+                         return array.values({step, 0}, box, level);
+                     }),
+                     shape, type_of(array));
+    return owned(unlocked([&] {
+                     return array.blended_values({step, fraction}, box, level);
+                 }),
+                 shape, py::dtype::of<double>());
 }
 
 py::object read_bytes(const RunArray& array) {
     return py::int_(array.file().reading().bytes);
 }
 
-/// Everything that an array says of itself, by name.
-py::dict description(const RunArray& array) {
-    const index::SeriesInfo& info = array.file().info();
-    const index::Grid& grid = info.grid;
-    py::list axes, direction;
+/// Distances of the vertices from the first one along z, y and x.
+py::tuple distances_of(const index::Grid& grid) {
+    py::list axes;
     for (int axis = 2; axis >= 0; --axis) {
         std::vector<double> distances;
         for (std::uint32_t vertex = 0; vertex < grid.vertices[axis]; ++vertex)
@@ -112,6 +149,17 @@ py::dict description(const RunArray& array) {
         const auto count = static_cast<py::ssize_t>(distances.size());
         axes.append(frozen(owned(std::move(distances), {count})));
     }
+    return axes;
+}
+
+/// Everything that an array says of itself, by name.
+py::dict description(const RunArray& array) {
+    constexpr std::array<const char*, 4> kAnatomies{"", "RAS", "LPS", "ENU"};
+    const index::SeriesInfo& info = array.file().info();
+    const index::Grid& grid = info.grid;
+    py::list direction, levels;
+    for (std::size_t level = 0; level < array.file().detail_levels(); ++level)
+        levels.append(distances_of(array.file().chunks(level).info().grid));
     for (int row = 0; row < 3; ++row)
         direction.append(
             py::make_tuple(grid.direction[0][row], grid.direction[1][row], grid.direction[2][row]));
@@ -127,7 +175,9 @@ py::dict description(const RunArray& array) {
     all["spacing"] = py::make_tuple(grid.spacing.z, grid.spacing.y, grid.spacing.x);
     all["origin"] = py::make_tuple(grid.origin.x, grid.origin.y, grid.origin.z);
     all["direction"] = py::tuple(direction);
-    all["distances"] = py::tuple(axes);
+    all["levels"] = py::tuple(levels);
+    all["anatomy"] = kAnatomies[static_cast<std::size_t>(info.anatomy)];
+    all["axis_names"] = py::make_tuple(info.axis_names[0], info.axis_names[1], info.axis_names[2]);
     all["dtype"] = type_of(array);
     all["slope"] = info.scaling.slope;
     all["intercept"] = info.scaling.intercept;
@@ -136,9 +186,14 @@ py::dict description(const RunArray& array) {
     return all;
 }
 
-void build(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out,
-           const std::vector<std::string>& arrays, const std::optional<std::string>& component,
-           const py::object& progress) {
+/// What Python gives of its arrays: a file that describes them, the function that yields the pieces
+/// of a step, and their name.
+using GivenArrays = std::tuple<std::filesystem::path, py::function, std::string>;
+
+std::vector<std::string>
+build(const std::vector<std::string>& files, const std::filesystem::path& out,
+      const std::vector<std::string>& words, const std::vector<double>& times,
+      const std::optional<GivenArrays>& given, const py::object& progress) {
     const index::Progress report = [&](std::string_view phase, double fraction) {
         const py::gil_scoped_acquire acquire;
         if (PyErr_CheckSignals() != 0) // Ctrl-C ends the build
@@ -146,8 +201,60 @@ void build(const std::vector<std::filesystem::path>& files, const std::filesyste
         if (!progress.is_none())
             progress(std::string(phase), fraction);
     };
+    std::exception_ptr raised; // what the arrays raise is nothing about a file
+    PythonArrays arrays;
+    if (given) {
+        const py::function& pieces = std::get<1>(*given);
+        arrays.description = std::get<0>(*given);
+        arrays.name = std::get<2>(*given);
+        arrays.read = [&](const std::string& array, std::size_t step, index::ValueType type,
+                          const index::TakePiece& take) {
+            const py::gil_scoped_acquire acquire;
+            try {
+                for (const py::handle piece : pieces(array, step, dtype_of(type))) {
+                    const auto values = py::cast<py::array>(piece);
+                    const std::span bytes(static_cast<const std::byte*>(values.data()),
+                                          static_cast<std::size_t>(values.nbytes()));
+                    const py::gil_scoped_release release;
+                    take(bytes);
+                }
+            } catch (const py::error_already_set&) {
+                raised = std::current_exception();
+                throw index::Interrupted("the arrays cannot be read");
+            }
+        };
+    }
     const py::gil_scoped_release release;
-    build_run(files, out, arrays, component, report);
+    try {
+        return build_run(files, out, words, times, given ? &arrays : nullptr, report);
+    } catch (const index::Interrupted&) {
+        if (raised)
+            std::rethrow_exception(raised);
+        throw;
+    }
+}
+
+/// Raises what isochron._errors makes of a message.
+void raise(const char* what, bool missing) {
+    const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(what));
+    const py::object error =
+        py::module_::import("isochron._errors").attr("error_of")(text, missing);
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+}
+
+void translate(std::exception_ptr thrown) {
+    try {
+        if (thrown)
+            std::rethrow_exception(thrown);
+    } catch (const index::MissingFile& error) {
+        raise(error.what(), true);
+    } catch (const index::Error& error) {
+        raise(error.what(), false);
+    } catch (const UsageError& error) {
+        raise(error.what(), false);
+    } catch (const std::system_error& error) { // a failure of the file system, or no more threads
+        raise(error.what(), false);
+    }
 }
 
 std::vector<std::string> names_of(const OpenRun& run) {
@@ -159,18 +266,21 @@ std::vector<std::string> names_of(const OpenRun& run) {
 PYBIND11_MODULE(_native, module) {
     using namespace py::literals;
     module.attr("__version__") = ISOCHRON_VERSION;
-    py::register_exception<index::Error>(module, "Error");
+    py::register_exception_translator(&translate);
     module.attr("FROM_INSTALLED") = ISOCHRON_FROM_INSTALLED;
     module.attr("FROM_BUILT") = ISOCHRON_FROM_BUILT;
     module.def("set_program_folder", &index::set_program_folder, "folder"_a);
-    module.def("build", &build, "files"_a, "out"_a, "arrays"_a, "component"_a, "progress"_a);
+    module.def("times_in", &index::times_in, "wanted"_a, "given"_a, "times"_a);
+    module.def("build", &build, "files"_a, "out"_a, "words"_a, "times"_a, "arrays"_a, "progress"_a);
 
     py::class_<RunArray>(module, "RunArray")
-        .def("cells", &cells, "step"_a, "fraction"_a, "isovalue"_a)
+        .def("cells", &cells, "step"_a, "fraction"_a, "isovalue"_a, "level"_a)
         .def("change", &change, "step"_a, "fraction"_a, "isovalue"_a, "to_step"_a, "to_fraction"_a,
              "to_isovalue"_a)
-        .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a)
-        .def("values", &values, "step"_a, "fraction"_a, "box"_a)
+        .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a, "level"_a,
+             "normals"_a, "values"_a)
+        .def("values", &values, "step"_a, "fraction"_a, "box"_a, "level"_a)
+        .def("first_crossings", &first_crossings, "isovalue"_a, "blended"_a)
         .def("description", &description)
         .def("read_bytes", &read_bytes);
     py::class_<OpenRun, std::shared_ptr<OpenRun>>(module, "OpenRun")

@@ -1,12 +1,15 @@
 // Searches, meshes and values of an open index for several threads at once.
 #include "app/python/runs.h"
-#include "index/readers/formats/open_series.h"
 
+#include "app/indexing/asked_build.h"
+#include "app/indexing/file_patterns.h"
 #include "index/error.h"
+#include "index/file/color_source.h"
 #include "index/file/index_states.h"
 #include "index/file/named_index.h"
-#include "index/indexing/index_build.h"
+#include "index/search/layer_search.h"
 #include "index/system/parallel.h"
+#include "index/system/team.h"
 
 #include <glm/matrix.hpp>
 
@@ -60,7 +63,7 @@ std::vector<std::uint32_t> sorted(std::span<const index::CellId> cells) {
 
 template <class Number>
 Triangles<Number> unpacked(const index::CellMesh& mesh, const index::Grid& grid,
-                           const glm::dvec3& origin) {
+                           const glm::dvec3& origin, bool normals) {
     Triangles<Number> result;
     result.points.reserve(3 * mesh.vertices.size());
     for (const index::MeshVertex& vertex : mesh.vertices) {
@@ -68,6 +71,14 @@ Triangles<Number> unpacked(const index::CellMesh& mesh, const index::Grid& grid,
         for (int axis = 0; axis < 3; ++axis)
             result.points.push_back(static_cast<Number>(at[axis]));
     }
+    for (const index::MeshVertex& vertex : mesh.vertices) {
+        if (!normals)
+            break;
+        const glm::dvec3 normal = normal_of(vertex);
+        for (int axis = 0; axis < 3; ++axis)
+            result.normals.push_back(static_cast<float>(normal[axis]));
+    }
+    result.values = mesh.values;
     result.faces = mesh.triangles;
     if (glm::determinant(grid.direction) < 0)
         for (std::size_t i = 0; i + 2 < result.faces.size(); i += 3)
@@ -81,9 +92,9 @@ index::Query RunArray::query(const AskedInstant& at, double isovalue) const {
     return {index::instant_named(*file_, at.step, at.fraction), isovalue};
 }
 
-CellNumbers RunArray::cells(const AskedInstant& at, double isovalue) {
+CellNumbers RunArray::cells(const AskedInstant& at, double isovalue, std::size_t level) {
     const index::Query asked = query(at, isovalue);
-    const index::Grid& grid = file_->info().grid;
+    const index::Grid& grid = file_->chunks(level).info().grid;
     CellNumbers result;
     result.are_wide = index::has_wide_ids(grid);
     const auto make = [&] {
@@ -91,11 +102,14 @@ CellNumbers RunArray::cells(const AskedInstant& at, double isovalue) {
         return std::make_unique<index::SearchInto>(index::search_into(
             file_, std::nullopt, result.are_wide ? index::Shading::cells : index::Shading::none));
     };
-    index::CellSet set = searches_.with(make, [&](index::SearchInto& search) {
-        index::CellSet found;
-        search(index::step_of_query(*file_, asked.instant, {&isovalue, 1}), isovalue, {}, found);
-        return found;
-    });
+    index::CellSet set =
+        level > 0 ? search_level(file_, level, asked)
+                  : searches_.with(make, [&](index::SearchInto& search) {
+                        index::CellSet found;
+                        search(index::step_of_query(*file_, asked.instant, {&isovalue, 1}),
+                               isovalue, {}, found);
+                        return found;
+                    });
     if (result.are_wide) {
         result.wide.reserve(set.points.size());
         for (const index::CellPoint& point : set.points)
@@ -119,36 +133,65 @@ CellDifference RunArray::change(const AskedInstant& at, double isovalue,
                      : CellDifference{sorted(change.added), sorted(change.removed)};
     });
     if (whole) {
-        const std::vector<std::uint32_t> before = cells(at, isovalue).narrow,
-                                         after = cells(to_moment, to_isovalue).narrow;
+        const std::vector<std::uint32_t> before = cells(at, isovalue, 0).narrow,
+                                         after = cells(to_moment, to_isovalue, 0).narrow;
         std::ranges::set_difference(after, before, std::back_inserter(result.added));
         std::ranges::set_difference(before, after, std::back_inserter(result.removed));
     }
     return result;
 }
 
-index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue) {
+index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue, std::size_t level,
+                                      const WishedOfMesh& wished) {
     const index::Query asked = query(at, isovalue);
+    if (level > 0) {
+        index::CellMesh mesh;
+        index::LayerSearch(file_).make_mesh(
+            index::step_in_chunks(*file_, asked.instant, level, {&isovalue, 1}),
+            search_level(file_, level, asked), mesh, {});
+        return mesh;
+    }
+    index::MeshWishes wishes;
+    if (wished.values) {
+        const std::vector<std::string> names = index::color_source_names(*file_);
+        const auto found = std::ranges::find(names, *wished.values);
+        if (found == names.end())
+            throw index::Error(file_->name() + ": no array " + *wished.values + " with values");
+        wishes.values = static_cast<std::size_t>(found - names.begin());
+    }
     const auto make = [this] { return std::make_unique<index::SurfaceMeshes>(file_); };
     return meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
-        return *meshes.make_packed(asked); // which nobody stops
+        return *meshes.make_packed(asked, wishes); // which nobody stops
     });
 }
 
-Triangles<float> RunArray::mesh_from_origin(const AskedInstant& at, double isovalue) {
-    const index::Grid& grid = file_->info().grid;
-    return unpacked<float>(packed_mesh(at, isovalue), grid, grid.origin);
+Triangles<float> RunArray::mesh_from_origin(const AskedInstant& at, double isovalue,
+                                            std::size_t level, const WishedOfMesh& wished) {
+    const index::Grid& grid = file_->chunks(level).info().grid;
+    return unpacked<float>(packed_mesh(at, isovalue, level, wished), grid, grid.origin,
+                           wished.normals);
 }
 
-Triangles<double> RunArray::mesh(const AskedInstant& at, double isovalue) {
-    return unpacked<double>(packed_mesh(at, isovalue), file_->info().grid, glm::dvec3(0.0));
+Triangles<double> RunArray::mesh(const AskedInstant& at, double isovalue, std::size_t level,
+                                 const WishedOfMesh& wished) {
+    return unpacked<double>(packed_mesh(at, isovalue, level, wished),
+                            file_->chunks(level).info().grid, glm::dvec3(0.0), wished.normals);
 }
 
-std::vector<std::byte> RunArray::values(const AskedInstant& moment, const Box& box) const {
+index::FirstCrossings RunArray::first_crossings(double isovalue, bool blended) const {
+    index::expect_narrow_ids(*file_);
+    return *index::first_crossings(
+        file_->info(), index::search_in(file_, std::nullopt, index::Shading::none), isovalue, {},
+        blended ? index::crossings_between(file_, 0, isovalue, {}) : nullptr);
+}
+
+std::vector<std::byte> RunArray::values(const AskedInstant& moment, const Box& box,
+                                        std::size_t level) const {
     const index::Instant at = index::instant_named(*file_, moment.step, moment.fraction);
     // Part of a step is read by its chunks, whatever is faster for a search.
-    const index::StepView step =
-        file_->referral() ? index::step_of(*file_, at) : index::step_in_chunks(*file_, at);
+    const index::StepView step = file_->referral() && level == 0
+                                     ? index::step_of(*file_, at)
+                                     : index::step_in_chunks(*file_, at, level);
     const std::size_t value_bytes = index::size_of(step.type());
     std::size_t count = 1;
     for (const auto& [first, end] : box)
@@ -181,8 +224,9 @@ std::vector<std::byte> RunArray::values(const AskedInstant& moment, const Box& b
     return result;
 }
 
-std::vector<double> RunArray::blended_values(const AskedInstant& at, const Box& box) const {
-    const std::vector<std::byte> stored = values(at, box);
+std::vector<double> RunArray::blended_values(const AskedInstant& at, const Box& box,
+                                             std::size_t level) const {
+    const std::vector<std::byte> stored = values(at, box, level);
     const index::Blend blend(file_->info().type, file_->info().scaling, 1);
     return index::visit_value_type(blend.type(), [&]<class T>(std::type_identity<T>) {
         std::vector<double> scaled(stored.size() / sizeof(T));
@@ -207,27 +251,43 @@ std::optional<std::string> OpenRun::lost() const {
     return index::lost_state(file());
 }
 
-void build_run(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out,
-               const std::vector<std::string>& arrays, const std::optional<std::string>& component,
-               const index::Progress& progress) {
-    index::ReadOptions reading;
-    reading.component = component;
-    index::BuildOptions options;
-    options.component = component;
-    if (arrays.empty()) {
-        const auto series = index::open_series(files, reading);
-        index::build_index(*series, out, options, progress);
-        return;
+std::vector<std::string> build_run(const std::vector<std::string>& files,
+                                   const std::filesystem::path& out,
+                                   const std::vector<std::string>& words,
+                                   const std::vector<double>& times, const PythonArrays* arrays,
+                                   const index::Progress& progress) {
+    BuildArguments asked = build_arguments_of(words);
+    asked.files = files;
+    asked.out = out;
+    set_up_readers(asked);
+    const auto team = index::alone();
+    AskedBuild build(with_path_within(std::move(asked)), *team);
+    BuildSources sources;
+    std::vector<std::filesystem::path> found;
+    if (arrays) {
+        sources = open_sources(
+            [&](const index::ReadOptions& options) { return open_arrays(*arrays, options); },
+            build.arguments());
+    } else {
+        found = expand_patterns(build.arguments().files);
+        sources = open_sources(found, build.arguments(), progress);
     }
-    std::vector<std::unique_ptr<index::VolumeSeries>> series;
-    for (const std::string& name : arrays) {
-        reading.array = name;
-        series.push_back(index::open_series(files, reading));
+    if (!times.empty()) {
+        sources.volume = with_times(std::move(sources.volume), times);
+        for (ArraySource& further : sources.further)
+            further.series = with_times(std::move(further.series), times);
     }
-    options.array = arrays.front();
-    for (std::size_t i = 1; i < arrays.size(); ++i)
-        options.further.push_back({series[i].get(), arrays[i], component});
-    index::build_index(*series.front(), out, options, progress);
+    std::vector<std::filesystem::path> inputs = found;
+    for (const std::filesystem::path& file : sources.volume->files())
+        inputs.push_back(file);
+    std::error_code ignored;
+    for (const std::filesystem::path& input : inputs)
+        if (std::filesystem::equivalent(input, out, ignored))
+            throw index::Error(out.string() + ": is an input");
+    std::vector<std::string> notes = sources.notes;
+    if (build.take(std::move(sources), found))
+        build.write(progress);
+    return notes;
 }
 
 } // namespace isochron::app

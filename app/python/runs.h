@@ -2,9 +2,11 @@
 // vectors.
 #pragma once
 
+#include "app/python/array_series.h"
 #include "index/file/index_file.h"
 #include "index/progress.h"
 #include "index/search/cell_change.h"
+#include "index/search/first_crossing.h"
 #include "index/search/index_search.h"
 #include "index/search/surface_mesh.h"
 
@@ -63,6 +65,14 @@ struct Triangles {
     std::vector<Number> points; ///< x, y, z, less the grid's origin or not
     /// Counter-clockwise in physical space as seen from the side of lower values.
     std::vector<std::uint32_t> faces;
+    std::vector<float> normals; ///< if wished: x, y, z, towards lower values
+    std::vector<float> values;  ///< if wished: of another array, at the points
+};
+
+/// What a mesh has besides its triangles.
+struct WishedOfMesh {
+    bool normals = false;
+    std::optional<std::string> values; ///< name of the array whose values are wanted
 };
 
 /// A range of vertices along z, y and x: the first, and the one after the last.
@@ -79,21 +89,28 @@ class RunArray {
     struct AskedInstant {
         std::int64_t step, fraction;
     };
-    CellNumbers cells(const AskedInstant& at, double isovalue);
+    /// @param level of detail, below `IndexFile::detail_levels`; 0: the volume itself
+    CellNumbers cells(const AskedInstant& at, double isovalue, std::size_t level);
     CellDifference change(const AskedInstant& at, double isovalue, const AskedInstant& to,
                           double to_isovalue);
     /// Coordinates less the grid's origin, as floats.
-    Triangles<float> mesh_from_origin(const AskedInstant& at, double isovalue);
-    Triangles<double> mesh(const AskedInstant& at, double isovalue);
+    Triangles<float> mesh_from_origin(const AskedInstant& at, double isovalue, std::size_t level,
+                                      const WishedOfMesh& wished);
+    Triangles<double> mesh(const AskedInstant& at, double isovalue, std::size_t level,
+                           const WishedOfMesh& wished);
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
-    std::vector<std::byte> values(const AskedInstant& at, const Box& box) const;
+    std::vector<std::byte> values(const AskedInstant& at, const Box& box, std::size_t level) const;
     /// Scaled values between two steps.
-    std::vector<double> blended_values(const AskedInstant& at, const Box& box) const;
+    std::vector<double> blended_values(const AskedInstant& at, const Box& box,
+                                       std::size_t level) const;
+    /// When each cell is first active. @param blended also between the steps
+    index::FirstCrossings first_crossings(double isovalue, bool blended) const;
 
   private:
     index::Query query(const AskedInstant& at, double isovalue) const;
-    index::CellMesh packed_mesh(const AskedInstant& at, double isovalue);
+    index::CellMesh packed_mesh(const AskedInstant& at, double isovalue, std::size_t level,
+                                const WishedOfMesh& wished);
 
     std::shared_ptr<const index::IndexFile> file_;
     WorkSpaces<index::SearchInto> searches_;
@@ -117,10 +134,15 @@ class OpenRun {
     std::vector<std::unique_ptr<RunArray>> arrays_;
 };
 
-/// Indexes files. @param arrays none: the files' only one
-/// @throws index::Error as reading the files does; what `progress` throws
-void build_run(const std::vector<std::filesystem::path>& files, const std::filesystem::path& out,
-               const std::vector<std::string>& arrays, const std::optional<std::string>& component,
-               const index::Progress& progress);
+/// Indexes files, or arrays of Python, or appends their further steps.
+/// @param words options as `isochron build` has them, without files and output
+/// @param times of the steps; empty: as they are stated
+/// @param arrays null: files are read
+/// @return notes @throws index::Error as reading does; UsageError; what `progress` throws
+std::vector<std::string> build_run(const std::vector<std::string>& files,
+                                   const std::filesystem::path& out,
+                                   const std::vector<std::string>& words,
+                                   const std::vector<double>& times, const PythonArrays* arrays,
+                                   const index::Progress& progress);
 
 } // namespace isochron::app

@@ -1,7 +1,7 @@
 // Opens regular files.
 #include "index/system/input_file.h"
 
-#include "index/error.h"
+#include "index/missing_file.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace {
 [[noreturn]] void refuse(const std::filesystem::path& path, int error) {
     const std::string name = path.string();
     if (error == ENOENT)
-        throw Error(fmt::format("{}: there is no such file", name));
+        throw MissingFile(fmt::format("{}: there is no such file", name));
     if (error == ENXIO) // a socket, or a device that does not exist
         throw Error(fmt::format("{}: not a regular file", name));
     throw Error(fmt::format("{}: cannot be opened: {}", name, std::strerror(error)));

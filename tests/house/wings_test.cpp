@@ -20,7 +20,7 @@ using Steps = std::vector<std::vector<std::string>>;
 /// From the front to the back: a wing may include those of the steps that come after its own.
 const std::map<std::string, Steps> kOrder{
     {"app",
-     {{"main"},
+     {{"main", "python"},
       {"commands"},
       {"explore"},
       {"loop"},
@@ -31,7 +31,7 @@ const std::map<std::string, Steps> kOrder{
       {"quality"},
       {"frame"},
       {"config", "command_line"},
-      {"safe_text", "text", "version", "python"}}},
+      {"safe_text", "text", "version"}}},
     {"index",
      {{"extraction", "indexing", "export"},
       {"detail"},
@@ -42,6 +42,7 @@ const std::map<std::string, Steps> kOrder{
       {"readers/formats"},
       {"readers/process"},
       {"volume", "system"},
+      {"missing_file"},
       {"error", "interrupted", "lower_case", "name_pattern", "progress", "shell_word", "utf8"}}},
     {"interaction",
      {{"trackers", "recording"}, {"controls"}, {"tools"}, {"navigation"}, {"input"}, {"."}}},
@@ -57,7 +58,7 @@ const std::map<std::string, std::set<std::string>> kApart{
     {"app/python", {}},
     // What is asked on the command line is obeyed elsewhere.
     {"app/command_line",
-     {"app/main", "app/commands", "app/explore", "app/indexing", "app/generate"}},
+     {"app/main", "app/commands", "app/explore", "app/indexing", "app/generate", "app/python"}},
     // The readers: programs of their own.
     {"index/readers/decoders", {"stereo/image_module"}},
     // The module is loaded when a picture is read or written; nobody else knows it.

@@ -8,12 +8,14 @@ import re
 import socket
 from collections.abc import Iterator, Mapping
 from types import TracebackType
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _native
+from ._arguments import Number, number, whole
+from ._errors import ArgumentError, Error, MissingFileError
+from ._mesh import Mesh
 
 _PATIENCE = 5.0  # [s] for the answer to hello, which no session takes long to give
 
@@ -37,13 +39,14 @@ class Session:
         host, colon, port = where.rpartition(":")
         tcp = bool(colon) and "/" not in where
         if tcp and (host not in ("127.0.0.1", "localhost") or not port.isdecimal()):
-            raise _native.Error(f"{where}: expected a path, or 127.0.0.1:PORT")
+            raise Error(f"{where}: expected a path, or 127.0.0.1:PORT")
         self._socket = socket.socket(socket.AF_INET if tcp else socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             self._socket.connect(("127.0.0.1", int(port)) if tcp else where)
         except OSError as error:
             self._socket.close()
-            raise _native.Error(
+            kind = MissingFileError if isinstance(error, FileNotFoundError) else Error
+            raise kind(
                 f"{where}: nobody listens there ({error.strerror}); isochron explore --control begins a session that does"
             ) from None
         self._stream = self._socket.makefile("rb")
@@ -52,8 +55,7 @@ class Session:
         self._note: dict[str, Any] = {}
         try:
             if tcp and token is None:
-                with open(os.path.join(_folder(), f"control-{port}.token"), encoding="ascii") as file:
-                    token = file.readline().strip()
+                token = _token_of(port)
             self._socket.settimeout(_PATIENCE)
             self._ask("hello", token=token or "")
             self._socket.settimeout(None)
@@ -67,11 +69,12 @@ class Session:
         Returns the number of the frame that obeys them once it is shown.
         """
         answer, _ = self._ask("commands", commands={**(commands or {}), **more})
-        return answer["frame"]
+        return int(answer["frame"])
 
     def state(self) -> dict[str, Any]:
         """All settings, as a recording's `start` has them."""
-        return self._ask("state")[0]["state"]
+        state: dict[str, Any] = self._ask("state")[0]["state"]
+        return state
 
     def picture(self, *, now: bool = False) -> NDArray[np.uint8]:
         """What the first window shows beside its panel: (height, width, 3) in sRGB.
@@ -92,33 +95,36 @@ class Session:
         return self._note
 
     def cells(
-        self, isovalue: float | None = None, step: int | None = None, *, array: str | None = None
+        self, isovalue: Number | None = None, step: SupportsIndex | None = None, *, array: str | None = None
     ) -> NDArray[Any]:
         """The numbers of the active cells, as `Run.cells` has them; what is not given is as it is shown."""
-        answer, data = self._ask("cells", **_given(isovalue=isovalue, step=step, array=array))
+        answer, data = self._ask("cells", **_asked(isovalue, step, array))
         return np.frombuffer(data, np.uint64 if answer["id_bits"] == 64 else np.uint32)
 
     def mesh(
         self,
-        isovalue: float | None = None,
-        step: int | None = None,
+        isovalue: Number | None = None,
+        step: SupportsIndex | None = None,
         *,
         array: str | None = None,
         dtype: DTypeLike = np.float32,
-    ) -> tuple[NDArray[Any], NDArray[np.uint32]]:
+    ) -> Mesh:
         """The surface as points (N, 3) and triangles (M, 3), absolute, as `isochron export` writes them."""
-        answer, data = self._ask("mesh", **_given(isovalue=isovalue, step=step, array=array))
+        kind = np.dtype(dtype)
+        if kind not in (np.dtype(np.float32), np.dtype(np.float64)):
+            raise ArgumentError(f"dtype: expected float32 or float64, got {kind}")
+        answer, data = self._ask("mesh", **_asked(isovalue, step, array))
         points, triangles = answer["points"], answer["triangles"]
         places = np.frombuffer(data, np.float32, 3 * points).reshape(points, 3)
         corners = np.frombuffer(data, np.uint32, 3 * triangles, 24 * points).reshape(triangles, 3)
-        return (places + np.asarray(answer["origin"])).astype(dtype), corners
+        return Mesh((places + np.asarray(answer["origin"])).astype(kind), corners)
 
-    def events(self, *topics: str, rate: float = 30) -> Iterator[dict[str, Any]]:
+    def events(self, *topics: str, rate: Number = 30) -> Iterator[dict[str, Any]]:
         """What changes, until the session ends: `state`, `time`, `cells` or `statistics`, at most `rate` a second.
 
         Each event has the keys `event`, `frame`, and one of the topic's name. Leave the loop, and nothing more is sent.
         """
-        self._ask("subscribe", to=list(topics or ("state",)), rate=rate)
+        self._ask("subscribe", to=list(topics or ("state",)), rate=number(rate, "rate"))
         try:
             while True:
                 while self._events:
@@ -132,7 +138,7 @@ class Session:
         finally:
             try:
                 self._ask("subscribe", to=[])
-            except (_native.Error, OSError, ValueError):
+            except (Error, OSError, ValueError):
                 pass  # the session has ended
             self._events.clear()
 
@@ -163,20 +169,39 @@ class Session:
                 if answer.get("id") in (self._requests, None):
                     break
         except socket.timeout:
-            raise _native.Error(
+            raise Error(
                 "control socket: no answer: the session hangs, or has as many clients as it takes"
             ) from None
         except OSError as error:
-            raise _native.Error(f"control socket: {error.strerror}") from None
+            raise Error(f"control socket: {error.strerror}") from None
         if not answer["ok"]:
-            raise _native.Error(answer["error"])
+            raise Error(answer["error"])
         return answer, data
 
     def _read(self) -> dict[str, Any]:
         line = self._stream.readline()
         if not line:
-            raise _native.Error("control socket: the session has ended the connection")
-        return json.loads(line)
+            raise Error("control socket: the session has ended the connection")
+        answer: dict[str, Any] = json.loads(line)
+        return answer
+
+
+def _token_of(port: str) -> str:
+    name = os.path.join(_folder(), f"control-{port}.token")
+    try:
+        with open(name, encoding="ascii") as file:
+            return file.readline().strip()
+    except OSError as error:
+        kind = MissingFileError if isinstance(error, FileNotFoundError) else Error
+        raise kind(f"{name}: {error.strerror}; token names the token of another user's session") from None
+
+
+def _asked(isovalue: Number | None, step: SupportsIndex | None, array: str | None) -> dict[str, Any]:
+    return _given(
+        isovalue=None if isovalue is None else number(isovalue, "isovalue"),
+        step=None if step is None else whole(step, "step"),
+        array=array,
+    )
 
 
 def _given(**values: Any) -> dict[str, Any]:

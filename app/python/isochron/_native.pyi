@@ -1,4 +1,4 @@
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypedDict
 
 import numpy as np
@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 __version__: str
 FROM_BUILT: str
 FROM_INSTALLED: str
-
-class Error(Exception): ...
 
 class About(TypedDict):
     array: str
@@ -20,7 +18,9 @@ class About(TypedDict):
     spacing: tuple[float, float, float]
     origin: tuple[float, float, float]
     direction: tuple[tuple[float, float, float], ...]
-    distances: tuple[NDArray[np.float64], ...]
+    levels: tuple[tuple[NDArray[np.float64], ...], ...]
+    anatomy: str
+    axis_names: tuple[str, str, str]
     dtype: np.dtype[Any]
     slope: float
     intercept: float
@@ -28,14 +28,24 @@ class About(TypedDict):
     notes: tuple[str, ...]
 
 class RunArray:
-    def cells(self, step: int, fraction: int, isovalue: float) -> NDArray[Any]: ...
+    def cells(self, step: int, fraction: int, isovalue: float, level: int) -> NDArray[Any]: ...
     def change(
         self, step: int, fraction: int, isovalue: float, to_step: int, to_fraction: int, to_isovalue: float
     ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]: ...
     def mesh(
-        self, step: int, fraction: int, isovalue: float, absolute: bool
-    ) -> tuple[NDArray[Any], NDArray[np.uint32]]: ...
-    def values(self, step: int, fraction: int, box: Sequence[tuple[int, int]]) -> NDArray[Any]: ...
+        self,
+        step: int,
+        fraction: int,
+        isovalue: float,
+        absolute: bool,
+        level: int,
+        normals: bool,
+        values: str | None,
+    ) -> tuple[NDArray[Any], NDArray[np.uint32], NDArray[np.float32] | None, NDArray[np.float32] | None]: ...
+    def first_crossings(
+        self, isovalue: float, blended: bool
+    ) -> tuple[NDArray[np.uint16], NDArray[np.uint16] | None]: ...
+    def values(self, step: int, fraction: int, box: Sequence[tuple[int, int]], level: int) -> NDArray[Any]: ...
     def description(self) -> About: ...
     def read_bytes(self) -> int: ...
 
@@ -46,10 +56,12 @@ class OpenRun:
     def lost(self) -> str | None: ...
 
 def set_program_folder(folder: str) -> None: ...
+def times_in(wanted: str, given: str, times: list[float]) -> list[float] | None: ...
 def build(
     files: Sequence[str],
     out: str,
-    arrays: Sequence[str],
-    component: str | None,
+    words: Sequence[str],
+    times: Sequence[float],
+    arrays: tuple[str, Callable[[str, int, np.dtype[Any]], Iterator[NDArray[Any]]], str] | None,
     progress: Callable[[str, float], object] | None,
-) -> None: ...
+) -> list[str]: ...

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import struct
-import subprocess
 import tempfile
 import zlib
 from collections.abc import Mapping
@@ -16,7 +15,8 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._control import plain
-from ._place import program_folder
+from ._errors import Error
+from ._program import run as run_program
 
 # One window without a screen; the data stand ahead of the eye, where all of them are seen.
 _CONFIGURATION = """version = 1
@@ -79,28 +79,20 @@ def _pixels(tiff: bytes) -> NDArray[np.uint8]:
             tags[tag] = struct.unpack_from(form, tiff, at + 8 if inside else struct.unpack_from("<I", tiff, at + 8)[0])
     width, height, compression, channels, predictor = (tags[tag][0] for tag in (256, 257, 259, 277, 317))
     if (compression, channels, predictor, tags[258]) != (8, 3, 2, (8, 8, 8)):
-        raise _native.Error("the program wrote a picture of a kind that this module does not know")
+        raise Error("the program wrote a picture of a kind that this module does not know")
     strips = b"".join(zlib.decompress(tiff[at : at + size]) for at, size in zip(tags[273], tags[279]))
     rows = np.frombuffer(strips, np.uint8).reshape(height, width, channels)
     return np.cumsum(rows, axis=1, dtype=np.uint8)
 
 
 def render(index: str, state: Mapping[str, Any], size: tuple[int, int]) -> NDArray[np.uint8]:
-    program = os.path.join(program_folder(), "isochron")
     with tempfile.TemporaryDirectory(prefix="isochron-") as folder:
         with open(os.path.join(folder, "picture.jsonl"), "w", encoding="utf-8") as file:
             file.write(_recording(index, state, size))
-        arguments = ["replay", "picture.jsonl", "--stamps", "--out", "pictures", "--format", "tiff"]
         try:
-            ran = subprocess.run(
-                [program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True
-            )
-        except FileNotFoundError:
-            raise _native.Error(f"isochron: not found in {os.path.dirname(program)}") from None
-        if ran.returncode != 0:
-            said = [line for line in ran.stderr.splitlines() if line.startswith("isochron: ")]
-            line = said[-1].removeprefix("isochron: ") if said else f"isochron replay: exit status {ran.returncode}"
-            raise _native.Error(line.replace("picture.jsonl:1: start", "state"))
+            run_program(["replay", "picture.jsonl", "--stamps", "--out", "pictures", "--format", "tiff"], folder)
+        except Error as error:
+            raise Error(str(error).replace("picture.jsonl:1: start", "state")) from None
         (picture,) = os.listdir(os.path.join(folder, "pictures"))
         with open(os.path.join(folder, "pictures", picture), "rb") as tiff:
             return _pixels(tiff.read())

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
+
+from ._arguments import Isovalues, Number, several
+from ._mesh import Mesh
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -62,37 +65,99 @@ class Step:
         """In the run's `time_unit`."""
         return float(self._run.times[self._number])
 
-    def cells(self, isovalue: float, *, array: str | None = None) -> NDArray[np.uint32]:
+    @overload
+    def cells(
+        self, isovalue: Isovalues, *, fraction: Number | None = ..., level: SupportsIndex = ..., array: str | None = ...
+    ) -> list[NDArray[np.uint32]]: ...
+    @overload
+    def cells(
+        self, isovalue: Number, *, fraction: Number | None = ..., level: SupportsIndex = ..., array: str | None = ...
+    ) -> NDArray[np.uint32]: ...
+    def cells(
+        self,
+        isovalue: Number | Isovalues,
+        *,
+        fraction: Number | None = None,
+        level: SupportsIndex = 0,
+        array: str | None = None,
+    ) -> NDArray[np.uint32] | list[NDArray[np.uint32]]:
         """As Run.cells."""
-        cells: NDArray[np.uint32] = self._ask("cells", isovalue=isovalue, array=array)
+        cells: NDArray[np.uint32] | list[NDArray[np.uint32]] = self._ask(
+            "cells", isovalue=_plain(isovalue), fraction=fraction, level=level or None, array=array
+        )
         return cells
 
+    @overload
     def mesh(
-        self, isovalue: float, *, array: str | None = None, dtype: DTypeLike = np.float32
-    ) -> tuple[NDArray[Any], NDArray[np.uint32]]:
+        self,
+        isovalue: Isovalues,
+        *,
+        fraction: Number | None = ...,
+        level: SupportsIndex = ...,
+        array: str | None = ...,
+        dtype: DTypeLike = ...,
+        normals: bool = ...,
+        values: str | None = ...,
+    ) -> list[Mesh]: ...
+    @overload
+    def mesh(
+        self,
+        isovalue: Number,
+        *,
+        fraction: Number | None = ...,
+        level: SupportsIndex = ...,
+        array: str | None = ...,
+        dtype: DTypeLike = ...,
+        normals: bool = ...,
+        values: str | None = ...,
+    ) -> Mesh: ...
+    def mesh(
+        self,
+        isovalue: Number | Isovalues,
+        *,
+        fraction: Number | None = None,
+        level: SupportsIndex = 0,
+        array: str | None = None,
+        dtype: DTypeLike = np.float32,
+        normals: bool = False,
+        values: str | None = None,
+    ) -> Mesh | list[Mesh]:
         """As Run.mesh."""
-        mesh: tuple[NDArray[Any], NDArray[np.uint32]] = self._ask("mesh", isovalue=isovalue, array=array, dtype=dtype)
+        mesh: Mesh | list[Mesh] = self._ask(
+            "mesh", isovalue=_plain(isovalue), fraction=fraction, level=level or None, array=array, dtype=dtype,
+            normals=normals, values=values,
+        )  # fmt: skip
         return mesh
 
     def values(
         self,
-        z: slice | int = slice(None),
-        y: slice | int = slice(None),
-        x: slice | int = slice(None),
+        z: slice | SupportsIndex = slice(None),
+        y: slice | SupportsIndex = slice(None),
+        x: slice | SupportsIndex = slice(None),
         *,
+        fraction: Number | None = None,
+        level: SupportsIndex = 0,
         array: str | None = None,
     ) -> NDArray[Any]:
         """As Run.values."""
-        values: NDArray[Any] = self._ask("values", z=z, y=y, x=x, array=array)
+        values: NDArray[Any] = self._ask("values", z=z, y=y, x=x, fraction=fraction, level=level or None, array=array)
         return values
 
     def __repr__(self) -> str:
         return f"<isochron.Step {self._number} of {self._run.path}>"
 
     def _ask(self, name: str, **options: Any) -> Any:
+        options = {
+            key: value for key, value in options.items() if key == "isovalue" or (value is not None and value is not False)
+        }
         if self._ahead is None:
             return getattr(self._run, name)(step=self._number, **options)
         return self._ahead.ask(name, self._number, options)
+
+
+def _plain(isovalue: Number | Isovalues) -> Number | Isovalues:
+    """So that what was asked can be compared."""
+    return tuple(isovalue) if several(isovalue) else isovalue  # type: ignore[arg-type]
 
 
 def iterate(run: Run) -> Iterator[Step]:

@@ -193,22 +193,22 @@ std::unique_ptr<VolumeSeries> open_as_it_is(const std::vector<fs::path>& given, 
     return open_file_series(std::move(files), options, notes, progress);
 }
 
-/// Whether files have an array of exactly this name.
-bool holds_array(const fs::path& file, ReadOptions options, const std::string& name) {
+/// Whether there is an array of exactly this name.
+bool holds_array(const OpenStored& open, ReadOptions options, const std::string& name) {
     options.array.reset();
     options.component.reset();
     options.any_array = true;
     try {
-        return std::ranges::any_of(
-            open_series({file}, options)->info().arrays,
-            [&](const std::string& offered) { return offered.starts_with(name + " ("); });
+        return std::ranges::any_of(open(options)->info().arrays, [&](const std::string& offered) {
+            return offered.starts_with(name + " (");
+        });
     } catch (const Error&) {
         return false;
     }
 }
 
 /// What is computed of a vector whose components are the arrays of a list.
-std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
+std::unique_ptr<VolumeSeries> open_vector(const OpenStored& open, const std::string& name,
                                           const ReadOptions& options,
                                           const std::vector<std::string>& names) {
     const std::string component = options.component.value_or("magnitude");
@@ -217,15 +217,43 @@ std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
         throw Error(fmt::format("--component {} of {}, expected magnitude{}", component,
                                 *options.array,
                                 names.size() == 3 ? ", vorticity or q-criterion" : ""));
-    auto inputs = open_components(names, [&](const std::string& name) {
+    auto inputs = open_components(names, [&](const std::string& of_one) {
         ReadOptions of_input = options;
-        of_input.array = name;
+        of_input.array = of_one;
         of_input.component.reset();
         of_input.value_unit.reset(); // it is the result's
-        return open_series(files, of_input);
+        return open_stored_series(open, name, of_input);
     });
     return derived_series(std::move(inputs), derived.value_or(Derived::magnitude), *options.array,
                           options.value_unit);
+}
+
+/// @param open_first what is read first, which has all arrays
+std::unique_ptr<VolumeSeries> open_computed(const OpenStored& open, const OpenStored& open_first,
+                                            const std::string& name, const ReadOptions& options) {
+    if (const auto names = names_in_list(options.array.value_or(""));
+        !names.empty() && !holds_array(open_first, options, *options.array))
+        return open_vector(open, name, options, names);
+    if (const auto derived = derived_from_name(options.component)) {
+        std::vector<std::unique_ptr<VolumeSeries>> inputs;
+        for (const auto& component : components_for(*derived)) {
+            ReadOptions of_input = options;
+            of_input.component = component;
+            of_input.value_unit.reset(); // it is the result's
+            inputs.push_back(open_stored_series(open, name, of_input));
+            const SeriesInfo& first = inputs.front()->info();
+            if (component && !first.array.ends_with(".0"))
+                throw Error(
+                    fmt::format("{}: --component {} of {}, a scalar, expected a vector of three "
+                                "components; --component gradient is for scalars",
+                                name, *options.component, first.array));
+        }
+        return derived_series(std::move(inputs), *derived, "", options.value_unit);
+    }
+    if (options.resample && (options.crop || options.stride))
+        throw Error("--resample with --crop or --stride: expected one of them");
+    auto series = open(options);
+    return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
 }
 
 } // namespace
@@ -233,29 +261,17 @@ std::unique_ptr<VolumeSeries> open_vector(const std::vector<fs::path>& files,
 std::unique_ptr<VolumeSeries> open_series(const std::vector<fs::path>& files,
                                           const ReadOptions& options, const Progress& progress) {
     readers_of_this_process().let_read(files);
-    if (const auto names = names_in_list(options.array.value_or(""));
-        !names.empty() && !files.empty() && !holds_array(files.front(), options, *options.array))
-        return open_vector(files, options, names);
-    if (const auto derived = derived_from_name(options.component)) {
-        std::vector<std::unique_ptr<VolumeSeries>> inputs;
-        for (const auto& component : components_for(*derived)) {
-            ReadOptions of_input = options;
-            of_input.component = component;
-            of_input.value_unit.reset(); // it is the result's
-            inputs.push_back(open_series(files, of_input));
-            const SeriesInfo& first = inputs.front()->info();
-            if (component && !first.array.ends_with(".0"))
-                throw Error(
-                    fmt::format("{}: --component {} of {}, a scalar, expected a vector of three "
-                                "components; --component gradient is for scalars",
-                                files.front().string(), *options.component, first.array));
-        }
-        return derived_series(std::move(inputs), *derived, "", options.value_unit);
-    }
-    if (options.resample && (options.crop || options.stride))
-        throw Error("--resample with --crop or --stride: expected one of them");
-    auto series = open_as_it_is(files, options, progress);
-    return options.resample ? resampled(std::move(series), *options.resample) : std::move(series);
+    return open_computed(
+        [&](const ReadOptions& one) { return open_as_it_is(files, one, progress); },
+        [&](const ReadOptions& one) {
+            return open_as_it_is(files.empty() ? files : std::vector{files.front()}, one, {});
+        },
+        files.empty() ? "" : files.front().string(), options);
+}
+
+std::unique_ptr<VolumeSeries> open_stored_series(const OpenStored& open, const std::string& name,
+                                                 const ReadOptions& options) {
+    return open_computed(open, open, name, options);
 }
 
 } // namespace isochron::index

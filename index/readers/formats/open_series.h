@@ -5,6 +5,7 @@
 #include "index/volume/volume_series.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,5 +20,13 @@ namespace isochron::index {
 std::unique_ptr<VolumeSeries> open_series(const std::vector<std::filesystem::path>& files,
                                           const ReadOptions& options = {},
                                           const Progress& progress = {});
+
+/// Opens one array as it is stored, whatever the options say of what is computed.
+using OpenStored = std::function<std::unique_ptr<VolumeSeries>(const ReadOptions& options)>;
+/// A series of what is no file, or the scalar that `component` computes of it.
+/// @param open called for each array that is needed @param name for messages
+/// @throws Error as `open` does, and as `open_series` does for files
+std::unique_ptr<VolumeSeries> open_stored_series(const OpenStored& open, const std::string& name,
+                                                 const ReadOptions& options);
 
 } // namespace isochron::index

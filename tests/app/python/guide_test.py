@@ -81,7 +81,7 @@ class Guide(unittest.TestCase):
                 with self.subTest(example=example), contextlib.redirect_stdout(printed):
                     exec(compile(example, GUIDE, "exec"), names)
                 self.assertNotIn("expected", printed.getvalue())  # no error was caught and printed
-                if "cells" in names:
+                if "added" in names:
                     self.assertGreater(names["cells"].size, 0)
                     self.assertEqual(names["part"].shape[0], 10)
                 if "pixels" in names:

@@ -110,7 +110,7 @@ class Cells(SeriesTest):
         for step in range(STEPS):
             for array, isovalues in {"rho": [-5, -4.5, 0, 0.25, 5, 6], "depth": [0.3, 0.75, 1.25]}.items():
                 values = self.data[step][array]
-                for isovalue in [*isovalues, float(values.flat[1234]), float("nan"), float("inf")]:
+                for isovalue in [*isovalues, float(values.flat[1234])]:
                     with self.subTest(step=step, array=array, isovalue=isovalue):
                         found = self.run_.cells(isovalue, step, array=array)
                         np.testing.assert_array_equal(found, active_cells(values, isovalue))

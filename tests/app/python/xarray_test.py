@@ -1,5 +1,7 @@
 """A run as xarray's Dataset: lazily, with coordinates, units and calendar."""
 
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -59,6 +61,66 @@ class Dataset(SeriesTest):
         self.assertEqual(data["rho"].attrs["units"], "kg m-3")
         np.testing.assert_array_equal(data["rho"], with_dates["rho"])
         self.assertEqual(STEPS, len(self.run_))
+
+
+class Engine(SeriesTest):
+    def test_opens_an_index_as_a_dataset(self):
+        self.assertIn("isochron", xarray.backends.list_engines())
+        for options in ({"engine": "isochron"}, {"engine": "isochron", "chunks": {"time": 1}}, {}):
+            with xarray.open_dataset("run.isochron", **options) as data:
+                self.assertEqual(list(data.data_vars), ["rho", "depth"])
+                self.assertEqual(data.depth.dims, ("time", "z", "y", "x"))
+                np.testing.assert_array_equal(data.depth.sel(time=0.5), self.data[1]["depth"])
+                np.testing.assert_array_equal(data.rho.isel(x=3, time=[0, 2]), [self.data[i]["rho"][..., 3] for i in (0, 2)])
+        with xarray.open_dataset("run.isochron", engine="isochron", drop_variables=["rho"]) as data:
+            self.assertEqual(list(data.data_vars), ["depth"])
+        with self.assertRaises(FileNotFoundError):
+            xarray.open_dataset("none.isochron", engine="isochron")
+
+    def test_gives_dates_and_the_coordinates_that_the_files_had(self):
+        levels = np.array([1000.0, 850, 700, 500])
+        made = xarray.DataArray(
+            np.random.default_rng(2).random((3, 4, 5, 6), dtype=np.float32),
+            {"time": np.array(["2000-02-28", "2000-02-29", "2000-03-01"], "M8[ns]"),
+             "plev": ("plev", levels, {"units": "hPa"}), "lat": ("lat", 50.0 - np.arange(5), {"units": "degrees_north"}),
+             "lon": ("lon", 7.0 + np.arange(6), {"units": "degrees_east"})},
+            ("time", "plev", "lat", "lon"), "t", {"units": "K"})
+        run = made.isochron.build("dates.isochron")
+        with xarray.open_dataset("dates.isochron", engine="isochron") as data:
+            np.testing.assert_array_equal(data.time, made.time)
+            np.testing.assert_array_equal(data.t, made)
+            np.testing.assert_allclose(data.plev, levels)
+            self.assertEqual((data.plev.dims, data.plev.units), (("z",), "hPa"))
+            np.testing.assert_array_equal(data.lat, made.lat)
+            np.testing.assert_array_equal(data.lon, made.lon)
+            self.assertEqual(float(data.t.sel(time="2000-02-29").isel(z=0, y=0, x=0)), float(made[1, 0, 0, 0]))
+            np.testing.assert_array_equal(data.t.isel(time=1).isochron.cells(0.5), run.cells(0.5, 1))
+        with xarray.open_dataset("dates.isochron", engine="isochron", decode_times=False) as data:
+            self.assertEqual(data.time.attrs, {"units": run.time_unit})
+        np.testing.assert_array_equal(run.to_xarray(decode_times=True).time, made.time)
+
+    def test_arrays_know_their_index(self):
+        with xarray.open_dataset("run.isochron", engine="isochron") as data:
+            self.assertEqual(data.isochron.run.arrays, ("rho", "depth"))
+            for found in (data.depth.sel(time=1).isochron.cells(0.5), data.depth.isochron.cells(0.5, step=2),
+                          data.depth.isochron.cells(0.5, time=1)):
+                np.testing.assert_array_equal(found, self.run_.cells(0.5, 2, array="depth"))
+            mesh = data.rho.isel(time=3).isochron.mesh(0.5, normals=True, values="depth")
+            np.testing.assert_array_equal(mesh.values, self.run_.mesh(0.5, 3, values="depth").values)
+            for call, line in (
+                (lambda: (2 * data.rho).isochron.run, "not a computed one"),
+                (lambda: data.rho.isel(x=slice(3, 9)).isochron.cells(0, step=0), "expected the whole grid"),
+                (lambda: data.rho.isochron.cells(0), "4 steps: expected time or step"),
+                (lambda: data.rho.isel(time=[1, 2]).isochron.cells(0), "2 of 4 steps"),
+                (lambda: self.run_.to_xarray()[["rho"]].drop_vars("rho").isochron.run, "has no arrays of an index"),
+            ):
+                with self.assertRaisesRegex(isochron.Error, line):
+                    call()
+
+    def test_xarray_is_not_imported_for_who_does_not_use_it(self):
+        for code in ("import isochron, sys; assert 'xarray' not in sys.modules; import xarray; xarray.DataArray([1]).isochron",
+                     "import xarray, isochron; xarray.DataArray([1]).isochron"):
+            subprocess.run([sys.executable, "-c", code], check=True)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,44 @@
+// Builds the index that arguments ask for, or appends to it.
+#pragma once
+
+#include "app/indexing/build_arguments.h"
+#include "app/indexing/build_sources.h"
+#include "index/progress.h"
+#include "index/system/growing_file.h"
+#include "index/system/team.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// All members of a team make one, take the same sources, and write.
+class AskedBuild {
+  public:
+    /// Opens the index that is to grow, if one is. @throws index::Error: there is none, or damaged
+    AskedBuild(const BuildArguments& asked, index::Team& team);
+
+    /// What is asked for, with all that was left open as the index that grows has it.
+    const BuildArguments& arguments() const { return arguments_; }
+    /// @param files that an index may refer to
+    /// @return false: the index holds every step already @throws index::Error, UsageError
+    bool take(BuildSources sources, const std::vector<std::filesystem::path>& files);
+    double bytes() const; ///< bytes of the values that are to be read
+    /// Appends in place where that can be, else builds anew.
+    /// @return why an index was written anew that should grow, or nothing @throws index::Error
+    std::string write(const index::Progress& progress);
+
+  private:
+    BuildArguments arguments_;
+    index::Team& team_;
+    std::optional<index::GrowingFile> file_;       ///< the index that grows
+    std::shared_ptr<const index::IndexFile> held_; ///< null: it is built anew
+    BuildSources sources_;
+    index::BuildOptions options_;
+};
+
+} // namespace isochron::app

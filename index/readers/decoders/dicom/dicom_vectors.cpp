@@ -65,8 +65,10 @@ std::vector<double> starts_in_phases(const DicomTags& root, const std::vector<do
     }
     for (std::size_t i = 0; i < slices.size(); ++i) {
         const double phase = phases.empty() ? 1 : phases[i];
+        if (!(phase >= 1) || phase > static_cast<double>(starts.size()))
+            return {};
         const auto at = static_cast<std::size_t>(phase - 1);
-        if (!(phase >= 1) || at >= starts.size() || !(durations[at] > 0))
+        if (!(durations[at] > 0))
             return {};
         times.push_back(starts[at] + (slices[i] - first[phase]) * durations[at]);
     }

@@ -24,9 +24,9 @@ constexpr glm::ivec2 kFigure(1800, 1300); // pixels
 constexpr float kText = 19, kSmall = 16;  // pixels, of a line
 constexpr glm::vec3 kSheet(1.0f), kLitSide(0.30f, 0.55f, 0.95f);
 constexpr glm::vec4 kInk(0.13f, 0.15f, 0.18f, 1), kPale(0.45f, 0.48f, 0.52f, 1),
-    kGridLine(0.88f, 0.89f, 0.91f, 1), kSound(0.13f, 0.30f, 0.58f, 1), kAmber(0.80f, 0.47f, 0.0f, 1),
-    kRed(0.82f, 0.07f, 0.10f, 1), kData(0.05f, 0.50f, 0.25f, 1), kLeftEye(0.85f, 0.10f, 0.15f, 1),
-    kRightEye(0.0f, 0.55f, 0.75f, 1);
+    kGridLine(0.88f, 0.89f, 0.91f, 1), kSound(0.13f, 0.30f, 0.58f, 1),
+    kAmber(0.80f, 0.47f, 0.0f, 1), kRed(0.82f, 0.07f, 0.10f, 1), kData(0.05f, 0.50f, 0.25f, 1),
+    kLeftEye(0.85f, 0.10f, 0.15f, 1), kRightEye(0.0f, 0.55f, 0.75f, 1);
 constexpr std::array kAxisColors{kRed, glm::vec4(0.10f, 0.60f, 0.15f, 1),
                                  glm::vec4(0.15f, 0.25f, 0.90f, 1)};
 
@@ -78,6 +78,8 @@ std::vector<DrawnWall> drawn_walls(const CheckedRoom& room,
                                 stereo::name_of(place.window.stereo), faces ? "" : ", faces away");
         walls.push_back(wall);
     }
+    // What is told of is drawn over its neighbors.
+    std::ranges::stable_sort(walls, {}, [](const DrawnWall& wall) { return wall.color != kSound; });
     return walls;
 }
 
@@ -188,7 +190,9 @@ class PlanDrawing {
                 const glm::vec2 shift = 10.0f * front / steep;
                 const glm::vec2 strip[]{a, b, b + shift, a + shift};
                 if (glm::distance(a, b) > 2 && i % 2 == edge_to_light(wall))
-                    canvas_.area(strip, glm::vec4(kLitSide, 0.30f));
+                    canvas_.area(strip, wall.color == kSound
+                                            ? glm::vec4(kLitSide, 0.30f)
+                                            : glm::vec4(glm::vec3(wall.color), 0.35f));
             }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const glm::vec2 a = corners[i], b = corners[(i + 1) % 4];

@@ -130,17 +130,19 @@ std::string with_all(std::string text, const std::string& from, const std::strin
         text.replace(at, from.size(), to);
     return text;
 }
-/// With a wall of the CAVE at other corners.
+/// With a wall of the CAVE at other corners, and as many pixels as before.
 std::string cave_with(const std::string& name, const Point& lower_left, const Point& upper_left,
                       const Point& upper_right) {
-    std::vector<Wall> walls = box(3, 3, 3, "front left right floor");
-    for (Wall& wall : walls)
-        if (wall.name == name) {
-            wall.lower_left = lower_left;
-            wall.upper_left = upper_left;
-            wall.upper_right = upper_right;
-        }
-    return room_of({0, 1.7, 0}, walls) + kTracker;
+    std::string text = cave();
+    for (const Wall& wall : box(3, 3, 3, name)) {
+        const auto corners = [](const Point& a, const Point& b, const Point& c) {
+            return fmt::format("lower_left = {}\nupper_left = {}\nupper_right = {}\n", words(a),
+                               words(b), words(c));
+        };
+        text = with(text, corners(wall.lower_left, wall.upper_left, wall.upper_right),
+                    corners(lower_left, upper_left, upper_right));
+    }
+    return text;
 }
 std::string viewer_at(const std::string& place) {
     return with(cave(), words({0, 1.7, 0}), place);
@@ -507,7 +509,9 @@ std::string with_value(const std::string& key, double value) {
     if (key == "*.latency_ms")
         return cave("[osc]\n" + line + "[[osc.devices]]\nname = \"wand2\"\n");
     if (table == "*")
-        return cave("[tracking]\nlost_after_ms = 60000\n" + line);
+        return cave((key == "*.lost_after_ms" ? "[tracking]\nheld_after_ms = 20\n"
+                                              : "[tracking]\nlost_after_ms = 60000\n") +
+                    line);
     if (table == "windows.viewports.projection")
         return with(powerwall(), "lower_left", line + "lower_left");
     return cave(fmt::format("[{}]\n{}", table, line));
@@ -539,7 +543,8 @@ std::string cylinder(int columns, int rows, double radius, double bezel) {
     for (int i = 0; i < columns; ++i)
         for (int j = 0; j < rows; ++j) {
             const double angle = (i - (columns - 1) / 2.0) * turn, low = 0.3 + j * (height + gap);
-            const double x = radius * std::sin(angle), z = -radius * std::cos(angle);
+            const double away = radius * std::cos(turn / 2); // so that edges meet at the radius
+            const double x = away * std::sin(angle), z = -away * std::cos(angle);
             const double dx = width / 2 * std::cos(angle), dz = width / 2 * std::sin(angle);
             walls.push_back({fmt::format("c{} {}", i, j),
                              {x - dx, low, z - dz},

@@ -241,7 +241,7 @@ ControlServer::Found ControlServer::not_found(const Search& search, const std::s
 
 void ControlServer::add_search(Connection& client, const ControlRequest& request,
                                const std::string& id) {
-    if (to_search_.size() + (searching_ ? 1 : 0) >= kMostSearches)
+    if (std::ranges::count(to_search_, client.name(), &Search::client) >= kMostSearches)
         throw interaction::Error(
             fmt::format("busy: {} searches wait already; try again", kMostSearches));
     to_search_.push_back({client.name(), id, request, desk_.file(), desk_.shown()->state});
@@ -266,8 +266,8 @@ void ControlServer::begin_search() {
         to_search_.erase(next);
         return;
     }
-    if (!may_begin && to_search_.size() < kMostSearches)
-        return; // it keeps nobody else
+    if (!may_begin)
+        return; // none of those who wait is kept by another
     for (const auto& client : connections_)
         if (client->held() > 0 && options_.clock() - client->took > kTakesNothing)
             client->drop();

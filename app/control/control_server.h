@@ -32,7 +32,7 @@ class ControlServer {
     static constexpr interaction::Seconds kTurnedAway{1}; ///< then such a client is closed
     /// A client that takes nothing of what it is sent for so long, while others wait for it, is closed.
     static constexpr interaction::Seconds kTakesNothing{20};
-    static constexpr std::size_t kMostSearches = 8;         ///< that wait, of all clients
+    static constexpr std::ptrdiff_t kMostSearches = 8;      ///< that wait, of each client
     static constexpr interaction::Seconds kTokenWithin{10}; ///< else the connection is closed
 
     /// @param desk has shown a first frame; outlives the server, which is woken through it

@@ -205,7 +205,7 @@ void NewFile::commit() {
 
 void name_whole_file(const fs::path& written, const fs::path& target) {
     const fs::path name = end_of_links(target);
-    const Descriptor file(::open(written.c_str(), O_RDONLY | O_CLOEXEC));
+    const Descriptor file(::open(written.c_str(), O_RDWR | O_CLOEXEC));
     if (!file || ::fsync(file.number()) != 0 || ::rename(written.c_str(), name.c_str()) != 0)
         throw Error(fmt::format("{}: cannot be written: {}", target.string(), refusal(errno)));
     flush_folder_of(name);

@@ -179,7 +179,7 @@ void RecordingWriter::copy_to(const std::filesystem::path& path) {
     const std::filesystem::path part = path.string() + ".part";
     std::error_code error;
     std::filesystem::copy_file(state_->temporary, part, error);
-    std::FILE* const copied = error ? nullptr : std::fopen(part.c_str(), "rb");
+    std::FILE* const copied = error ? nullptr : std::fopen(part.c_str(), "r+b");
     if (copied && (fsync(fileno(copied)) != 0 || std::rename(part.c_str(), path.c_str()) != 0))
         error.assign(errno, std::system_category());
     if (copied && std::fclose(copied) == 0 && !error)

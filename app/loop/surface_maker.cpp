@@ -67,7 +67,8 @@ std::string write_surfaces(const ExportTask& task, const Asking& asking) {
         return fmt::format("exported {}: there is no surface at this isovalue", all);
     return fmt::format("exported {}: {} {}", all,
                        grouped(task.format->of_cells ? count.cells : count.triangles),
-                       task.format->of_cells ? "cells" : "triangles");
+                       task.format->of_cells ? "cells" : "triangles") +
+           (request.values && !task.format->with_colors ? ", without the colors of an array" : "");
 }
 
 std::string not_written(const ExportTask&, const std::string& why, bool canceled) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -68,6 +69,7 @@ class EdgeCollapse {
         changes_.resize(places_.size());
         removed_.resize(places_.size());
         marks_.resize(places_.size() + 1);
+        find_twins();
         add_planes();
         add_samples(most);
     }
@@ -117,6 +119,37 @@ class EdgeCollapse {
             for (std::size_t i = 0; i < 3; ++i)
                 if (edges[key(at[i], at[(i + 1) % 3])] > 0)
                     triangles_.push_back({at[(i + 1) % 3], at[i], outside_});
+    }
+    /// Points that lie in one place, as where the surface meets itself in a vertex of the grid.
+    void find_twins() {
+        std::vector<std::uint32_t> order(places_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        const auto key = [&](std::uint32_t i) {
+            return std::tuple(places_[i].x, places_[i].y, places_[i].z, i);
+        };
+        std::ranges::sort(order, {}, key);
+        first_twin_.resize(places_.size());
+        next_twin_.assign(places_.size(), kNothing);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const bool again = i > 0 && places_[order[i]] == places_[order[i - 1]];
+            first_twin_[order[i]] = again ? first_twin_[order[i - 1]] : order[i];
+            if (again)
+                next_twin_[order[i - 1]] = order[i];
+        }
+    }
+    bool has_twin(std::uint32_t point) const {
+        return first_twin_[point] != point || next_twin_[point] != kNothing;
+    }
+    /// Whether points in the places of these two are the ends of an edge.
+    bool has_edge_between_places(std::uint32_t one, std::uint32_t other) const {
+        bool found = false;
+        for (std::uint32_t twin = first_twin_[one]; twin != kNothing; twin = next_twin_[twin])
+            each_triangle(twin, [&](std::uint32_t, const Triangle& at) {
+                for (const std::uint32_t corner : at)
+                    found =
+                        found || (corner != outside_ && first_twin_[corner] == first_twin_[other]);
+            });
+        return found;
     }
     bool is_cone(const Triangle& at) const {
         return at[0] == outside_ || at[1] == outside_ || at[2] == outside_;
@@ -212,8 +245,8 @@ class EdgeCollapse {
                });
     }
 
-    /// Whether all stays connected as it is if the point of around_ becomes `to`.
-    bool keeps_links(std::uint32_t to) {
+    /// Whether all stays connected as it is if `from` becomes `to`. Needs around_.
+    bool keeps_links(std::uint32_t from, std::uint32_t to) {
         const std::uint32_t mark = ++mark_;
         std::array<std::uint32_t, 2> sides{kNothing, kNothing}; // the third points of the edge
         for (const Around& each : around_) {
@@ -237,8 +270,19 @@ class EdgeCollapse {
         if (around_.size() == 3 && other_side)
             return false;
         std::size_t common = 0;
-        for (const Around& each : around_)
-            common += marks_[each.second] == mark;
+        for (const Around& each : around_) {
+            if (each.second != to && each.second != outside_ &&
+                first_twin_[from] != first_twin_[to] &&
+                first_twin_[each.second] == first_twin_[from])
+                return false; // twins that share an edge become one first
+            if (marks_[each.second] == mark)
+                ++common;
+            else if (each.second != to && each.second != outside_ &&
+                     first_twin_[from] != first_twin_[to] &&
+                     (has_twin(to) || has_twin(each.second)) &&
+                     has_edge_between_places(to, each.second))
+                return false; // two edges would lie in one place
+        }
         return common == 2;
     }
 
@@ -252,7 +296,7 @@ class EdgeCollapse {
             const glm::dvec3 before = cross_of({from, each.second, each.third});
             const glm::dvec3 after = cross_of({to, each.second, each.third});
             const double was = glm::length(before), is = glm::length(after);
-            return is > 0 && glm::dot(before, after) >= kLeast * was * is;
+            return was == 0 || (is > 0 && glm::dot(before, after) >= kLeast * was * is);
         });
     }
 
@@ -295,7 +339,8 @@ class EdgeCollapse {
     }
 
     void collapse(std::uint32_t from, std::uint32_t to) {
-        if (!gather(from) || !keeps_links(to) || !keeps_sides(from, to) || !keeps_points(from, to))
+        if (!gather(from) || !keeps_links(from, to) || !keeps_sides(from, to) ||
+            !keeps_points(from, to))
             return;
         for (const Around& each : around_) {
             first_sample_[each.number] = kNothing;
@@ -333,6 +378,7 @@ class EdgeCollapse {
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> first_corner_,
         next_corner_; ///< by point, by corner: lists around points
+    std::vector<std::uint32_t> first_twin_, next_twin_; ///< by point: lists of those in its place
     std::vector<PlaneSum> sums_;
     std::vector<std::uint32_t> changes_; ///< by point
     std::vector<bool> removed_;

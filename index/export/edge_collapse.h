@@ -16,6 +16,7 @@ namespace isochron::index {
 /// triangle would turn over,or a point that was removed, or the middle of an edge, would lie farther from the triangles that take
 /// its place than it may. So what is closed stays closed, an edge of two triangles keeps two, and no part
 /// of the mesh goes altogether. How far other points of the triangles lie apart is not measured.
+/// No edge comes to lie where another one lies, either.
 /// @param mesh no triangle has one point twice; points that no triangle uses stay
 /// @param most distance for each point; a middle has the smaller one of both ends
 /// @param look called now and then; may be empty

@@ -54,9 +54,9 @@ class GlbFile {
         const ExportedPlaces places(*step.grid, plan_);
         const glm::dvec3& origin = places.origin();
         json children = json::array();
-        for (const ExportedSurface& surface : step.surfaces)
-            if (surface.mesh->triangles() > 0) // meshes of glTF have triangles
-                children.push_back(add(surface, places));
+        for (std::size_t i = 0; i < step.surfaces.size(); ++i)
+            if (step.surfaces[i].mesh->triangles() > 0) // meshes of glTF have triangles
+                children.push_back(add(step.surfaces[i], i, places));
         json node{{"name", "step " + number_text(step.instant)},
                   {"extras",
                    {{"time", step.time},
@@ -267,9 +267,11 @@ class GlbFile {
         return push("materials", std::move(material));
     }
 
-    std::size_t add(const ExportedSurface& surface, const ExportedPlaces& places) {
+    std::size_t add(const ExportedSurface& surface, std::size_t place,
+                    const ExportedPlaces& places) {
         const ExportedMesh& mesh = *surface.mesh;
-        json node{{"name", surface.name}};
+        json node{{"name", surface.name},
+                  {"extras", {{"surface", place}, {"isovalue", surface.isovalue}}}};
         json attributes;
         attributes["POSITION"] =
             plan_.quantized ? add_quantized_places(mesh, places, node) : add_places(mesh, places);

@@ -24,7 +24,8 @@ class ObjWriter : public SurfaceWriter {
                              words_of(plan_, places)));
         std::uint64_t first = 1;
         for (std::size_t i = 0; i < step.surfaces.size(); ++i) {
-            out.text(fmt::format("o surface_{}\n# {}\n", i + 1, step.surfaces[i].name));
+            out.text(
+                fmt::format("o surface_{}\n# surface {}: {}\n", i + 1, i, step.surfaces[i].name));
             put(step.surfaces[i], places, first, out);
             first += step.surfaces[i].mesh->vertices();
         }

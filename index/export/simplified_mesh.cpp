@@ -7,40 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace isochron::index {
 namespace {
 
 constexpr std::size_t kMostTries = 24;
 constexpr double kFirstLimit = 0.95; ///< leaves room between the bounds of the distance
-
-/// Makes vertices in one place one, and removes the triangles that have one twice then. Only those at the
-/// end of an edge of the grid can lie in one place.
-void weld(CellMesh& mesh) {
-    std::unordered_map<std::uint64_t, std::uint32_t> at_vertices;
-    std::vector<std::uint32_t> same(mesh.vertices.size());
-    for (std::uint32_t i = 0; i < same.size(); ++i) {
-        const MeshVertex& vertex = mesh.vertices[i];
-        same[i] = i;
-        if (vertex.share != 0 && vertex.share != MeshVertex::kWhole)
-            continue;
-        std::array<std::uint64_t, 3> place{vertex.x, vertex.y, vertex.z};
-        place[vertex.axis] += vertex.share == MeshVertex::kWhole;
-        same[i] =
-            at_vertices.try_emplace(place[0] | place[1] << 20 | place[2] << 40, i).first->second;
-    }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-        const std::array at{same[mesh.triangles[i]], same[mesh.triangles[i + 1]],
-                            same[mesh.triangles[i + 2]]};
-        if (at[0] == at[1] || at[1] == at[2] || at[2] == at[0])
-            continue;
-        std::ranges::copy(at, mesh.triangles.begin() + static_cast<std::ptrdiff_t>(kept));
-        kept += 3;
-    }
-    mesh.triangles.resize(kept);
-}
 
 /// Adds the neighbors of points.
 void grow(std::vector<bool>& points, const PlainMesh& mesh) {
@@ -76,11 +48,8 @@ void lower_limits(std::vector<double>& limits, const PlainMesh& all, const Plain
 } // namespace
 
 double simplify(CellMesh& mesh, const Grid& grid, double most, const std::function<void()>& look) {
-    weld(mesh);
-    if (mesh.triangles.empty()) {
-        drop_unused_vertices(mesh);
+    if (mesh.triangles.empty())
         return 0;
-    }
     PlainMesh all;
     all.points.reserve(mesh.vertices.size());
     for (const MeshVertex& vertex : mesh.vertices)

@@ -75,9 +75,10 @@ class Samples {
 /// The attributes of one surface.
 class MeshSamples {
   public:
-    MeshSamples(std::string name, const std::filesystem::path& beside)
-        : name_(std::move(name)), extent_(beside), counts_(beside), corners_(beside),
-          points_(beside), normals_(beside), colors_(beside), values_(beside) {}
+    MeshSamples(const ExportedSurface& surface, const std::filesystem::path& beside)
+        : name_(surface.name), isovalue_(surface.isovalue), opacity_(surface.opacity),
+          extent_(beside), counts_(beside), corners_(beside), points_(beside), normals_(beside),
+          colors_(beside), values_(beside) {}
 
     void add(const ExportPlan& plan, const ExportedSurface& surface, const ExportedPlaces& places,
              std::size_t code) {
@@ -131,10 +132,12 @@ class MeshSamples {
     }
 
     void write(const ExportPlan& plan, std::size_t number, BufferedSink& out) {
-        out.text(fmt::format("    def Mesh \"surface_{}\" (\n        doc = {}\n    )\n    {{\n"
+        out.text(fmt::format("    def Mesh \"surface_{}\" (\n        doc = {}\n"
+                             "        customData = {{\n            int surface = {}\n"
+                             "            double isovalue = {}\n        }}\n    )\n    {{\n"
                              "        uniform token subdivisionScheme = \"none\"\n"
                              "        uniform bool doubleSided = 1\n",
-                             number + 1, in_quotes(name_)));
+                             number + 1, in_quotes(name_), number, isovalue_));
         put("float3[] extent", {}, extent_, out);
         put("int[] faceVertexCounts", {}, counts_, out);
         put("int[] faceVertexIndices", {}, corners_, out);
@@ -143,6 +146,10 @@ class MeshSamples {
             put("normal3f[] normals", "interpolation = \"vertex\"", normals_, out);
         put("color3f[] primvars:displayColor",
             colored_ ? "interpolation = \"vertex\"" : "interpolation = \"constant\"", colors_, out);
+        if (opacity_ < 1)
+            out.text(fmt::format("        float[] primvars:displayOpacity = [{}] (\n"
+                                 "            interpolation = \"constant\"\n        )\n",
+                                 opacity_));
         if (!plan.values_name.empty())
             put("float[] primvars:value",
                 "doc = " + in_quotes(plan.values_name) + "\n            interpolation = \"vertex\"",
@@ -161,6 +168,8 @@ class MeshSamples {
     }
 
     std::string name_;
+    double isovalue_;
+    float opacity_;
     bool colored_ = false;
     Samples extent_, counts_, corners_, points_, normals_, colors_, values_;
 };
@@ -175,7 +184,7 @@ class UsdaWriter : public SurfaceWriter {
         origin_ = places.origin();
         for (std::size_t i = 0; i < step.surfaces.size(); ++i) {
             if (meshes_.size() <= i)
-                meshes_.push_back(std::make_unique<MeshSamples>(step.surfaces[i].name, name_));
+                meshes_.push_back(std::make_unique<MeshSamples>(step.surfaces[i], name_));
             meshes_[i]->add(plan_, step.surfaces[i], places, added_);
         }
         times_ += fmt::format("{}{}", added_ == 0 ? "" : ", ", step.time);

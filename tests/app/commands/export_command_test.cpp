@@ -5,8 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 namespace isochron::app {
 namespace {
@@ -66,7 +68,7 @@ TEST_F(ExportCommand, WritesTheActiveCellsAsATable) {
         std::istringstream table(folder.read(fmt::format("c_{:04}.csv", step)));
         std::string line;
         std::getline(table, line);
-        EXPECT_EQ(line, "surface,isovalue,id,x,y,z,nx,ny,nz");
+        EXPECT_EQ(line, "surface,isovalue,id,x,y,z,nx,ny,nz,number,time,time_unit,length_unit");
         std::vector<std::uint32_t> ids;
         while (std::getline(table, line)) {
             unsigned surface = 0;
@@ -77,6 +79,7 @@ TEST_F(ExportCommand, WritesTheActiveCellsAsATable) {
                       6)
                 << line;
             EXPECT_EQ(surface, 1u);
+            EXPECT_THAT(line, testing::EndsWith(fmt::format(",0,{},,", step)));
             EXPECT_EQ(isovalue, 0.1);
             EXPECT_EQ(x, id % (kX - 1) + 0.5);
             EXPECT_EQ(y, id / (kX - 1) % (kY - 1) + 0.5);
@@ -229,6 +232,8 @@ TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
     EXPECT_GT(fewer.at("triangles"), 100);
     EXPECT_LE(fewer.at("error"), 0.1);
     EXPECT_GT(fewer.at("error"), 0);
+    EXPECT_EQ(fewer.at("error_cells"), fewer.at("error")) << "cells have sides of 1";
+    EXPECT_EQ(fewer.at("cells"), whole.at("cells"));
     // A closed surface stays closed: Euler's number of a sphere, V - F / 2 = 2.
     EXPECT_EQ(fewer.at("vertices").get<int>() - fewer.at("triangles").get<int>() / 2, 2);
     exported("again.ply", {"--simplify", "0.1"});
@@ -236,16 +241,137 @@ TEST_F(ExportCommand, ASimplifiedSurfaceHasFewerTrianglesAndSaysItsError) {
     EXPECT_THAT(expect_done({"export", "s.isochron", "--isovalue", "100", "--simplify", "0.1", "-o",
                              "about.stl"})
                     .out,
-                HasSubstr("the surface has moved by about 0."));
+                HasSubstr("the surface has moved by at most 0."));
     // A distance in another unit than the user had in mind; nothing is left of the surface.
     const ChildResult refused = isochron(
         {"export", "s.isochron", "--isovalue", "100", "--simplify", "1e4", "-o", "none.stl"});
     EXPECT_EQ(refused.status, 1);
     EXPECT_THAT(refused.err,
-                HasSubstr(fmt::format("isochron: step 0: --simplify 10000 leaves none of the {} "
-                                      "triangles at isovalue 100; a smaller distance is needed\n",
+                HasSubstr(fmt::format("of {} triangles at isovalue 100",
                                       grouped(whole.at("triangles").get<std::uint64_t>()))));
+    EXPECT_THAT(refused.err, HasSubstr("isochron: step 0: --simplify 1e4: leaves 4 of "));
+    EXPECT_THAT(refused.err, HasSubstr("a smaller distance is needed\n"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.stl"));
+}
+
+TEST_F(ExportCommand, ASurfaceIsSimplifiedByADistanceInCellsOrInTheUnitOfTheFile) {
+    expect_done(build_of("t*.raw", {"--spacing", "0.002", "0.004", "0.008", "--length-unit", "m"}));
+    const auto error = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"export", "a.isochron", "--isovalue", "0.1",    "--steps",
+                                     "0",      "-o",         "s.ply",      "--json", "--force"};
+        all.insert(all.end(), more.begin(), more.end());
+        return nlohmann::json::parse(expect_done(all).out);
+    };
+    const auto cells = error({"--simplify", "0.5cells"});
+    EXPECT_LE(cells.at("error_cells"), 0.5);
+    EXPECT_GT(cells.at("error_cells"), 0);
+    EXPECT_DOUBLE_EQ(cells.at("error"), 0.002 * cells.at("error_cells").get<double>());
+    for (const auto& [distance, unit] :
+         {std::pair("0.001", "m"), {"1", "mm"}, {"0.5 cells", "mm"}}) {
+        const auto other = error({"--simplify", distance, "--unit", unit});
+        EXPECT_EQ(other.at("triangles"), cells.at("triangles")) << distance << unit;
+        EXPECT_NEAR(other.at("error_cells"), cells.at("error_cells"), 1e-5) << distance << unit;
+    }
+    for (const std::string wrong :
+         {"0", "-1", "nan", "inf", "1e999", "0.5cell ", "5miles", "cells"})
+        expect_refused({"--isovalue", "0.1", "-o", "w.ply", "--simplify=" + wrong}, 2,
+                       "--simplify " + wrong + ": expected a distance above 0");
+    expect_refused({"--isovalue", "0.1", "-o", "w.ply", "--simplify", "1e-12"}, 1,
+                   "step 0: --simplify 1e-12: a file of this precision moves vertices by up to");
+}
+
+/// Whether each format has what the table of the guide says, beside two surfaces of a step.
+TEST_F(ExportCommand, EachFormatCarriesWhatTheGuideSays) {
+    with_vtk("make");
+    expect_done({"build", "t0.vti", "t1.vti", "--array", "v", "--color", "c", "--length-unit", "mm",
+                 "--time-unit", "s", "--time-step", "0.5", "-o", "a.isochron"});
+    // Unit, time, number of the surface, colors, normals, values: what stands in the file for it.
+    const std::map<std::string, std::array<std::string, 6>> signs{
+        {"ply",
+         {"coordinates in mm", "time 0.5 s", "property uchar surface", "property uchar red",
+          "property float nx", "property float value"}},
+        {"vtp",
+         {"coordinates in mm", "format=\"ascii\">0.5<", "Name=\"surface\"", "Name=\"color\"",
+          "Name=\"Normals\"", "Name=\"c\""}},
+        {"glb",
+         {R"("length_unit":"mm")", R"("time":0.5,"time_unit":"s")", R"("extras":{"surface":1,)",
+          "COLOR_0", "NORMAL", ""}},
+        {"glb-animation",
+         {R"("length_unit":"mm")", R"("time":0.5,"time_unit":"s")", R"("extras":{"surface":1,)",
+          "COLOR_0", "NORMAL", ""}},
+        {"usda",
+         {"lengthUnit = \"mm\"", "times = [0.5]", "int surface = 1\n", "primvars:displayColor",
+          "normal3f[] normals", "primvars:value"}},
+        {"obj", {"coordinates in mm", "time 0.5 s", "# surface 1: v -0.4", "", "\nvn ", ""}},
+        {"stl", {"unit=mm", "", "", "", "", ""}},
+        {"csv", {",mm\n", ",1,0.5,s,", ",number,", "", ",nx,ny,nz,", ""}},
+    };
+    std::map<std::string, std::vector<std::string>> said; // rows of the guide's table
+    std::istringstream guide(folder.read(test_support::source_root() + "/docs/guide/export.md"));
+    for (std::string line; std::getline(guide, line);)
+        if (line.starts_with("| `")) {
+            std::vector<std::string> cells;
+            std::istringstream row(line.substr(1));
+            for (std::string cell; std::getline(row, cell, '|');)
+                cells.push_back(cell.substr(
+                    cell.find_first_not_of(' ') == std::string::npos ? cell.size() : 1));
+            said[cells[0].substr(1, cells[0].find('`', 1) - 1)] = cells;
+        }
+    ASSERT_EQ(said.size(), signs.size());
+    for (const auto& [format, of] : signs) {
+        std::vector<std::string> all{"export",     "a.isochron", "--isovalue", "0.25",
+                                     "--isovalue", "-0.4",       "--steps",    "1",
+                                     "--format",   format,       "-o",         format + "/"};
+        if (format != "stl" && format != "csv")
+            all.insert(all.end(), {"--color-by", "c"});
+        expect_done(all);
+        std::string file;
+        for (const auto& entry : fs::directory_iterator(folder.path() / format))
+            file += folder.read(entry.path());
+        ASSERT_TRUE(said.contains(format)) << format;
+        for (std::size_t i = 0; i < of.size(); ++i) {
+            bool has = !of[i].empty();
+            EXPECT_THAT(file, HasSubstr(of[i])) << format;
+            if (format == "obj" && i == 3) { // after the coordinates
+                const std::size_t at = file.find("\nv ") + 1;
+                const std::string line = file.substr(at, file.find('\n', at) - at);
+                has = std::ranges::count(line, ' ') == 6;
+            }
+            if (format == "stl" && i == 2) // a file for each
+                has = fs::exists(folder.path() / "stl/a_surface2.stl");
+            EXPECT_EQ(has, !said[format].at(i + 2).empty())
+                << format << ", column " << i + 2 << " of the table: " << said[format][i + 2];
+        }
+    }
+}
+
+TEST_F(ExportCommand, CountsTheCellsThatAreLeftByCuts) {
+    build();
+    const auto count = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"export", "a.isochron", "--isovalue", "0.1",    "--steps",
+                                     "0",      "-o",         "c.ply",      "--json", "--force"};
+        all.insert(all.end(), more.begin(), more.end());
+        return nlohmann::json::parse(expect_done(all).out).at("cells").get<std::size_t>();
+    };
+    const auto cells = [&](auto&& has) {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(active(0, 0.1), [&](std::uint32_t id) {
+                return has(id % (kX - 1), id / (kX - 1) % (kY - 1), id / (kX - 1) / (kY - 1));
+            }));
+    };
+    EXPECT_EQ(count({}), active(0, 0.1).size());
+    const std::size_t within = cells([](std::size_t x, std::size_t y, std::size_t z) {
+        return x >= 2 && x < 9 && y >= 1 && y < 7 && z >= 2 && z < 6;
+    });
+    EXPECT_EQ(count({"--crop", "2:9,1:7,2:6"}), within);
+    // A plane through cells leaves those before it, and those with a triangle before it.
+    const auto before = [&](std::size_t end) {
+        return cells([&](std::size_t x, std::size_t, std::size_t) { return x < end; });
+    };
+    const std::size_t clipped = count({"--clip", "6.5", "0", "0", "1", "0", "0"});
+    EXPECT_GE(clipped, before(6));
+    EXPECT_LE(clipped, before(7));
+    EXPECT_EQ(count({"--crop", "2:9,1:7,2:6", "--clip", "9", "0", "0", "1", "0", "0"}), within);
 }
 
 TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
@@ -275,7 +401,8 @@ TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
     const double scale = node.at("scale")[0];
     const std::size_t count = small.at("accessors")[0].at("count");
     EXPECT_EQ(plain.at("accessors")[0].at("count"), count);
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
+        double squared = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             float there = 0;
             std::uint16_t number = 0;
@@ -283,7 +410,10 @@ TEST_F(ExportCommand, AQuantizedSurfaceIsWhereTheOtherOneIs) {
             std::memcpy(&number, small_bytes.data() + 8 * i + 2 * axis, sizeof number);
             const double here = node.at("translation")[axis].get<double>() + scale * number / 65535;
             ASSERT_NEAR(here, there, 0.51 * scale / 65535 + 1e-6) << i;
+            squared += (here - there) * (here - there);
         }
+        ASSERT_LE(std::sqrt(squared), scale / 75000 + 1e-6) << i << ": as the help says";
+    }
     EXPECT_LT(small_bytes.size(), 0.75 * static_cast<double>(plain_bytes.size()));
     expect_refused({"--isovalue", "0", "-o", "q.ply", "--quantize"}, 2, "is for glb");
     expect_refused({"--isovalue", "0", "-o", "q.csv", "--crop", "0:1,0:1,0:1"}, 2, "holds cells");

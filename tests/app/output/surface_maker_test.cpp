@@ -113,6 +113,19 @@ TEST_F(SurfaceMakerTest, TheClipPlaneCutsAsItIsShown) {
     EXPECT_FALSE(shown_request(state_, file_).reshape);
 }
 
+TEST_F(SurfaceMakerTest, TranslucentSurfacesAreTranslucentInFormatsThatHaveOpacity) {
+    for (const auto& [format, said] :
+         {std::pair("usda", "float[] primvars:displayOpacity = [0.5] ("), {"glb", "\"BLEND\""}}) {
+        state_.pictures.surfaces = {format, interaction::ExportedSteps::shown, true};
+        outcome();
+        const std::string file = folder_.read(std::string("out/isochron_surface_0001.") + format);
+        const std::size_t at = file.find(said);
+        EXPECT_NE(at, std::string::npos) << format;
+        EXPECT_EQ(file.find(said, at + 1), std::string::npos) << "the other one is opaque";
+        state_.exporting = {true, 0};
+    }
+}
+
 TEST_F(SurfaceMakerTest, ColorsHaveTheRangeOfThePicture) {
     state_.coloring.by = interaction::ColorBy::value;
     state_.coloring.percentiles = {5, 95};

@@ -70,7 +70,7 @@ def within_a_run(arrays, **options):
 
 class Guide(unittest.TestCase):
     def test_examples_work_as_they_stand(self):
-        examples = blocks_of(GUIDE)
+        examples = blocks_of(GUIDE) + blocks_of(os.path.join(os.path.dirname(GUIDE), "arrays.md"))
         self.assertGreaterEqual(len(examples), 5)
         sys.modules.setdefault("pyvista", pyvista_of_vtk())
         with within_a_run(lambda step: {"rho": arrays_of(step)["depth"], "T": arrays_of(step)["rho"]}, array=["rho", "T"]):

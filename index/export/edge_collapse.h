@@ -1,6 +1,4 @@
 // Takes triangles from a mesh by joining the ends of edges, and keeps how its parts hang together.
-//
-//     index::collapse_edges(mesh, std::vector(mesh.points.size(), 0.1));
 #pragma once
 
 #include "index/export/mesh_distance.h"

@@ -1,7 +1,4 @@
 // How far two meshes lie from each other, between bounds that are computed, not estimated.
-//
-//     const index::NearestTriangle nearest(fewer);
-//     const double moved = index::farthest_from(all, nearest, {}).upper;
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,6 +1,4 @@
 // Surfaces with fewer triangles, for files: how far they have moved is measured.
-//
-//     const double moved = index::simplify(mesh, grid, 0.1);
 #pragma once
 
 #include "index/surface/cell_mesh.h"

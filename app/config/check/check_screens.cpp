@@ -119,7 +119,7 @@ void oblong_pixels(const CheckedRoom& room, const Tell& tell) {
 }
 
 void coarse_pixels(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kCoarse = 0.012f; // [m]
+    constexpr float kCoarse = 0.1f; // [m]
     for (const Wall& wall : room.walls()) {
         const glm::vec2 pixel = pixel_size(*wall.place);
         if (std::min(pixel.x, pixel.y) > kCoarse)

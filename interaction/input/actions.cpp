@@ -46,6 +46,7 @@ std::span<const ControlLine> control_lines() {
         {mouse, "Ctrl + wheel", "isovalue by 0.1 % of the range"},
         {mouse, "Mouse", "aims the wand"},
         {keyboard, "F1 or ?", "help: keys, mouse and devices"},
+        {keyboard, "Ctrl + K", "find any control by its words, and set it: opacity 40"},
         {keyboard, "F11", "full screen on, off"},
         {keyboard, "Ctrl + O", "open other data"},
         {keyboard, "Ctrl + Shift + A", "all arrays: names, values, units and grids"},

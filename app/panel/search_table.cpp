@@ -327,14 +327,14 @@ class Lines {
                     .value = std::move(value),
                     .section = section});
     }
-    /// Commands that set something. The line is left out where it is so already.
+    /// Commands that set something; the line says where it is so already.
     template <class T>
     void value(std::string name, std::string words,
                std::optional<T> interaction::SettingChanges::* member,
                const std::type_identity_t<T>& wanted, const std::type_identity_t<T>& now) {
-        if (wanted == now)
-            return;
-        SearchLine& line = add({.name = std::move(name), .words = std::move(words)});
+        SearchLine& line = add({.name = std::move(name),
+                                .words = std::move(words),
+                                .value = wanted == now ? "now" : ""});
         line.commands.*member = wanted;
     }
     /// A line that turns something on, or off.
@@ -363,7 +363,7 @@ void add_keys(Lines& lines) {
         for (const interaction::ActionRow& row : line.actions)
             if (!row.keys.empty() && (row.traits & interaction::kHeld))
                 lines.add({.name = row.name,
-                           .words = line.effect + ": see the help",
+                           .words = line.effect,
                            .key = name_of(row.keys[0]) + " (hold)",
                            .page = SearchPage::help,
                            .in_room = false});
@@ -574,7 +574,7 @@ void add_view(Lines& lines) {
         return NumberEffect{fmt::format("{:.4g}\u00b0", degrees), rotated(degrees)};
     };
     lines.add({.name = "move",
-               .words = "move the data (drag with Shift): see the help",
+               .words = "move the data (drag with Shift)",
                .page = SearchPage::help,
                .in_room = false});
     lines.control("heights", "heights (z), exaggerated", fmt::format("x {:.3g}", now.exaggeration),

@@ -64,8 +64,8 @@ struct SearchLine {
     bool in_room = true; ///< a hand in the room can have it, too
 };
 
-/// All lines, in the order in which an empty search lists them. Values that settings have already
-/// are left out.
+/// All lines, in the order in which an empty search lists them.
+/// @param model outlives the lines
 std::vector<SearchLine> search_lines(const PanelModel& model);
 
 /// The names of controls that have other names; each must be that of a line for some data.

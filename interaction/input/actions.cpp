@@ -36,7 +36,7 @@ std::string name_of(const KeyStroke& stroke) {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 37> kLines{{
+    static constexpr std::array<ControlLine, 38> kLines{{
         {mouse, "Click", "pick the surface there, or what the chosen tool does"},
         {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},

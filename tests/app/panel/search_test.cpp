@@ -92,7 +92,8 @@ TEST(SearchLines, ShowThePresentValue) {
     EXPECT_EQ(value("background"), "light");
     EXPECT_EQ(value("step"), "1 of 200");
     EXPECT_EQ(value("legend"), "on");
-    EXPECT_EQ(value("background=light"), "no line") << "it is so already";
+    EXPECT_EQ(value("background=light"), "now") << "it is so already";
+    EXPECT_EQ(value("background=dark"), "");
 }
 
 TEST(SearchLines, HaveCommandsThatChangeSomethingAndAreObeyed) {

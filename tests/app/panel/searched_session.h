@@ -4,6 +4,8 @@
 #include "app/panel/search_table.h"
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +41,7 @@ struct Searched {
         all.movies = {.offered = true, .recorded = true};
         return all;
     }
-    std::vector<SearchLine> lines() { return search_lines(model()); }
+    std::vector<SearchLine> lines() { return search_lines(held.emplace(model())); }
 
     std::array<std::string, 3> names{"vorticity", "temperature", "pressure"};
     index::SeriesInfo info;
@@ -47,6 +49,7 @@ struct Searched {
     ExplorerState asked;
     FrameReport report;
     std::vector<interaction::ControlGroup> controls;
+    std::optional<PanelModel> held; ///< of the last lines
 };
 
 } // namespace isochron::app

@@ -80,12 +80,20 @@ void OpenPages::open_arrays() {
     arrays_.begin_anew();
 }
 
-/// Something that was found on the panel in the room.
-void OpenPages::run(const KeyCommand& found) {
-    if (found.action)
-        action_ = found.action;
-    else
+/// Does what a line of the search stands for. @return its commands
+interaction::Commands OpenPages::run(const SearchLine& found, bool in_room) {
+    found_ = {.section = found.section,
+              .statistics = found.page == SearchPage::statistics,
+              .movie = found.movie};
+    if (found.page == SearchPage::help)
+        open_help();
+    if (found.press && !in_room)
+        presses_ = presses_of(*found.press);
+    else if (found.press && found.press->action)
+        action_ = found.press->action;
+    else if (found.press)
         open_arrays();
+    return found.commands;
 }
 
 /// The arrays that can be shown as they are, and those for which the data are opened anew.
@@ -136,12 +144,8 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
             tour_.start();
     }
     lay_out_files();
-    if (model.place == PanelPlace::in_room) {
-        if (const KeyCommand* const found = search_.draw_in_room(model, picture, commands))
-            run(*found);
-    } else if (auto presses = search_.draw(model, picture, commands); !presses.empty()) {
-        presses_ = std::move(presses);
-    }
+    if (const auto found = search_.draw(model, picture))
+        commands = run(*found, model.place == PanelPlace::in_room);
     if (lists_arrays_)
         interaction::merge(commands, lay_out_arrays(model, picture));
     if (any() || model.place != PanelPlace::over)

@@ -68,6 +68,15 @@ class OpenPages {
     /// The command that the user found on the panel in the room; returned once.
     std::optional<interaction::Action> take_action() { return std::exchange(action_, {}); }
 
+    /// What the user found that is not on a page: a section to point at, the figures, a movie.
+    struct FoundControl {
+        std::optional<std::size_t> section; ///< of the panel; kSections: the bar of the time
+        bool statistics = false;
+        std::optional<MovieWish> movie;
+    };
+    /// Returned once.
+    FoundControl take_found() { return std::exchange(found_, {}); }
+
     /// Whether cards have come, gone or changed in the last layout: Dear ImGui shows new windows late.
     bool turned() const { return turned_; }
 
@@ -93,7 +102,7 @@ class OpenPages {
   private:
     void introduce(const PanelBox& picture, interaction::Seconds time);
     bool turn_with_control(interaction::Key key, bool shift);
-    void run(const KeyCommand& found);
+    interaction::Commands run(const SearchLine& found, bool in_room);
     interaction::Commands lay_out_arrays(const PanelModel& model, const PanelBox& picture);
 
     bool help_ = false; ///< the help page is open
@@ -106,6 +115,7 @@ class OpenPages {
     KeySearch search_;
     std::vector<interaction::WindowEvent> presses_;
     std::optional<interaction::Action> action_;
+    FoundControl found_;
     std::function<std::vector<std::filesystem::path>()>
         recent_; ///< empty: the user cannot open other data
     std::optional<std::filesystem::path> chosen_;

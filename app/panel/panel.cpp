@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -117,8 +118,12 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     Commands commands;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const PanelLayout& layout = view.layout = layout_in(model.place, {size.x, size.y});
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        view.pointed.reset();
     if (!layout.folded)
         view.section.reset();
+    else if (view.pointed && *view.pointed < kSections)
+        view.section = std::exchange(view.pointed, {});
     if (model.place == PanelPlace::in_room)
         title_of(model, layout);
     begin_part("###top", layout.top, Ink::bar);
@@ -130,15 +135,17 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     if (layout.folded)
         section_icons(view.section);
     else if (model.place == PanelPlace::in_room)
-        section_pages(model, pages, commands);
+        section_pages(model, pages, commands, view.pointed);
     else
-        section_column(model, pages, commands);
+        section_column(model, pages, commands, view.pointed);
     if (model.place == PanelPlace::in_room && has_tool_strip(model))
         tool_strip(model, commands);
     end_part();
     ImGui::PopStyleVar();
     begin_part("###time", layout.time, Ink::bar);
     time_bar(model, layout.two_rows, commands);
+    if (view.pointed == kSections)
+        point_at({layout.time.low.x, layout.time.low.y}, {layout.time.high.x, layout.time.high.y});
     end_part();
     if (model.place == PanelPlace::over)
         over_picture(model, view, pages, commands);

@@ -16,6 +16,8 @@ struct PanelView {
     PanelLayout layout{};               ///< the last layout; empty while the panel is hidden
     std::optional<std::size_t> section; ///< opened over the picture, where the column is folded
     bool statistics = false;            ///< open below the chip
+    /// Section that the search points at until the next click; kSections: the bar of the time.
+    std::optional<std::size_t> pointed;
     float below_chip = 0;               ///< where the rest of what lies over the picture may begin
 };
 

@@ -1,6 +1,8 @@
 // Lines of text in the panel, and tips on its controls.
 #include "app/panel/panel_words.h"
 
+#include "app/panel/parts/theme.h"
+
 #include <algorithm>
 
 namespace isochron::app {
@@ -34,6 +36,11 @@ void tooltip(const char* words) {
 void tip(const char* words) {
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
         tooltip(words);
+}
+
+void point_at(const ImVec2& low, const ImVec2& high) {
+    ImGui::GetWindowDrawList()->AddRect({low.x + 1.0f, low.y + 1.0f}, {high.x - 1.0f, high.y - 1.0f},
+                                        packed(Ink::accent), 3.0f, 0, 2.0f);
 }
 
 } // namespace isochron::app

@@ -13,5 +13,7 @@ void text(const std::string& line);
 void note(const std::string& line, const ImVec4& color);
 /// A tip under the mouse on the control that was laid out last: what it does, and its key.
 void tip(const char* words);
+/// A frame that points at a part of the panel. @param low, high its corners, panel pixels
+void point_at(const ImVec2& low, const ImVec2& high);
 
 } // namespace isochron::app

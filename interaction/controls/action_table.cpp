@@ -308,9 +308,9 @@ std::vector<KeyLine> all_lines() {
         });
     line("Delete", removal_words());
     add(remove_made, "remove_made", 53, {Key::del}, kQuiet, "", remove_made_by_tool);
-    line("Escape", "leave the tool; else ask whether to quit (Enter: yes)");
-    add(quit, "quit", 33, {Key::escape}, kQuiet);
-    line("Ctrl + Q", "ask whether to quit");
+    line("Escape", "leave the tool, a list, a page, or loading");
+    add(quit, "quit", 33, {Key::escape}, kQuiet); // its name of old recordings: it asked
+    line("Ctrl + Q", "ask whether to quit (Enter: yes, Escape: no)");
     add(ask_to_quit, "ask_to_quit", 77, {{'Q', kCtrl}}, kQuiet);
     line("Shift, Ctrl", "Shift: walk and fly three times as fast");
     add(shift, "shift", 6, {Key::left_shift, Key::right_shift}, kQuiet | kHeld);

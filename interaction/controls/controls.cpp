@@ -100,19 +100,18 @@ struct Controls::State {
             commands.eye_separation = separation;
     }
 
-    /// Escape goes back to the first tools, or else asks whether to quit; Enter answers yes. An
-    /// answer in the same frame as the question counts.
+    /// Ctrl + Q asks whether to quit; Enter answers yes, Escape answers no. Else Escape goes back to
+    /// the first tools. An answer in the same frame as the question counts.
     static void leave(const Reading& now, const ControlContext& context, Commands& commands) {
-        const bool asks = now.pressed(Action::quit) && context.settings.tools == Tools{};
-        if (now.pressed(Action::pick) && context.settings.leaving != asks)
+        const bool asked = context.settings.leaving, asks = now.pressed(Action::ask_to_quit);
+        const bool escapes = now.pressed(Action::quit);
+        if (now.pressed(Action::pick) && (asked || asks) && !escapes)
             commands.quit = true;
-        if (now.pressed(Action::ask_to_quit) && !context.settings.leaving)
+        if (asks && !asked && !escapes)
             commands.leaving = true;
-        if (!now.pressed(Action::quit))
-            return;
-        if (context.settings.leaving || asks)
-            commands.leaving = !context.settings.leaving;
-        else
+        if (escapes && asked)
+            commands.leaving = false;
+        else if (escapes && context.settings.tools != Tools{})
             commands.tools = Tools{};
     }
 

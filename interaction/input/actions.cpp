@@ -36,7 +36,7 @@ std::string name_of(const KeyStroke& stroke) {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 37> kLines{{
+    static constexpr std::array<ControlLine, 38> kLines{{
         {mouse, "Click", "pick the surface there, or what the chosen tool does"},
         {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},
@@ -46,6 +46,7 @@ std::span<const ControlLine> control_lines() {
         {mouse, "Ctrl + wheel", "isovalue by 0.1 % of the range"},
         {mouse, "Mouse", "aims the wand"},
         {keyboard, "F1 or ?", "help: keys, mouse and devices"},
+        {keyboard, "Ctrl + K", "find any control by its words, and set it: opacity 40"},
         {keyboard, "F11", "full screen on, off"},
         {keyboard, "Ctrl + O", "open other data"},
         {keyboard, "Ctrl + Shift + A", "all arrays: names, values, units and grids"},

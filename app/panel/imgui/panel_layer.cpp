@@ -228,7 +228,18 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     merge(commands, say(model, time));
+    const OpenPages::FoundControl found = pages_.take_found();
+    if (found.section) {
+        view_.pointed = found.section;
+        commands.panel = model.place == PanelPlace::over && !model.asked.panel
+                             ? std::optional(true)
+                             : commands.panel;
+    }
+    view_.statistics = view_.statistics || found.statistics;
+    if (found.movie)
+        wanted_movie_ = found.movie;
     end_frame();
+    changed_ = changed_ || found.section || found.statistics; // which the next layout shows
     changed_ |= changed_by_words_;
     return commands;
 }

@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -233,9 +234,12 @@ void alone(const PanelModel& model, PanelPages&, Commands& commands) {
     lay_out(model, commands);
 }
 
-/// A line with the section's name, which folds it. @return whether it is open
-bool section_line(const Section& section) {
+/// A line with the section's name, which folds it.
+/// @param pointed the search points at it, so that it is open
+/// @return whether it is open
+bool section_line(const Section& section, bool pointed) {
     bool* const open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID(section.name), true);
+    *open = *open || pointed;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -277,23 +281,36 @@ const std::array<Section, kSections>& sections() {
     return kAll;
 }
 
-void section_column(const PanelModel& model, PanelPages& pages, Commands& commands) {
+void section_column(const PanelModel& model, PanelPages& pages, Commands& commands,
+                    const std::optional<std::size_t>& pointed) {
     for (const Section& section : sections()) {
-        if (section_line(section)) {
+        const bool here = pointed && &section == &sections()[std::min(*pointed, kSections - 1)] &&
+                          *pointed < kSections;
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        if (here)
+            ImGui::SetScrollHereY(0.0f);
+        if (section_line(section, here)) {
             ImGui::PushID(section.name);
             section.lay_out(model, pages, commands);
             ImGui::PopID();
             ImGui::Dummy({0.0f, 2.0f});
         }
+        if (here)
+            point_at({corner.x - 4.0f, corner.y},
+                     {corner.x + ImGui::GetContentRegionAvail().x + 4.0f,
+                      ImGui::GetCursorScreenPos().y - 2.0f});
         if (&section != &sections().back())
             ImGui::Separator();
     }
     complaints(model);
 }
 
-void section_pages(const PanelModel& model, PanelPages& pages, Commands& commands) {
+void section_pages(const PanelModel& model, PanelPages& pages, Commands& commands,
+                   std::optional<std::size_t>& pointed) {
     constexpr int kFirst = 1; // the surfaces
     int* const page = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("page"), kFirst);
+    if (pointed && *pointed < kSections)
+        *page = static_cast<int>(*std::exchange(pointed, {}));
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - (kSections - 1) * gap) / kSections;
     for (int i = 0; i < static_cast<int>(kSections); ++i) {

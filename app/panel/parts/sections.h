@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,12 @@ inline constexpr std::size_t kSections = 4;
 const std::array<Section, kSections>& sections();
 
 /// All of them in the current window, each under a line that folds it.
-void section_column(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
+/// @param pointed section that is open, in view, and in a frame
+void section_column(const PanelModel& model, PanelPages& pages, interaction::Commands& commands,
+                    const std::optional<std::size_t>& pointed = {});
 /// One of them, which the user chooses from a line of names: for panels without room for all.
-void section_pages(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
+/// @param pointed section that is chosen now
+void section_pages(const PanelModel& model, PanelPages& pages, interaction::Commands& commands,
+                   std::optional<std::size_t>& pointed);
 
 } // namespace isochron::app

@@ -131,23 +131,26 @@ void line_on_isovalues(const PanelModel& model) {
                 width, color_of(Ink::dim));
 }
 
+void remove(std::uint32_t removed, std::vector<Isosurface>& surfaces, std::uint32_t picked,
+            Commands& commands) {
+    surfaces.erase(surfaces.begin() + removed);
+    if (picked > removed || picked >= surfaces.size())
+        commands.picked = picked - 1;
+}
+
 void take(const ListChange& change, std::vector<Isosurface>& surfaces, std::uint32_t picked,
           Commands& commands) {
     if (change.picked && *change.picked != picked)
         commands.picked = change.picked;
     if (change.isovalue)
         commands.isovalue = change.isovalue;
-    if (!change.removed)
-        return;
-    surfaces.erase(surfaces.begin() + *change.removed);
-    if (picked > *change.removed || picked >= surfaces.size())
-        commands.picked = picked - 1;
+    if (change.removed)
+        remove(*change.removed, surfaces, picked, commands);
 }
 
 } // namespace
 
 void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
-    constexpr float kSeenThrough = 0.45f;
     for (Isosurface& outer : surfaces) {
         const bool encloses = std::ranges::any_of(surfaces, [&](const Isosurface& inner) {
             return inner.isovalue > outer.isovalue &&
@@ -158,6 +161,24 @@ void let_see(std::vector<Isosurface>& surfaces, std::size_t added) {
     }
 }
 
+Commands with_another(const PanelModel& model) {
+    Commands commands;
+    std::vector<Isosurface> surfaces = model.asked.isosurfaces;
+    commands.picked = static_cast<std::uint32_t>(surfaces.size());
+    surfaces.push_back(another(model));
+    let_see(surfaces, surfaces.size() - 1);
+    commands.isosurfaces = surfaces;
+    return commands;
+}
+
+Commands without_surface(const PanelModel& model, std::uint32_t removed) {
+    Commands commands;
+    std::vector<Isosurface> surfaces = model.asked.isosurfaces;
+    remove(removed, surfaces, model.asked.picked, commands);
+    commands.isosurfaces = surfaces;
+    return commands;
+}
+
 void surfaces_section(const PanelModel& model, Commands& commands) {
     histogram(model, commands);
     std::vector<Isosurface> surfaces = model.asked.isosurfaces;
@@ -166,17 +187,16 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
         surface_row(model, i, surfaces[i], change);
     take(change, surfaces, model.asked.picked, commands);
     ImGui::BeginDisabled(surfaces.size() >= interaction::kMostIsosurfaces);
-    if (icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon)) {
-        commands.picked = static_cast<std::uint32_t>(surfaces.size());
-        surfaces.push_back(another(model));
-        let_see(surfaces, surfaces.size() - 1);
-    }
+    const bool adds =
+        icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon);
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     line_on_isovalues(model);
     if (surfaces != model.asked.isosurfaces)
         commands.isosurfaces = surfaces;
+    if (adds)
+        interaction::merge(commands, with_another(model));
 }
 
 } // namespace isochron::app

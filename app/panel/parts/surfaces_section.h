@@ -5,6 +5,7 @@
 #include "interaction/commands.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace isochron::app {
@@ -18,5 +19,12 @@ void surfaces_section(const PanelModel& model, interaction::Commands& commands);
 /// surface becomes translucent where it lies around others.
 /// @param added its place among the surfaces
 void let_see(std::vector<interaction::Isosurface>& surfaces, std::size_t added);
+
+inline constexpr float kSeenThrough = 0.45f; ///< opacity of a surface that shows what is behind it
+
+/// Commands that add a surface, which becomes the picked one. There is room for it.
+interaction::Commands with_another(const PanelModel& model);
+/// Commands that remove one of several surfaces.
+interaction::Commands without_surface(const PanelModel& model, std::uint32_t removed);
 
 } // namespace isochron::app

@@ -87,9 +87,12 @@ class ExploreTest : public testing::Test {
         return error ? std::nullopt : std::optional(at);
     }
 
-    /// Escape asks, Enter says yes; each has a frame of its own, however slow.
+    /// Escape leaves what is open, Ctrl + Q asks, Enter says yes; each has a frame of its own,
+    /// however slow.
     void leave() {
         screen_.xdotool({"key", "Escape"});
+        await_frame();
+        screen_.xdotool({"key", "ctrl+q"});
         await_frame();
         screen_.xdotool({"key", "Return"});
     }

@@ -34,8 +34,7 @@ int setting(const char* name, int otherwise) {
 
 class Soak : public ExploreTest {
   protected:
-    /// One random act of a user. Escape and Enter do not follow each other, which would end the
-    /// program.
+    /// One random act of a user, which never ends the program.
     void act() {
         static const std::vector<std::string> kKeys{"w",
                                                     "a",
@@ -116,10 +115,6 @@ class Soak : public ExploreTest {
         default:
             const std::string& key = kKeys[random_() % kKeys.size()];
             screen_.xdotool({"key", key});
-            if (key == "Escape") {
-                await_frame();
-                screen_.xdotool({"key", "Escape"}); // takes the question back
-            }
         }
     }
 

@@ -1,5 +1,4 @@
 // Lists that lie over the picture: their keys, and the arrays that they offer.
-#include "app/panel/found_settings.h"
 #include "tests/app/panel/drawn_text.h"
 #include "tests/app/panel/layer_fixture.h"
 
@@ -7,7 +6,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <variant>
 
@@ -158,33 +156,6 @@ TEST_F(Lists, OfTheSearchHaveTheSettingsThatAreFoundByTheirWords) {
     EXPECT_FALSE(layer_.pages().any()) << "it closes with a choice";
     EXPECT_EQ(chosen("no such thing"), Commands());
     EXPECT_TRUE(layer_.pages().any());
-}
-
-TEST_F(Lists, OfTheSearchLeaveOutWhatIsSoAlready) {
-    const PanelModel model{.info = info_,
-                           .stats = stats_,
-                           .asked = asked_,
-                           .frame = report_,
-                           .gaps = gaps_,
-                           .arrays = arrays_,
-                           .controls = controls_};
-    EXPECT_TRUE(found_settings("", model).empty());
-    EXPECT_TRUE(found_settings("  ", model).empty());
-    std::set<std::string> lines;
-    for (const char* each : {"background", "material", "color", "stereo", "array", "occlusion"})
-        for (const FoundSetting& setting : found_settings(each, model)) {
-            lines.insert(setting.words);
-            ExplorerState state = asked_;
-            state.apply(setting.commands, info_.steps());
-            const bool is_array = setting.commands.array.has_value();
-            EXPECT_TRUE(is_array || state != asked_) << setting.words;
-        }
-    EXPECT_THAT(lines, testing::IsSupersetOf({"background: gray", "material: metal",
-                                              "color map: turbo", "stereo: top_bottom",
-                                              "array: rho", "ambient occlusion: none"}));
-    for (const char* now : {"background: dark", "material: satin", "color by: surface",
-                            "color map: viridis", "stereo: mono", "array: heat"})
-        EXPECT_FALSE(lines.contains(now)) << now;
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-// Where the panel's parts lie, and which commands its search knows.
-#include "app/panel/parts/key_search.h"
+// Where the panel's parts lie, and which keys its search presses.
 #include "app/panel/parts/panel_layout.h"
+#include "app/panel/search_table.h"
 #include "interaction/controls/desktop_emulation.h"
 
 #include <gmock/gmock.h>
@@ -70,18 +70,6 @@ TEST(SearchedCommands, AreListedOnceAndPressTheKeyThatDoesThem) {
                                 Action::quality_paper, Action::undo, Action::next_surface,
                                 Action::range_first, Action::ping_pong, Action::flip_clip})
         EXPECT_TRUE(done.contains(action)) << static_cast<int>(action);
-}
-
-TEST(SearchedCommands, AreFoundByAnyOfTheirWordsInAnyOrderAndByTheirKey) {
-    const auto first = [](const char* text) {
-        const auto all = found(text);
-        return all.empty() ? std::string() : all.front()->name;
-    };
-    EXPECT_EQ(first("projection PARALLEL"), "0");
-    EXPECT_EQ(first("screenshot"), "P");
-    EXPECT_EQ(first("redo"), "Ctrl + Shift + Z");
-    EXPECT_EQ(first("no such thing"), "");
-    EXPECT_EQ(found("").size(), key_commands().size());
 }
 
 } // namespace

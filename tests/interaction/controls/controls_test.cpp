@@ -141,10 +141,11 @@ TEST(Controls, SwitchesReportOnlyChanges) {
     EXPECT_EQ(desk.tap(bit(Action::next_stereo)).stereo, "mono");
     EXPECT_EQ(desk.tap(bit(Action::panel)).panel, false);
     EXPECT_TRUE(desk.tap(bit(Action::screenshot)).screenshot);
-    EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, true);
+    EXPECT_TRUE(desk.tap(bit(Action::quit)).empty()) << "Escape never asks";
+    EXPECT_EQ(desk.tap(bit(Action::ask_to_quit)).leaving, true);
     EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, false) << "stays";
     EXPECT_FALSE(desk.tap(bit(Action::pick)).quit) << "nobody asks any more";
-    desk.tap(bit(Action::quit));
+    desk.tap(bit(Action::ask_to_quit));
     EXPECT_TRUE(desk.tap(bit(Action::pick)).quit);
     EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-1"});
     EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-2"});

@@ -1,0 +1,55 @@
+// A session whose search has a line for every control.
+#pragma once
+
+#include "app/panel/search_table.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+
+/// A session with all that has lines: three arrays, two surfaces, a mark, a ruler and a clip plane.
+struct Searched {
+    Searched() {
+        for (int step = 0; step < 200; ++step)
+            info.times.push_back(0.5 * step);
+        info.array = "vorticity";
+        info.grid.vertices = {64, 64, 64};
+        stats.low = 0;
+        stats.high = 100;
+        stats.histogram.assign(256, 1);
+        asked.isosurfaces = {{.isovalue = 40}, {.isovalue = 60}};
+        asked.mark.point.emplace();
+        asked.ruler.places.emplace_back(0.0);
+        asked.clip.shown = true;
+        asked.look.light = {30.0, 40.0};
+    }
+    PanelModel model() {
+        PanelModel all{
+            .info = info, .stats = stats, .asked = asked, .frame = report, .controls = controls};
+        all.arrays.names = names;
+        all.arrays.color_names = names;
+        all.arrays.way_to = [this](std::size_t i) {
+            interaction::Commands commands;
+            commands.array = names[i];
+            return commands;
+        };
+        all.colors.range = {0.0, 1.0};
+        all.movies = {.offered = true, .recorded = true};
+        return all;
+    }
+    std::vector<SearchLine> lines() { return search_lines(held.emplace(model())); }
+
+    std::array<std::string, 3> names{"vorticity", "temperature", "pressure"};
+    index::SeriesInfo info;
+    index::IndexStats stats;
+    ExplorerState asked;
+    FrameReport report;
+    std::vector<interaction::ControlGroup> controls;
+    std::optional<PanelModel> held; ///< of the last lines
+};
+
+} // namespace isochron::app

@@ -119,10 +119,12 @@ void oblong_pixels(const CheckedRoom& room, const Tell& tell) {
 }
 
 void coarse_pixels(const CheckedRoom& room, const Tell& tell) {
-    constexpr float kCoarse = 0.1f; // [m]
+    constexpr float kCoarse = 0.012f, kHuge = 0.1f; // [m]
+    constexpr float kThumbnail = 100;               // pixels: whoever tries a room in small
     for (const Wall& wall : room.walls()) {
-        const glm::vec2 pixel = pixel_size(*wall.place);
-        if (std::min(pixel.x, pixel.y) > kCoarse)
+        const glm::vec2 pixel = pixel_size(*wall.place), count = pixels_of(*wall.place);
+        const float side = std::min(pixel.x, pixel.y);
+        if (side > kHuge || (side > kCoarse && std::max(count.x, count.y) >= kThumbnail))
             tell(room, wall.line(),
                  fmt::format("{}: {:.0f} x {:.0f} pixels on {:.2f} x {:.2f} m are {:.0f} mm each: "
                              "windows have a size in pixels, screens one in meters",

@@ -291,10 +291,11 @@ class Arrays(FolderTest):
         self.assertEqual(os.listdir(), [])
 
     def test_names_are_those_of_the_arrays(self):
+        dims = ("t", "z", "y", "x")
         for name, found in (("my rho", "my rho"), ("a/b", "a_b"), (7, "7"), ("ρ", "ρ"), (None, "values"), ("time", "time")):
-            run = isochron.build(xarray.DataArray(self.values, name=name), "a.isochron")
+            run = isochron.build(xarray.DataArray(self.values, dims=dims, name=name), "a.isochron")
             self.assertEqual(run.arrays, (found,))
-        self.assertEqual(isochron.build(xarray.DataArray(self.values), "a.isochron", array="rho").arrays, ("rho",))
+        self.assertEqual(isochron.build(xarray.DataArray(self.values, dims=dims), "a.isochron", array="rho").arrays, ("rho",))
 
     def test_steps_are_put_in_the_order_of_their_times(self):
         data = xarray.DataArray(self.values, {"time": [3.0, 1, 2]}, ("time", "z", "y", "x"))

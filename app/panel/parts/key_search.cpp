@@ -15,7 +15,8 @@
 namespace isochron::app {
 namespace {
 
-constexpr const char* kOnlyNear = "nothing has all these words; nearest, and docs/guide/exploring.md:";
+constexpr const char* kOnlyNear =
+    "nothing has all these words; nearest, and docs/guide/exploring.md:";
 constexpr const char* kHint = "what do you want to do?";
 
 /// What a line reads: `opacity of the surface: 40 %`, with the number that was typed.

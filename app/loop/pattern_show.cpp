@@ -1,6 +1,8 @@
 // The test pattern in every window of an installation.
 #include "app/loop/pattern_show.h"
 
+#include "interaction/input/actions.h"
+
 #include <utility>
 
 namespace isochron::app {
@@ -25,7 +27,9 @@ Commands PatternShow::commands_from(const InputState& input) {
     settings.stereo = stereo::name_of(mode_);
     interaction::Commands commands =
         controls_.update(input, {.settings = settings, .stereo_modes = &outputs_.stereo_modes()});
-    commands.quit = commands.leaving.has_value(); // there is nothing to lose
+    const interaction::DeviceState* keys = input.find("keys");
+    const bool escapes = keys && holds(keys->actions, interaction::Action::quit);
+    commands.quit = commands.leaving.has_value() || escapes; // there is nothing to lose
     return commands;
 }
 

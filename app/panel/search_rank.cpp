@@ -111,8 +111,8 @@ double match(std::string_view typed, std::string_view word) {
     if (typed.size() > kLongTyped && one_apart(typed, word))
         return kTypo;
     // A beginning with one fault, and endings: `clipping`, `clipped`.
-    const auto same = static_cast<std::size_t>(std::ranges::mismatch(typed, word).in1 -
-                                               typed.begin());
+    const auto same =
+        static_cast<std::size_t>(std::ranges::mismatch(typed, word).in1 - typed.begin());
     const std::size_t shorter = std::min(typed.size(), word.size());
     if (same >= 5 && shorter - same <= 3)
         return 0.6;
@@ -175,8 +175,8 @@ Score score_of(const Typed& typed, const SearchLine& line, const LineWords& word
         const auto telling = static_cast<double>(
             std::ranges::count_if(phrase, [](const auto& word) { return !tells_little(word); }));
         const double mean = typed.whole / static_cast<double>(typed.words.size());
-        best_phrase = std::max(best_phrase,
-                               2 * here / (typed.whole + mean * std::max(1.0, telling)));
+        best_phrase =
+            std::max(best_phrase, 2 * here / (typed.whole + mean * std::max(1.0, telling)));
     }
     Score score;
     for (std::size_t i = 0; i < typed.words.size(); ++i)
@@ -213,9 +213,8 @@ Ranking ranked(std::span<const SearchLine> lines, std::string_view text) {
         words.push_back(words_of(line));
     for (const std::string& word : typed.words) {
         const auto with = std::ranges::count_if(words, [&](const LineWords& line) {
-            return std::ranges::any_of(line.phrases, [&](const auto& phrase) {
-                return best_of(word, phrase) >= kTypo;
-            });
+            return std::ranges::any_of(
+                line.phrases, [&](const auto& phrase) { return best_of(word, phrase) >= kTypo; });
         });
         constexpr double kLittleWeight = 0.15;
         const double rare = std::log(1.0 + static_cast<double>(lines.size()) /
@@ -226,9 +225,8 @@ Ranking ranked(std::span<const SearchLine> lines, std::string_view text) {
     std::vector<std::pair<Score, const SearchLine*>> scored;
     for (std::size_t i = 0; i < lines.size(); ++i)
         scored.emplace_back(score_of(typed, lines[i], words[i]), &lines[i]);
-    std::ranges::stable_sort(scored, [](const auto& a, const auto& b) {
-        return a.first.total > b.first.total;
-    });
+    std::ranges::stable_sort(
+        scored, [](const auto& a, const auto& b) { return a.first.total > b.first.total; });
     if (scored.empty())
         return ranking;
     const double best = scored.front().first.total;

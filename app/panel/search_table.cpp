@@ -50,15 +50,17 @@ constexpr OtherNames kOtherNames[] = {
              "tutorial, tour, about, version, how to, preferences, settings, options"},
     {"full_screen", "fullscreen, maximize, presentation, kiosk, F11"},
     // Surfaces.
-    {"isovalue", "threshold, level, contour, contour value, contour level, iso surface, isosurface, "
-                 "iso level, volume viewer level, cutoff, density level, surface value"},
+    {"isovalue",
+     "threshold, level, contour, contour value, contour level, iso surface, isosurface, "
+     "iso level, volume viewer level, cutoff, density level, surface value"},
     {"isovalue_up", "higher threshold, increase level"},
     {"isovalue_down", "lower threshold, decrease level"},
     {"usual_isovalue", "auto threshold, automatic threshold, otsu, default level, best isovalue, "
                        "good isovalue, guess threshold, reset isovalue"},
-    {"add_surface", "add isosurface, second surface, second isosurface, another contour, two levels, "
-                    "multiple contours, nested surfaces, new surface, duplicate surface, more "
-                    "surfaces, several isovalues"},
+    {"add_surface",
+     "add isosurface, second surface, second isosurface, another contour, two levels, "
+     "multiple contours, nested surfaces, new surface, duplicate surface, more "
+     "surfaces, several isovalues"},
     {"remove_surface", "delete surface, delete contour, remove isosurface"},
     {"hide_surface", "show surface, visibility, visible, eye, toggle surface, hide contour, "
                      "display surface"},
@@ -126,8 +128,9 @@ constexpr OtherNames kOtherNames[] = {
     {"exaggerate", "stretch z, taller"},
     {"flatten", "squash z, lower"},
     // Camera.
-    {"view", "camera, viewpoint, view cube, standard views, front view, back view, left view, right "
-             "view, top view, bottom view, side view, orientation axes, orientation, align view"},
+    {"view",
+     "camera, viewpoint, view cube, standard views, front view, back view, left view, right "
+     "view, top view, bottom view, side view, orientation axes, orientation, align view"},
     {"view=+x", "view along x, look along x, right view, yz plane"},
     {"view=-x", "look along minus x, left view, opposite x, yz plane"},
     {"view=+y", "view along y, look along y, back view, xz plane"},
@@ -136,9 +139,10 @@ constexpr OtherNames kOtherNames[] = {
     {"view=-z", "look along minus z, bottom view, from below, xy plane"},
     {"axis_view", "view along axis, front view, top view, side view, align to axis"},
     {"isometric_view", "isometric, corner view, 3d view, three quarter view, iso view"},
-    {"reset", "reset view, reset camera, home, default view, fit, frame all, fit to window, view "
-              "all, zoom to fit, zoom to data, initial view, reset to defaults, start over, restore "
-              "defaults, reset everything, factory settings"},
+    {"reset",
+     "reset view, reset camera, home, default view, fit, frame all, fit to window, view "
+     "all, zoom to fit, zoom to data, initial view, reset to defaults, start over, restore "
+     "defaults, reset everything, factory settings"},
     {"recenter", "center, center view, fit, frame all, frame selected, center of rotation, pivot, "
                  "orbit center, cofr, find data, look at, focus, zoom to data, bring back, lost"},
     {"zoom", "zoom in, zoom out, dolly, closer, nearer, magnify, scale, bigger, larger, smaller, "
@@ -188,8 +192,9 @@ constexpr OtherNames kOtherNames[] = {
     {"clip_tool", "clipping plane, cut plane, slice, slice plane, cross section, section, crop, "
                   "cut, cutting plane, cutaway, clip box, region of interest, roi, subvolume, "
                   "orthoslice, plane, split, knife, half, inside"},
-    {"snap_clip", "slice, slice z, axis aligned clip, cut along axis, crop, orthogonal slice, clip x "
-                  "y z, cross section"},
+    {"snap_clip",
+     "slice, slice z, axis aligned clip, cut along axis, crop, orthogonal slice, clip x "
+     "y z, cross section"},
     {"flip_clip", "invert clip, other side, inside out, reverse clip, flip plane"},
     {"remove_clip", "no clip, clip off, unclip, remove slice, delete clip plane, show whole"},
     {"ruler_tool", "measure, measurement, distance, length, tape, line tool, dimension, caliper, "
@@ -214,15 +219,17 @@ constexpr OtherNames kOtherNames[] = {
     {"reverse", "play backwards, backward, rewind, reverse time, time reversal"},
     {"loop", "repeat, cycle, endless, play once"},
     {"ping_pong", "pingpong, bounce, boomerang, to and fro, forth and back, palindrome, swing"},
-    {"speed", "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
-              "tempo, pace, duration"},
+    {"speed",
+     "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
+     "tempo, pace, duration"},
     {"rate", "fps, frames per second, steps per second, frame rate of playing, animation rate"},
     {"faster", "speed up, playback speed, double speed"},
     {"slower", "slow down, slow motion, playback speed, half speed"},
     {"speed_unit", "real time, sequence, snap to time steps, play mode, animation mode"},
     {"every", "stride, skip frames, every nth, time stride, subsample time, frame step"},
-    {"between_steps", "interpolate, interpolation, blend, smooth playback, smooth animation, tween, "
-                      "temporal interpolation, morph, in between, stutter, jumps, jerky"},
+    {"between_steps",
+     "interpolate, interpolation, blend, smooth playback, smooth animation, tween, "
+     "temporal interpolation, morph, in between, stutter, jumps, jerky"},
     {"follow", "live, latest, newest step, in situ, auto update, watch, tail, monitor"},
     {"range_first", "start frame, trim start, time range, in point, loop start"},
     {"range_last", "end frame, trim end, time range, out point, loop end"},
@@ -231,12 +238,14 @@ constexpr OtherNames kOtherNames[] = {
     {"next_time", "next marker, bookmarks"},
     {"previous_time", "previous marker, bookmarks"},
     // Pictures, movies, files.
-    {"screenshot", "save image, picture, photo, snapshot, save picture, png, capture, export image, "
-                   "render image, print, figure, transparent png, copy picture, save figure, still, "
-                   "save screenshot, tiff, jpeg"},
+    {"screenshot",
+     "save image, picture, photo, snapshot, save picture, png, capture, export image, "
+     "render image, print, figure, transparent png, copy picture, save figure, still, "
+     "save screenshot, tiff, jpeg"},
     {"picture_size", "resolution of pictures, dpi, figure 300 dpi, image size, image resolution, "
                      "width and height, supersample, print size, 4k, figure for a paper, pixels"},
-    {"legend", "color bar, colorbar, scalar bar, color legend, color key, hide legend, color scale"},
+    {"legend",
+     "color bar, colorbar, scalar bar, color legend, color key, hide legend, color scale"},
     {"scale_bar", "scalebar, length bar, axes, orientation axes, axes triad, orientation marker, "
                   "orientation widget, compass, micron bar"},
     {"box_in_pictures", "outline in pictures, axes in pictures"},
@@ -244,7 +253,8 @@ constexpr OtherNames kOtherNames[] = {
     {"movie", "save animation, export movie, export animation, make a movie, video, mp4, avi, gif, "
               "render animation, animation, film, keyframe, camera path, turntable movie"},
     {"movie_of_recording", "movie of camera path, keyframe, video of session, screen capture"},
-    {"movie_rate", "fps of movie, movie frame rate, video frame rate, frames per second of a movie"},
+    {"movie_rate",
+     "fps of movie, movie frame rate, video frame rate, frames per second of a movie"},
     {"record", "recording, record a movie, screen recording, trace, macro, log, capture session, "
                "keyframe, camera path, script"},
     {"stamp", "chapter, marker in recording, note"},
@@ -261,9 +271,10 @@ constexpr OtherNames kOtherNames[] = {
                             "pandas, points"},
     {"save_session", "save state, save project, save workspace, save session, save, store session"},
     // Data and window.
-    {"data", "information, info, properties, metadata, dimensions, units, unit, voxel size, spacing, "
-             "extent, bounds, size, value range, shape, number of points, statistics, memory size, "
-             "pixel size, data type, details, header, minimum, maximum"},
+    {"data",
+     "information, info, properties, metadata, dimensions, units, unit, voxel size, spacing, "
+     "extent, bounds, size, value range, shape, number of points, statistics, memory size, "
+     "pixel size, data type, details, header, minimum, maximum"},
     {"array", "variable, scalar, scalars, active scalars, field, channel, quantity, component, "
               "contour by, layer, attribute, dataset"},
     {"next_array", "next variable, switch variable, other field"},
@@ -283,8 +294,12 @@ std::string_view other_names(std::string_view control) {
 std::vector<KeyCommand> all_key_commands() {
     std::vector<KeyCommand> all{
         {"open other data", "Ctrl + O", Key{'O'}, Chord::control, {}, "open_data", false},
-        {"arrays: choose by name, values, unit and grid", "Ctrl + Shift + A", Key{'A'},
-         Chord::control_shift, {}, "all_arrays"},
+        {"arrays: choose by name, values, unit and grid",
+         "Ctrl + Shift + A",
+         Key{'A'},
+         Chord::control_shift,
+         {},
+         "all_arrays"},
         {"help: keys, mouse and devices", "F1", Key::f1, Chord::none, {}, "help", false},
         {"full screen on, off", "F11", Key::f11, Chord::none, {}, "full_screen", false}};
     for (const interaction::KeyLine& line : interaction::key_lines())
@@ -330,7 +345,7 @@ class Lines {
     /// Commands that set something; the line says where it is so already.
     template <class T>
     void value(std::string name, std::string words,
-               std::optional<T> interaction::SettingChanges::* member,
+               std::optional<T> interaction::SettingChanges::*member,
                const std::type_identity_t<T>& wanted, const std::type_identity_t<T>& now) {
         SearchLine& line = add({.name = std::move(name),
                                 .words = std::move(words),
@@ -468,14 +483,15 @@ void add_coloring(Lines& lines) {
         });
     const std::array<double, 2>& range = model.colors.range;
     lines.control("color_range", "range of the colors",
-                  now.range         ? fmt::format("{:.4g} to {:.4g}", (*now.range)[0], (*now.range)[1])
+                  now.range ? fmt::format("{:.4g} to {:.4g}", (*now.range)[0], (*now.range)[1])
                   : now.percentiles ? "percentiles"
                                     : "of all values",
                   kColor);
-    add("color_range=all", "range of the colors: of all values of all steps", [](Coloring& changed) {
-        changed.range.reset();
-        changed.percentiles.reset();
-    });
+    add("color_range=all", "range of the colors: of all values of all steps",
+        [](Coloring& changed) {
+            changed.range.reset();
+            changed.percentiles.reset();
+        });
     add("color_range=percentiles", "range of the colors: percentiles 2 to 98",
         [](Coloring& changed) {
             changed.range.reset();
@@ -510,7 +526,7 @@ void add_look(Lines& lines) {
         change(changed);
         lines.value(std::move(name), std::move(words), &Commands::look, changed, now);
     };
-    const auto add_each = [&](const char* setting, auto Look::* member) {
+    const auto add_each = [&](const char* setting, auto Look::*member) {
         using Value = std::decay_t<decltype(now.*member)>;
         lines.control(setting, setting, std::string(name_of(now.*member)), kView);
         const std::vector<std::string> names = interaction::all_names<Value>();
@@ -577,8 +593,9 @@ void add_view(Lines& lines) {
                .words = "move the data (drag with Shift)",
                .page = SearchPage::help,
                .in_room = false});
-    lines.control("heights", "heights (z), exaggerated", fmt::format("x {:.3g}", now.exaggeration),
-                  kView)
+    lines
+        .control("heights", "heights (z), exaggerated", fmt::format("x {:.3g}", now.exaggeration),
+                 kView)
         .with_number = [=](double number) {
         const double factor = number > 0 ? std::clamp(number, 0.1, 100.0) : 1.0;
         return NumberEffect{fmt::format("x {:.4g}", factor),
@@ -650,8 +667,7 @@ void add_time(Lines& lines) {
     const PanelModel& model = lines.model();
     const std::uint32_t last = last_step(model);
     const index::Instant at = model.asked.shown_instant();
-    lines
-        .control("step", "step", fmt::format("{} of {}", at.step + 1, last + 1), kTimeBar)
+    lines.control("step", "step", fmt::format("{} of {}", at.step + 1, last + 1), kTimeBar)
         .with_number = [&model, last](double number) {
         const double step = std::clamp(std::round(number), 1.0, double{last} + 1);
         return NumberEffect{fmt::format("{:.0f} of {}", step, last + 1),
@@ -715,7 +731,7 @@ void add_pictures(Lines& lines) {
         change(*commands.pictures);
         return commands;
     };
-    const auto part = [&](const char* name, const char* words, bool WrittenPictures::* member) {
+    const auto part = [&](const char* name, const char* words, bool WrittenPictures::*member) {
         lines.on_or_off(name, words, now.*member, changed([member](WrittenPictures& pictures) {
                             pictures.*member = !(pictures.*member);
                         }));
@@ -731,9 +747,8 @@ void add_pictures(Lines& lines) {
         .add({.name = "picture_size",
               .words = "size of pictures and movies: as in the window",
               .value = size,
-              .commands = changed([](WrittenPictures& pictures) {
-                  pictures.width = pictures.height = 0;
-              })})
+              .commands =
+                  changed([](WrittenPictures& pictures) { pictures.width = pictures.height = 0; })})
         .with_number = [changed](double number) { // 16 to 9
         const auto width = static_cast<std::uint32_t>(
             std::clamp(std::round(number), 64.0, double{interaction::kLargestPicture}));
@@ -772,16 +787,14 @@ void add_pictures(Lines& lines) {
         .add({.name = "movie_rate",
               .words = "pictures a second of movies",
               .value = fmt::format("{:.4g}", now.rate),
-              .commands = changed([](WrittenPictures& pictures) {
-                  pictures.rate = WrittenPictures{}.rate;
-              }),
+              .commands = changed(
+                  [](WrittenPictures& pictures) { pictures.rate = WrittenPictures{}.rate; }),
               .in_room = false})
         .with_number = [changed](double number) {
         const double rate =
             std::clamp(number, interaction::kSlowestMovie, interaction::kFastestMovie);
-        return NumberEffect{fmt::format("{:.4g}", rate), changed([=](WrittenPictures& pictures) {
-                                pictures.rate = rate;
-                            })};
+        return NumberEffect{fmt::format("{:.4g}", rate),
+                            changed([=](WrittenPictures& pictures) { pictures.rate = rate; })};
     };
 }
 

@@ -51,10 +51,10 @@ struct SearchLine {
     /// Of the control, for ever: an action's name in recordings, `opacity`, or `background=light` for
     /// a value that the control can have. Lines that set the same control in two ways share it.
     std::string name;
-    std::string words;      ///< what it does
-    std::string others{};   ///< other names, with commas between them
-    std::string value{};    ///< the present value; empty: it has none
-    std::string key{};      ///< as printed on the keyboard; empty: no key does it
+    std::string words;    ///< what it does
+    std::string others{}; ///< other names, with commas between them
+    std::string value{};  ///< the present value; empty: it has none
+    std::string key{};    ///< as printed on the keyboard; empty: no key does it
     interaction::Commands commands{};
     std::function<NumberEffect(double)> with_number{}; ///< empty: it takes no number
     const KeyCommand* press = nullptr;

@@ -15,7 +15,8 @@
 namespace isochron::app {
 namespace {
 
-constexpr const char* kOnlyNear = "nothing has all these words; nearest, and docs/guide/exploring.md:";
+constexpr const char* kOnlyNear =
+    "nothing has all these words; nearest, and docs/guide/exploring.md:";
 constexpr const char* kHint = "what do you want to do?";
 
 /// What a line reads: `opacity of the surface: 40 %`, with the number that was typed.
@@ -40,12 +41,14 @@ void KeySearch::open() {
     shown_ = fresh_ = true;
     text_.clear();
     chosen_ = 0;
+    moved_ = false;
 }
 
 /// The lines as a list. @return the one that the user chooses
 const SearchLine* KeySearch::chosen_line(const Ranking& found, bool moved) {
     const SearchLine* wanted = nullptr;
-    if (!found.lines.empty() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)))
+    if (!found.lines.empty() && (moved_ || !found.only_near) &&
+        ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter)))
         wanted = found.lines[static_cast<std::size_t>(chosen_)];
     if (found.only_near)
         note(kOnlyNear, color_of(Ink::dim));
@@ -90,8 +93,10 @@ const SearchLine* KeySearch::over_picture(const Ranking& found, const PanelBox& 
     if (!ImGui::IsAnyItemActive()) // it has the keyboard as long as the search is open
         ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1.0f);
-    if (text_field("##search", kHint, text_))
+    if (text_field("##search", kHint, text_)) {
         chosen_ = 0;
+        moved_ = false;
+    }
     const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
     const int last = std::max(0, static_cast<int>(found.lines.size()) - 1);
     const bool moved = pressed(ImGuiKey_DownArrow) || pressed(ImGuiKey_UpArrow);
@@ -99,6 +104,7 @@ const SearchLine* KeySearch::over_picture(const Ranking& found, const PanelBox& 
         ++chosen_;
     if (pressed(ImGuiKey_UpArrow))
         --chosen_;
+    moved_ = moved_ || moved;
     chosen_ = std::clamp(chosen_, 0, last);
     const SearchLine* const wanted = chosen_line(found, moved);
     left = !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&

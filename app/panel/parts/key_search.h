@@ -31,7 +31,8 @@ class KeySearch {
 
     bool shown_ = false, fresh_ = false;
     std::string text_;
-    int chosen_ = 0; ///< among the lines that are found
+    int chosen_ = 0;     ///< among the lines that are found
+    bool moved_ = false; ///< an arrow key has chosen it: a line that is only near needs that
 };
 
 } // namespace isochron::app

@@ -187,8 +187,7 @@ void surfaces_section(const PanelModel& model, Commands& commands) {
         surface_row(model, i, surfaces[i], change);
     take(change, surfaces, model.asked.picked, commands);
     ImGui::BeginDisabled(surfaces.size() >= interaction::kMostIsosurfaces);
-    const bool adds =
-        icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon);
+    const bool adds = icon_button("add", Icon::add, "add another isosurface", false, kSmallIcon);
     ImGui::EndDisabled();
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();

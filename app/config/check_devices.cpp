@@ -378,7 +378,7 @@ std::string twice(const std::vector<T>& numbers) {
 }
 
 void button_lists(const CheckedRoom& room, const Tell& tell) {
-    constexpr std::uint32_t kMost = 15; // of a Flystick, with room for those to come
+    constexpr std::uint32_t kMost = 15; // buttons of a Flystick, with room for those to come
     each_tracker(room.config().devices, [&](const char* key, const auto& tracker) {
         for (const auto& each : tracker.devices) {
             const auto& buttons = each.device.buttons;

@@ -105,7 +105,7 @@ class ControlConnection {
     std::deque<ControlAnswer> unsent_;
     std::size_t unsent_bytes_ = 0;  ///< bytes of the lines
     std::size_t unsent_behind_ = 0; ///< bytes behind them
-    std::size_t held_ = 0;          ///< of those, bytes that no other client is sent
+    std::size_t held_ = 0;          ///< bytes among those that no other client is sent
     std::size_t sent_ = 0;          ///< bytes sent of the first answer, line and bytes together
     bool ends_ = false, over_ = false;
 };

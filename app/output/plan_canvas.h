@@ -1,7 +1,4 @@
 // A picture that is drawn by the processor: lines, areas and words of a figure, with soft edges.
-//
-//     PlanCanvas canvas({640, 480}, {1, 1, 1});
-//     canvas.line({10, 10}, {200, 10}, 2, {0, 0, 0, 1});
 #pragma once
 
 #include "render/gl/image.h"

@@ -70,7 +70,7 @@ class OpenPages {
 
     /// What the user found that is not on a page: a section to point at, the figures, a movie.
     struct FoundControl {
-        std::optional<std::size_t> section; ///< of the panel; kSections: the bar of the time
+        std::optional<std::size_t> section; ///< section of the panel; kSections: the bar of the time
         bool statistics = false;
         std::optional<MovieWish> movie;
     };

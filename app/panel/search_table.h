@@ -48,7 +48,7 @@ struct NumberEffect {
 /// One line of the search. Choosing it presses its key, applies its commands, or opens its section of
 /// the panel.
 struct SearchLine {
-    /// Of the control, for ever: an action's name in recordings, `opacity`, or `background=light` for
+    /// Name of the control, for ever: an action's name in recordings, `opacity`, or `background=light` for
     /// a value that the control can have. Lines that set the same control in two ways share it.
     std::string name;
     std::string words;    ///< what it does

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t kLeafTriangles = 4;
 constexpr std::size_t kAtOnce =
     2048;                     ///< triangles or points that one thread takes: always the same ones
-constexpr int kMostCuts = 64; ///< of a triangle, one within another; bounds hold with any number
+constexpr int kMostCuts = 64; ///< pieces of a triangle, one within another; bounds hold with any number
 constexpr double kApart = 1.05, kNearlySame = 1.01; ///< upper over lower bound
 
 double squared(const glm::dvec3& v) {
@@ -129,7 +129,7 @@ void measure(const CutPiece& whole, const NearestTriangle& other, const Distance
 double squared_distance(const glm::dvec3& point, const std::array<glm::dvec3, 3>& triangle) {
     const auto& [a, b, c] = triangle;
     const glm::dvec3 ab = b - a, ac = c - a, normal = glm::cross(ab, ac), to = point - a;
-    const double area = squared(normal); // of the parallelogram, squared
+    const double area = squared(normal); // area of the parallelogram, squared
     if (area > 0) {
         const double second = glm::dot(glm::cross(to, ac), normal) / area;
         const double third = glm::dot(glm::cross(ab, to), normal) / area;

@@ -71,7 +71,7 @@ std::optional<Calendar> calendar_of(std::string_view name) {
         {"all_leap", Calendar::all_leap},
         {"366_day", Calendar::all_leap},
         {"360_day", Calendar::days_360},
-        {"thirty_day_months", Calendar::days_360}, // of GFDL's FMS
+        {"thirty_day_months", Calendar::days_360}, // a name of GFDL's FMS
         {"no_leap", Calendar::noleap},
     }};
     for (const auto& [known, calendar] : kNames)

@@ -39,6 +39,7 @@ const std::map<std::string, std::string> kReasons{
     {"tests/app/indexing/kept_index_test.cpp", "files of which the time of writing is hours ago"},
     {"tests/index/indexing/index_append_test.cpp",
      "a file of which the time of writing is an hour ago"},
+    {"tests/app/control/control_harm_test.cpp", "asks how long a client may hang, and ends what does"},
     {"tests/app/commands/cli_test.cpp", "files of which the time of writing is hours ago"},
     {"tests/app/commands/kills_test.cpp", "files of which the time of writing is minutes ago"},
     {"tests/fence/calls_test.cpp", "calls that tell the time are tried, whatever they tell"},

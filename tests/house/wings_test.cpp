@@ -43,6 +43,7 @@ const std::map<std::string, Steps> kOrder{
       {"readers/process"},
       {"volume", "system"},
       {"missing_file"},
+      {"json_mistake"},
       {"error", "interrupted", "lower_case", "name_pattern", "progress", "shell_word", "utf8"}}},
     {"interaction",
      {{"trackers", "recording"}, {"controls"}, {"tools"}, {"navigation"}, {"input"}, {"."}}},

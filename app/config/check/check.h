@@ -1,6 +1,4 @@
 // A check of a configuration: a row of a table, which says what the check is about and how it looks.
-//
-//     constexpr Check kEyes[]{{"viewers.left_eye", Check::odd, eyes_in_one_place}};
 #pragma once
 
 #include "app/config/check/checked_room.h"
@@ -38,7 +36,7 @@ std::span<const Check> checks_of_screens();
 std::span<const Check> checks_of_walls(); ///< how the screens of a room stand to one another
 std::span<const Check> checks_of_viewers();
 std::span<const Check> checks_of_devices();
-std::span<const Check> checks_of_values(); ///< of numbers that are unlikely to be meant
+std::span<const Check> checks_of_values(); ///< numbers that are unlikely to be meant
 
 /// What some checks find, in their order.
 std::vector<ConfigProblem> findings_of(std::span<const Check> checks, const CheckedRoom& room);

@@ -79,7 +79,7 @@ void places_of_viewers(const CheckedRoom& room, const Tell& tell) {
                                         viewer.name, away, at.y, other_unit(at.y, 0.9f, 2.1f)));
         }
         const float level = floor_level(walls), up = at.y - level;
-        const float foot = walls.empty() ? level : CheckedRoom::box_of(walls).low.y; // of a stage
+        const float foot = walls.empty() ? level : CheckedRoom::box_of(walls).low.y; // foot of a stage
         if (up > kTallest + 0.5f || at.y - std::max(level, foot) > kTallest)
             return tell(room, line,
                         fmt::format("{}: the eyes are {:.2f} m above the floor: are position and "

@@ -151,7 +151,7 @@ void missing_corners(const CheckedRoom& room, const Tell& tell) {
     }
 }
 
-/// Of the screens that a head carries, one is where the eyes look.
+/// One of the screens that a head carries is where the eyes look.
 void carried_screens(const CheckedRoom& room, const Tell& tell) {
     constexpr float kSteepest = 40.0f, kEdge = 1.04f; // [degrees]; half sizes
     for (std::size_t i = 0; i < room.installation().viewers.size(); ++i) {
@@ -252,7 +252,7 @@ void names_of_sides(const CheckedRoom& room, const Tell& tell) {
         const glm::vec3 eyes = room.viewer_of(wall).position;
         const Box all = CheckedRoom::box_of(room.walls_of(wall.place->viewport.viewer));
         const float aside = 0.05f * (all.high.x - all.low.x);
-        const auto is_right_of = [&](float side) { // of the viewer and of the other walls
+        const auto is_right_of = [&](float side) { // right of the viewer and of the other walls
             return side * (wall.middle.x - eyes.x) > aside &&
                    side * (wall.middle.x - all.middle().x) > aside;
         };

@@ -144,7 +144,7 @@ std::string other_unit(float length, float low, float high) {
         const char* name;
         double meters;
     };
-    // Of those that fit, the one that makes the rounder length.
+    // The unit that makes the rounder length, among those that fit.
     constexpr Unit kUnits[]{{"decimeters", 0.1},
                             {"feet", 0.3048},
                             {"inches", 0.0254},

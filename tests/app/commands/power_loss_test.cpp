@@ -76,7 +76,7 @@ TEST_F(PowerLoss, NothingGetsItsNameBeforeItIsFlushed) {
         {{"change", "a.isochron", "--isovalue", "0.1", "--step", "0", "--to-step", "1", "--added",
           "added.bin", "--removed", "removed.bin"},
          2},
-        {build_of("t2.raw", {"--append"}), 0}, // in place: index_append_test has its order
+        {build_of("t[0-2].raw", {"--append"}), 0}, // in place: index_append_test has its order
         {exported("a.ply"), 1},
         {exported("a.stl"), 1},
         {exported("a.obj"), 1},

@@ -49,7 +49,7 @@ struct Searched {
     ExplorerState asked;
     FrameReport report;
     std::vector<interaction::ControlGroup> controls;
-    std::optional<PanelModel> held; ///< of the last lines
+    std::optional<PanelModel> held; ///< model of the last lines
 };
 
 } // namespace isochron::app

@@ -275,6 +275,7 @@ def months_since(record):
     time = record.axis("t")
     time.at, time.unit, time.attributes = np.arange(5.0), "months since 2000-01-01", dict(calendar="standard")
     record.dates = [f"2000-0{month}-01" for month in range(1, 6)]
+    record.may = ["are counted in months of the calendar"]
 
 
 @statement("dates as numbers", "time dates")

@@ -25,6 +25,7 @@ void write_cells_beside_mesh(const std::shared_ptr<const IndexFile>& file, const
     ExportedStep step{.instant = Instant(number), .grid = &file->info().grid, .surfaces = {}};
     step.surfaces.push_back(
         {.name = wish.name, .cells = &cells, .isovalue = wish.isovalue, .color_of = nullptr});
+    step.time = file->info().times[number];
     ExportPlan plan;
     plan.steps = {number};
     surface_format("csv")->make(plan, name)->add(step);

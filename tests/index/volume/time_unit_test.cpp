@@ -61,7 +61,7 @@ TEST(TimeUnit, OfMonthsFollowsTheCalendar) {
     for (const Row& row : {
              Row{"months since 1979-01-01", "standard", 1, "1979-02-01"},
              Row{"months since 1979-01-01", "standard", 12, "1980-01-01"},
-             Row{"months since 1979-01-01", "standard", 13.5, "1980-02-15 12:00"}, // of 29 days
+             Row{"months since 1979-01-01", "standard", 13.5, "1980-02-15 12:00"}, // a month of 29 days
              Row{"months since 1979-01-01", "standard", -1, "1978-12-01"},
              Row{"months since 1979-01-01", "standard", -0.5, "1978-12-16 12:00"},
              Row{"month since 2000-01-31 06:00", "standard", 1, "2000-02-29 06:00"},

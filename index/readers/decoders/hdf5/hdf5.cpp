@@ -3,6 +3,7 @@
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/hdf5/bigdataviewer.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
+#include "index/readers/decoders/hdf5/hdf5_times.h"
 #include "index/readers/decoders/hdf5/hdf5_volume.h"
 #include "index/readers/decoders/hdf5/vtkhdf.h"
 #include "index/readers/formats/stored_file.h"

@@ -16,57 +16,8 @@
 namespace isochron::index {
 namespace {
 
-/// The paths of an object, its group, and the groups around that, up to the root.
-std::vector<std::string> with_groups_around(std::string path) {
-    std::vector<std::string> objects{path};
-    while (path != "/" && !path.empty()) {
-        path.resize(path.rfind('/'));
-        if (path.empty())
-            path = "/";
-        objects.push_back(path);
-    }
-    return objects;
-}
-
-std::string inside(const std::string& group, const std::string& name) {
-    return group == "/" ? "/" + name : fmt::format("{}/{}", group, name);
-}
-
 std::string last_name(const std::string& path) {
     return path.substr(path.rfind('/') + 1);
-}
-
-/// The first attribute of these objects that has `count` numbers.
-std::vector<double> numbers_at(const Hdf5File& file, const std::vector<std::string>& objects,
-                               std::initializer_list<const char*> names, std::size_t count) {
-    for (const std::string& object : objects)
-        for (const char* name : names)
-            if (auto found = file.numbers(object, name); found.size() == count)
-                return found;
-    return {};
-}
-
-/// A one-dimensional dataset of numbers as coordinates; none: it is no such, or of another length.
-std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string& path,
-                                         std::uint64_t length, bool values) {
-    const auto found = file.dataset(path);
-    if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{length})
-        return std::nullopt;
-    // NetCDF-4 gives a dimension without coordinates a scale of zeros.
-    if (file.text(path, "NAME").starts_with("This is a netCDF dimension but not"))
-        return std::nullopt;
-    StatedAxis axis;
-    axis.coordinate = last_name(path);
-    axis.length = length;
-    const StatedAttributes attributes = attributes_of(file, path);
-    take_cf_attributes(attributes, axis);
-    if (!values)
-        return axis;
-    axis.at = file.values(*found);
-    const Scaling scaling = scaling_by(attributes, fmt::format("{}: {}", file.name(), path));
-    for (double& value : axis.at)
-        value = scaling(value);
-    return axis;
 }
 
 /// The coordinates along a dimension without a scale, among the datasets that its label and the
@@ -89,6 +40,43 @@ std::optional<StatedAxis> named_coordinates(const Hdf5File& file, const Hdf5Data
 }
 
 } // namespace
+
+std::vector<std::string> with_groups_around(std::string path) {
+    std::vector<std::string> objects{path};
+    while (path != "/" && !path.empty()) {
+        path.resize(path.rfind('/'));
+        if (path.empty())
+            path = "/";
+        objects.push_back(path);
+    }
+    return objects;
+}
+
+std::string inside(const std::string& group, const std::string& name) {
+    return group == "/" ? "/" + name : fmt::format("{}/{}", group, name);
+}
+
+std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string& path,
+                                         std::uint64_t length, bool values) {
+    const auto found = file.dataset(path);
+    if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{length})
+        return std::nullopt;
+    // NetCDF-4 gives a dimension without coordinates a scale of zeros.
+    if (file.text(path, "NAME").starts_with("This is a netCDF dimension but not"))
+        return std::nullopt;
+    StatedAxis axis;
+    axis.coordinate = last_name(path);
+    axis.length = length;
+    const StatedAttributes attributes = attributes_of(file, path);
+    take_cf_attributes(attributes, axis);
+    if (!values)
+        return axis;
+    axis.at = file.values(*found);
+    const Scaling scaling = scaling_by(attributes, fmt::format("{}: {}", file.name(), path));
+    for (double& value : axis.at)
+        value = scaling(value);
+    return axis;
+}
 
 StatedAttributes attributes_of(const Hdf5File& file, const std::string& object) {
     return {.text = [&file, object](const char* name) { return file.text(object, name); },
@@ -151,42 +139,6 @@ void take_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset, const Ar
         notes.push_back(fmt::format("coordinates taken from {}", fmt::join(paths, ", ")));
         return;
     }
-}
-
-void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& stated,
-               const ArrayLayout& layout, std::size_t steps, SeriesInfo& info) {
-    if (layout.time) {
-        place_steps(stated.axes[*layout.time], info);
-        const std::vector<std::string> around = with_groups_around(array.steps.front().path);
-        for (std::size_t i = 1; i < around.size(); ++i)
-            for (const char* name : {"time", "Time", "times", "t"})
-                if (info.times.empty())
-                    if (const auto axis =
-                            coordinates_in(file, inside(around[i], name), steps, true))
-                        place_steps(*axis, info);
-        return;
-    }
-    if (array.times) { // unless attributes say more
-        info.times = array.times->times;
-        info.time_unit = array.times->unit;
-    }
-    std::vector<double> times;
-    std::string of_times;
-    for (const Hdf5Dataset& step : array.steps) {
-        const std::vector<std::string> around = with_groups_around(step.path);
-        const auto time = numbers_at(file, around, kTimeAttributes, 1);
-        if (time.empty())
-            return;
-        const auto unit = numbers_at(file, around, {"timeUnitSI"}, 1);
-        times.push_back(time.front() * (unit.empty() ? 1 : unit.front()));
-        if (!unit.empty())
-            of_times = "s";
-    }
-    // A number that is equal for all steps belongs to the group around them and is not their time.
-    if (times.size() > 1 && times.front() == times.back())
-        return;
-    info.times = std::move(times);
-    info.time_unit = of_times;
 }
 
 } // namespace isochron::index

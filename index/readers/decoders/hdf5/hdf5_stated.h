@@ -1,10 +1,11 @@
 // What an HDF5 file states of a dataset, as the record that all containers fill.
 #pragma once
 
-#include "index/readers/decoders/hdf5/hdf5_arrays.h"
+#include "index/readers/decoders/hdf5/hdf5_file.h"
 #include "index/readers/formats/stated/array_places.h"
-#include "index/volume/volume_series.h"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,14 @@ StatedArray stated(const Hdf5File& file, const Hdf5Dataset& dataset, bool values
 void take_coordinates(const Hdf5File& file, const Hdf5Dataset& dataset, const ArrayLayout& layout,
                       StatedArray& array, std::vector<std::string>& notes);
 
-/// Sets times and their unit, if the file has them: from `time` and `timeUnitSI` of the groups of
-/// the steps, or from the axis of time, or a dataset `time` with one value for each step.
-/// @param steps number of steps
-void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& stated,
-               const ArrayLayout& layout, std::size_t steps, SeriesInfo& info);
+/// The paths of an object, its group, and the groups around that, up to the root.
+std::vector<std::string> with_groups_around(std::string path);
+
+/// The path of something in a group.
+std::string inside(const std::string& group, const std::string& name);
+
+/// A one-dimensional dataset of numbers as coordinates; none: it is no such, or of another length.
+std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string& path,
+                                         std::uint64_t length, bool values);
 
 } // namespace isochron::index

@@ -23,7 +23,7 @@ std::optional<StatedAxis> time_alone(const NetcdfFile& file);
 
 /// A date as text for each step, from a variable `Times` (WRF) or `xtime` (MPAS).
 struct NetcdfDates {
-    std::string name; ///< of the variable; empty: there is none
+    std::string name; ///< name of the variable; empty: there is none
     std::vector<std::string> dates = {};
 };
 NetcdfDates dates_along(const NetcdfFile& file, const NetcdfDimension& time);

@@ -318,7 +318,7 @@ class ZarrVolume final : public DecodedFile {
 
     std::unique_ptr<ZarrStore> store_;
     std::string name_;
-    std::optional<ZarrArray> array_; ///< of steps in groups the one of the open step
+    std::optional<ZarrArray> array_; ///< where steps have groups, the array of the open step
     std::vector<std::string> steps_; ///< arrays of the steps; empty: all are in one
     std::string name_of_steps_;      ///< their path, with `*` for what differs
     std::size_t open_step_ = 0;

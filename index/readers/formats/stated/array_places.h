@@ -17,9 +17,9 @@ struct ArrayLayout {
     std::array<std::size_t, 3> space{};   ///< the dimensions of the index axes, fastest first
     std::array<int, 3> physical{0, 1, 2}; ///< the physical axis along which each of them runs
     bool upright = false;                 ///< physical z is known to point upwards
-    std::optional<std::size_t> time;      ///< of the steps
-    std::optional<std::size_t> component; ///< of components or channels
-    std::optional<std::size_t> member;    ///< of the runs of an ensemble; one of them is read
+    std::optional<std::size_t> time;      ///< dimension of the steps
+    std::optional<std::size_t> component; ///< dimension of components or channels
+    std::optional<std::size_t> member;    ///< dimension of an ensemble's runs; one is read
     bool time_is_guessed = false;         ///< nothing says that this dimension is time
 };
 

@@ -1,11 +1,5 @@
 // What a container states of an array, before any of it is understood: NetCDF, Zarr, HDF5 and
 // others fill the same record, and one piece of code makes grid, times, units and notes of it.
-//
-//     StatedArray array{.file = "run.nc", .name = "rho", .axes = {{.name = "z", .length = 64}, ...}};
-//     array.axes[0].at = heights;
-//     std::string why;
-//     const std::optional<ArrayLayout> layout = layout_of(array, options, &why);
-//     place_axes(array, *layout, options, info);
 #pragma once
 
 #include "index/volume/volume_series.h"
@@ -22,7 +16,7 @@ namespace isochron::index {
 
 /// One axis of an array. What is empty is not stated.
 struct StatedAxis {
-    std::string name;         ///< of the dimension: `lev`
+    std::string name;         ///< name of the dimension: `lev`
     std::uint64_t length = 0; ///< number of vertices, or of steps, or of components
     std::string kind;         ///< `space`, `time` or `channel`, as OME-Zarr's `type`
 
@@ -31,7 +25,7 @@ struct StatedAxis {
     std::vector<double> at;     ///< the coordinates of all vertices, scaled
     double first = 0, step = 1; ///< or the coordinate of the first vertex, and the distance
     bool regular = false;       ///< whether `first` and `step` are stated
-    std::string unit;           ///< of the coordinates, as it is written
+    std::string unit;           ///< unit of the coordinates, as it is written
 
     /// Attributes of the CF conventions that the variable of the coordinates has.
     std::string axis, standard_name, positive, calendar;
@@ -50,7 +44,7 @@ struct StatedAttributes {
     std::function<std::vector<std::string>(const char* name)> texts; ///< a list of texts
     std::function<std::vector<double>(const char* name)> numbers;    ///< empty: there is none
     std::function<bool(const char* name)> is_real;   ///< whether the numbers are f32 or f64
-    std::function<std::vector<std::string>()> names; ///< of all attributes
+    std::function<std::vector<std::string>()> names; ///< names of all attributes
 };
 
 /// Takes the attributes of the CF conventions from the variable that has an axis' coordinates.

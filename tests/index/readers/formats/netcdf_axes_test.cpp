@@ -190,9 +190,9 @@ TEST(NetcdfTimes, OfOtherReferenceDatesFollowInThatOfTheFirst) {
     EXPECT_EQ(series->info().time_unit, "hours since 2000-02-28");
     EXPECT_THAT(error_of([&] {
                     open_series({at_times(folder, "1.nc", {0}, "hours since 2000-02-28"),
-                                 at_times(folder, "2.nc", {0}, "months since 2000-02-29")});
+                                 at_times(folder, "2.nc", {0}, "blinks since 2000-02-29")});
                 }),
-                testing::AllOf(HasSubstr("2.nc: times in months since 2000-02-29, "),
+                testing::AllOf(HasSubstr("2.nc: times in blinks since 2000-02-29, "),
                                HasSubstr("1.nc has hours since 2000-02-28; --time-step")));
 }
 

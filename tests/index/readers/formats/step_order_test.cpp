@@ -97,7 +97,9 @@ TEST_F(TimedFiles, AreInTheOrderOfTheirTimes) {
     const auto series = open_series(files);
     EXPECT_THAT(series->info().times, ElementsAre(1, 2, 3));
     EXPECT_THAT(series->info().sources, ElementsAre("jan.vti", "feb.vti", "mar.vti"));
-    EXPECT_THAT(series->info().notes, Contains(HasSubstr("not of their names")));
+    EXPECT_THAT(series->info().notes, Contains(HasSubstr("are read as months")));
+    EXPECT_THAT(open_series({write("late.vti", 1, 1), write("early.vti", 2, 2)})->info().notes,
+                Contains(HasSubstr("not of their names")));
 }
 
 TEST_F(TimedFiles, OfTheSameTimeCountOnce) {

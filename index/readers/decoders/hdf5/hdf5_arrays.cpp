@@ -6,6 +6,7 @@
 #include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_values.h"
 
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 #include "index/error.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/formats/cropped_file.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
 

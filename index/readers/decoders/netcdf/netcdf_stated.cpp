@@ -3,6 +3,7 @@
 
 #include "index/lower_case.h"
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_values.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 
 #include "index/readers/decoders/zarr/zarr_groups.h"
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_values.h"
 
 #include <fmt/format.h>

@@ -6,6 +6,7 @@
 #include "index/readers/formats/axis_positions.h"
 #include "index/readers/formats/length_units.h"
 #include "index/readers/formats/stated/axis_roles.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stored_file.h"
 

@@ -2,7 +2,7 @@
 //
 // Huebl et al., "openPMD: a meta data standard for particle and mesh based data", version 1.1.0,
 // section "Mesh Based Records", https://github.com/openPMD/openPMD-standard.
-#include "index/readers/formats/stated/stated_array.h"
+#include "index/readers/formats/stated/stated_attributes.h"
 
 #include "index/readers/formats/stated/axis_roles.h"
 #include "index/readers/formats/stated/stated_values.h"

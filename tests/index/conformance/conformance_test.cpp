@@ -210,6 +210,9 @@ void read_impatiently(const fs::path& file, const ReadOptions& options) {
         {".tif", "tiff"}, {".tiff", "tiff"}, {".btf", "tiff"}};
     const auto format = formats.find(file.extension());
     if (format == formats.end()) {
+        // VTK's reader of EnSight goes on for very long in some damaged lists of times.
+        const bool is_case = file.extension() == ".case";
+        readers_of_this_process().set_patience(std::chrono::milliseconds(is_case ? 1500 : 60'000));
         scaled_values(*open_series({file}, options));
         return;
     }

@@ -73,9 +73,9 @@ class Movies {
 
   private:
     fs::path path_with(const std::string& suffix) const {
-        fs::path out(options_.out);
-        if (!out.has_filename()) // a folder that ends in a slash
-            out = out.parent_path();
+        const fs::path out(options_.out);
+        if (!out.has_filename()) // a folder, also one with a dot in its name
+            return fs::path(out.parent_path().string() + suffix) / "";
         return out.parent_path() / (out.stem().string() + suffix + out.extension().string());
     }
 

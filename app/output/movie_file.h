@@ -62,7 +62,7 @@ class MovieFolder final : public Movie {
   public:
     /// @param path folder; when this movie is complete it replaces the frames of an earlier one
     /// @throws index::Error when the temporary folder beside it cannot be made
-    explicit MovieFolder(std::filesystem::path path);
+    explicit MovieFolder(const std::filesystem::path& path);
     ~MovieFolder() override;
     MovieFolder(const MovieFolder&) = delete;
     MovieFolder& operator=(const MovieFolder&) = delete;
@@ -78,7 +78,7 @@ class MovieFolder final : public Movie {
     std::size_t frames_ = 0;
 };
 
-/// Whether a movie with this name is a folder: the name has no suffix.
+/// Whether a movie with this name is a folder: the name has no suffix, or ends in a slash.
 bool is_movie_folder(const std::filesystem::path& path);
 /// Whether a movie with this name would replace an existing file, or frames in a folder.
 bool holds_movie(const std::filesystem::path& path);

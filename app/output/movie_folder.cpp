@@ -22,10 +22,15 @@ bool is_frame(const fs::path& file) {
     return name.starts_with(kFrameStart) && file.extension() == ".png";
 }
 
+/// The path of a folder without a slash at its end.
+fs::path without_slash(const fs::path& folder) {
+    return folder.has_filename() ? folder : folder.parent_path();
+}
+
 } // namespace
 
-MovieFolder::MovieFolder(fs::path path)
-    : path_(index::end_of_links(std::move(path))), temporary_(path_, kFrameStart) {}
+MovieFolder::MovieFolder(const fs::path& path)
+    : path_(index::end_of_links(without_slash(path))), temporary_(path_, kFrameStart) {}
 
 MovieFolder::~MovieFolder() = default;
 

@@ -160,10 +160,10 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     }
     // A folder holds the same frames; each can be made again.
     EXPECT_EQ(
-        program({"movie", recording, "-o", "frames/", "--rate", "20", "--eyes", "each"}).status, 0);
-    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "frames_center/frame_00020.png"));
-    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "frames_center/frame_00021.png"));
-    EXPECT_EQ(program({"reproduce", "frames_center/frame_00020.png"}).status, 0);
+        program({"movie", recording, "-o", "frames_0.5/", "--rate", "20", "--eyes", "each"}).status, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "frames_0.5_center/frame_00020.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "frames_0.5_center/frame_00021.png"));
+    EXPECT_EQ(program({"reproduce", "frames_0.5_center/frame_00020.png"}).status, 0);
     // It says what it shows, without a path of this machine.
     const PictureNote note = note_from(note_text_in(movie));
     EXPECT_EQ(note.data, "sphere.isochron");

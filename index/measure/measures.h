@@ -1,9 +1,9 @@
 // What can be measured of an isosurface: a table of measures, each a number of one surface.
 //
 //     index::SurfaceMeasures measures(file);
-//     const index::MeasuredSurface found = measures.measure({index::Instant(step), isovalue});
+//     const index::MeasuredSurface found = *measures.measure({index::Instant(step), isovalue});
 //     for (std::size_t i = 0; i < index::measures().size(); ++i)
-//         fmt::print("{}: {}\n", index::measures()[i].name, found.values[i]);
+//         add_row(index::measures()[i].name, found.values[i]);
 #pragma once
 
 #include "index/file/color_source.h"

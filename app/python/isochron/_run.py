@@ -316,7 +316,7 @@ class Run:
     def measures(
         self,
         isovalue: Number,
-        steps: SupportsIndex | slice | range | None = None,
+        steps: SupportsIndex | slice | Sequence[int] | None = None,
         *,
         array: str | None = None,
         on_surface: str | None = None,

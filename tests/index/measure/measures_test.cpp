@@ -101,8 +101,8 @@ class SlowMeasures {
     }
 
     double whole = 0;     ///< volume of all cells without a missing vertex
-    double certain = 0;   ///< of those all of whose vertices are above
-    double uncertain = 0; ///< of the active ones
+    double certain = 0;   ///< volume of the cells all of whose vertices are above
+    double uncertain = 0; ///< volume of the active ones
 
   private:
     std::size_t at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
@@ -257,7 +257,7 @@ TEST_F(MeasuresTest, OfAPlaneThroughABoxAreExact) {
     for (const double isovalue : {2.5, 4.0, 15.0, 23.7}) {
         const auto corner = [&](double less) {
             return less > 0 ? less * less * less / 36
-                            : 0.0; // of the corner that the plane cuts off
+                            : 0.0; // volume of the corner that the plane cuts off
         };
         double below = 0; // inclusion and exclusion over the box's corners, side 5
         for (int bits = 0; bits < 8; ++bits) {
@@ -309,7 +309,7 @@ TEST_F(MeasuresTest, OfKnownShapesComeNearTheirFormulas) {
             EXPECT_NEAR(value_of(found, "area"), area, 0.02 * area);
             EXPECT_NEAR(value_of(found, "volume"), volume, 0.02 * volume);
         }
-        // Of a function of distance, the volume grows with the level as the area says (coarea).
+        // If values are distances, the volume grows with the level as the area says (coarea).
         const double step = 1.0 / 16;
         const double more = value_of(measured(field, {Instant(0), -step}), "volume");
         const double less = value_of(measured(field, {Instant(0), step}), "volume");

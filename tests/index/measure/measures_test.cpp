@@ -318,6 +318,28 @@ TEST_F(MeasuresTest, OfKnownShapesComeNearTheirFormulas) {
     }
 }
 
+TEST_F(MeasuresTest, OfRoughClosedSurfacesObeyTheDivergenceTheorem) {
+    // All 256 cases occur, those with four cut edges on a face among them.
+    for (const ValueType type : kAllTypes) {
+        const Vertices n{12, 10, 11};
+        const TestField::Function noise = scaled(white_noise(random_), 100, 10);
+        const TestField field(n, 1, type, [&](double x, double y, double z, double t) {
+            const bool inner =
+                x > 0 && y > 0 && z > 0 && x < n[0] - 1 && y < n[1] - 1 && z < n[2] - 1;
+            return inner ? noise(x, y, z, t) : -100;
+        });
+        const Grid grid = placed(n, random_() % 2 != 0, random_);
+        const MeasuredSurface found = *SurfaceMeasures(indexed_at(field.view(), grid))
+                                           .measure({Instant(0), 13.3}, {.pieces = true});
+        double sum = 0;
+        for (const MeasuredPiece& piece : found.pieces)
+            sum += piece.volume;
+        EXPECT_GT(found.pieces.size(), 5u);
+        EXPECT_EQ(value_of(found, "border-edges"), 0);
+        EXPECT_NEAR(value_of(found, "volume"), sum, 1e-9 * sum);
+    }
+}
+
 TEST_F(MeasuresTest, OfPiecesAddUpAndHolesAreNegative) {
     // A shell: a ball with a hollow, and a small ball beside it.
     const TestField field(

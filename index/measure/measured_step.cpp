@@ -36,14 +36,29 @@ void for_each_common(std::array<std::span<const Run>, kRows> rows, F&& take) {
     }
 }
 
-/// Length of the cells between two vertices along an axis, in physical units.
-double length(const Grid& grid, int axis, std::uint32_t begin, std::uint32_t end) {
-    return grid.distance(axis, end) - grid.distance(axis, begin);
-}
+/// Distances of all vertices along each axis from the first, in physical units.
+class Distances {
+  public:
+    explicit Distances(const Grid& grid) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::uint32_t i = 0; i < grid.vertices[axis]; ++i)
+                along_[axis].push_back(grid.distance(static_cast<int>(axis), i));
+    }
+    double between(std::size_t axis, std::uint32_t begin, std::uint32_t end) const {
+        return along_[axis][end] - along_[axis][begin];
+    }
+    double cell(const std::array<std::uint32_t, 3>& at) const {
+        return between(0, at[0], at[0] + 1) * between(1, at[1], at[1] + 1) *
+               between(2, at[2], at[2] + 1);
+    }
+
+  private:
+    std::array<std::vector<double>, 3> along_;
+};
 
 /// Adds up the cells all of whose vertices are on a side.
 template <class RowsOfSide>
-double whole_cells(const Grid& grid, const RowsOfSide& row) {
+double whole_cells(const Grid& grid, const Distances& distances, const RowsOfSide& row) {
     const auto [nx, ny, nz] = grid.cells();
     double volume = 0;
     for (std::uint32_t z = 0; z < nz; ++z)
@@ -51,9 +66,9 @@ double whole_cells(const Grid& grid, const RowsOfSide& row) {
             double along = 0;
             for_each_common<4>({row(y, z), row(y + 1, z), row(y, z + 1), row(y + 1, z + 1)},
                                [&](std::uint32_t begin, std::uint32_t end) {
-                                   along += length(grid, 0, begin, end - 1);
+                                   along += distances.between(0, begin, end - 1);
                                });
-            volume += along * length(grid, 1, y, y + 1) * length(grid, 2, z, z + 1);
+            volume += along * distances.between(1, y, y + 1) * distances.between(2, z, z + 1);
         }
     return volume;
 }
@@ -132,17 +147,16 @@ const MeasuredStep::Volumes& MeasuredStep::volumes() {
         return *volumes_;
     const VertexSides& of = sides();
     Volumes sum;
-    sum.above = whole_cells(grid(), [&](auto y, auto z) { return of.above(y, z); });
-    sum.below = whole_cells(grid(), [&](auto y, auto z) { return of.below(y, z); });
+    const Distances distances(grid());
+    sum.above = whole_cells(grid(), distances, [&](auto y, auto z) { return of.above(y, z); });
+    sum.below = whole_cells(grid(), distances, [&](auto y, auto z) { return of.below(y, z); });
     const std::array<MeshCase, 256>& cases = mesh_cases();
     const std::span<const std::uint32_t> corners = mesh_.triangles;
     std::size_t first = 0;
     for (const std::uint8_t of_cell : mesh_.cases) {
         const std::size_t count = std::size_t{3} * cases[of_cell].triangles;
         const auto at = cell_of_mesh(mesh_.vertices[corners[first]], of_cell);
-        const double whole = length(grid(), 0, at[0], at[0] + 1) *
-                             length(grid(), 1, at[1], at[1] + 1) *
-                             length(grid(), 2, at[2], at[2] + 1);
+        const double whole = distances.cell(at);
         const double share = share_above(mesh_.vertices, corners.subspan(first, count), of_cell);
         sum.above += share * whole;
         sum.below += (1 - share) * whole;

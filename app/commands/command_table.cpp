@@ -1,5 +1,6 @@
 // `isochron table`: what a session marked, or how long its frames took, as a table.
 #include "app/command_line/subcommands.h"
+#include "app/commands/csv_rows.h"
 #include "app/kept/recording_file.h"
 #include "app/kept/session_file.h"
 #include "app/output/guarded_outputs.h"
@@ -141,48 +142,6 @@ Table table_of(const fs::path& file) {
         return std::move(marks).table();
     }
     return {{}, timing_rows(file)};
-}
-
-/// A field as RFC 4180 has it, nothing for null; of a text one line, that spreadsheets of no language
-/// part. One that they would take for a formula gets a `'` in front, which they do not show.
-std::string field_of(const Json& value, bool keep_formulas) {
-    if (value.is_null())
-        return "";
-    if (!value.is_string())
-        return value.dump();
-    std::string text = one_line(value.get<std::string>());
-    const bool is_formula =
-        !text.empty() && std::string_view("=+-@").find(text[0]) != std::string_view::npos;
-    if (is_formula && !keep_formulas)
-        text.insert(0, 1, '\'');
-    if (text.find_first_of(",;\"") == std::string::npos)
-        return text;
-    std::string quoted = "\"";
-    for (const char c : text)
-        quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
-}
-
-/// @param columns that come first, also where no row has them
-std::string csv_of(const Json& rows, std::vector<std::string> columns, bool keep_formulas) {
-    // The others come in the order in which rows have them first.
-    for (const Json& row : rows)
-        for (const auto& [key, value] : row.items())
-            if (std::ranges::find(columns, key) == columns.end())
-                columns.push_back(key);
-    std::string text;
-    const auto add = [&](const Json& field) { text += field_of(field, keep_formulas) + ","; };
-    const auto end_line = [&] { text.back() = '\n'; };
-    for (const std::string& each : columns)
-        add(each);
-    if (!columns.empty())
-        end_line();
-    for (const Json& row : rows) {
-        for (const std::string& each : columns)
-            add(row.value(each, Json()));
-        end_line();
-    }
-    return text;
 }
 
 void run_table(const TableArguments& arguments) {

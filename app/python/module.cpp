@@ -261,6 +261,30 @@ std::vector<std::string> names_of(const OpenRun& run) {
     return index::array_names(run.file());
 }
 
+/// The measures of a surface, and a row of numbers for each of its pieces.
+py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
+                  const std::optional<std::string>& on_surface, bool pieces) {
+    index::MeasuredSurface found = unlocked([&] {
+        return array.measure({step, fraction}, isovalue, on_surface, pieces);
+    });
+    std::vector<double> rows;
+    for (const index::MeasuredPiece& piece : found.pieces) {
+        rows.insert(rows.end(), {static_cast<double>(piece.triangles), piece.area, piece.volume,
+                                 static_cast<double>(piece.euler), piece.closed ? 1.0 : 0.0});
+        for (const auto& place : {piece.centroid, piece.low, piece.high})
+            rows.insert(rows.end(), place.begin(), place.end());
+    }
+    const auto count = static_cast<py::ssize_t>(found.pieces.size());
+    return py::make_tuple(std::move(found.values), owned(std::move(rows), {count, 14}));
+}
+
+std::vector<std::string> measure_names() {
+    std::vector<std::string> names;
+    for (const index::Measure& each : index::measures())
+        names.emplace_back(each.name);
+    return names;
+}
+
 } // namespace
 
 PYBIND11_MODULE(_native, module) {
@@ -271,6 +295,7 @@ PYBIND11_MODULE(_native, module) {
     module.attr("FROM_BUILT") = ISOCHRON_FROM_BUILT;
     module.def("set_program_folder", &index::set_program_folder, "folder"_a);
     module.def("times_in", &index::times_in, "wanted"_a, "given"_a, "times"_a);
+    module.def("measure_names", &measure_names);
     module.def("build", &build, "files"_a, "out"_a, "words"_a, "times"_a, "arrays"_a, "progress"_a);
 
     py::class_<RunArray>(module, "RunArray")
@@ -279,6 +304,7 @@ PYBIND11_MODULE(_native, module) {
              "to_isovalue"_a)
         .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a, "level"_a,
              "normals"_a, "values"_a)
+        .def("measure", &measure, "step"_a, "fraction"_a, "isovalue"_a, "on_surface"_a, "pieces"_a)
         .def("values", &values, "step"_a, "fraction"_a, "box"_a, "level"_a)
         .def("first_crossings", &first_crossings, "isovalue"_a, "blended"_a)
         .def("description", &description)

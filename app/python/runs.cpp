@@ -141,6 +141,17 @@ CellDifference RunArray::change(const AskedInstant& at, double isovalue,
     return result;
 }
 
+/// The number of an array whose values are wanted on a surface.
+std::optional<std::size_t> RunArray::source_called(const std::optional<std::string>& name) const {
+    if (!name)
+        return std::nullopt;
+    const std::vector<std::string> names = index::color_source_names(*file_);
+    const auto found = std::ranges::find(names, *name);
+    if (found == names.end())
+        throw index::Error(file_->name() + ": no array " + *name + " with values");
+    return static_cast<std::size_t>(found - names.begin());
+}
+
 index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue, std::size_t level,
                                       const WishedOfMesh& wished) {
     const index::Query asked = query(at, isovalue);
@@ -151,14 +162,7 @@ index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue, s
             search_level(file_, level, asked), mesh, {});
         return mesh;
     }
-    index::MeshWishes wishes;
-    if (wished.values) {
-        const std::vector<std::string> names = index::color_source_names(*file_);
-        const auto found = std::ranges::find(names, *wished.values);
-        if (found == names.end())
-            throw index::Error(file_->name() + ": no array " + *wished.values + " with values");
-        wishes.values = static_cast<std::size_t>(found - names.begin());
-    }
+    const index::MeshWishes wishes{.values = source_called(wished.values)};
     const auto make = [this] { return std::make_unique<index::SurfaceMeshes>(file_); };
     return meshes_.with(make, [&](index::SurfaceMeshes& meshes) {
         return *meshes.make_packed(asked, wishes); // which nobody stops
@@ -176,6 +180,17 @@ Triangles<double> RunArray::mesh(const AskedInstant& at, double isovalue, std::s
                                  const WishedOfMesh& wished) {
     return unpacked<double>(packed_mesh(at, isovalue, level, wished),
                             file_->chunks(level).info().grid, glm::dvec3(0.0), wished.normals);
+}
+
+index::MeasuredSurface RunArray::measure(const AskedInstant& at, double isovalue,
+                                         const std::optional<std::string>& on_surface,
+                                         bool pieces) {
+    const index::Query asked = query(at, isovalue);
+    const index::MeasureWishes wishes{.array = source_called(on_surface), .pieces = pieces};
+    const auto make = [this] { return std::make_unique<index::SurfaceMeasures>(file_); };
+    return measures_.with(make, [&](index::SurfaceMeasures& measures) {
+        return *measures.measure(asked, wishes); // which nobody stops
+    });
 }
 
 index::FirstCrossings RunArray::first_crossings(double isovalue, bool blended) const {

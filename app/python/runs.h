@@ -4,6 +4,7 @@
 
 #include "app/python/array_series.h"
 #include "index/file/index_file.h"
+#include "index/measure/measures.h"
 #include "index/progress.h"
 #include "index/search/cell_change.h"
 #include "index/search/first_crossing.h"
@@ -98,6 +99,9 @@ class RunArray {
                                       const WishedOfMesh& wished);
     Triangles<double> mesh(const AskedInstant& at, double isovalue, std::size_t level,
                            const WishedOfMesh& wished);
+    /// @param on_surface name of the array to measure on the surface
+    index::MeasuredSurface measure(const AskedInstant& at, double isovalue,
+                                   const std::optional<std::string>& on_surface, bool pieces);
     /// Stored values, x fastest; between two steps, as index::Blend stores them. Reads the chunks in
     /// which the box lies, and no others, unless the index refers to its sources.
     std::vector<std::byte> values(const AskedInstant& at, const Box& box, std::size_t level) const;
@@ -111,11 +115,13 @@ class RunArray {
     index::Query query(const AskedInstant& at, double isovalue) const;
     index::CellMesh packed_mesh(const AskedInstant& at, double isovalue, std::size_t level,
                                 const WishedOfMesh& wished);
+    std::optional<std::size_t> source_called(const std::optional<std::string>& name) const;
 
     std::shared_ptr<const index::IndexFile> file_;
     WorkSpaces<index::SearchInto> searches_;
     WorkSpaces<index::ChangeSearch> changes_;
     WorkSpaces<index::SurfaceMeshes> meshes_;
+    WorkSpaces<index::SurfaceMeasures> measures_;
 };
 
 /// An open index. Thread-safe.

@@ -27,6 +27,8 @@
 #include "index/file/index_file.h"
 #include "index/file/step_view.h"
 #include "index/indexing/level_chooser.h"
+#include "index/measure/measures.h"
+#include "index/measure/vertex_sides.h"
 #include "index/paper/thi_tree.h"
 #include "index/readers/formats/foreign_file.h"
 #include "index/readers/formats/format.h"
@@ -147,6 +149,17 @@ void surface_writer_example(const ExportPlan& plan,
 void surface_mesh_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
                           double isovalue) {
 #include "index/search/surface_mesh.example"
+}
+
+void add_row(std::string_view, double) {}
+void measures_example(const std::shared_ptr<const IndexFile>& file, std::uint32_t step,
+                      double isovalue) {
+#include "index/measure/measures.example"
+}
+
+void vertex_sides_example(const CellMesh& mesh, const Grid& grid, std::uint32_t y, std::uint32_t z,
+                          std::uint64_t count) {
+#include "index/measure/vertex_sides.example"
 }
 
 void thi_tree_example(const StepValues& values, const KeyMap& keys, std::uint32_t step,

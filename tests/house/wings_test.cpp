@@ -33,7 +33,7 @@ const std::map<std::string, Steps> kOrder{
       {"config", "command_line"},
       {"safe_text", "text", "version"}}},
     {"index",
-     {{"extraction", "indexing", "export"},
+     {{"extraction", "indexing", "export", "measure"},
       {"detail"},
       {"search"},
       {"surface"},

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _native
-from ._arguments import Crop, Isovalues, Number, Steps, T, Time, moment, number, several, time_number, whole
+from ._arguments import Crop, Isovalues, Number, Steps, T, Time, moment, number, several, span, time_number, whole
 from ._errors import ArgumentError, Error, PlaceError, in_parameters, missing
 from ._html import table
 from ._mesh import Mesh
@@ -291,6 +291,71 @@ class Run:
             found += np.where(never, 0, fractions / 65536 * (following - found))
         return found.reshape([length - 1 for length in self.shape[1:]])
 
+    def measure(
+        self,
+        isovalue: Number,
+        step: SupportsIndex | None = None,
+        *,
+        time: Time = None,
+        fraction: Number | None = None,
+        array: str | None = None,
+        on_surface: str | None = None,
+    ) -> dict[str, float]:
+        """Numbers of the surface: area, volume, pieces and more, by their names.
+
+        `isochron measure --help` says what each is; areas and volumes are in powers of `length_unit`. What is not
+        defined is NaN.
+
+        isovalue, step, time, fraction: as for `cells`.
+        on_surface: the name of another array, for `mean`, `least` and `greatest` on the surface.
+        """
+        at = moment(self, step, fraction, time)
+        found, _ = self._array(array).measure(*at, number(isovalue, "isovalue"), on_surface, False)
+        return dict(zip(_measures(), found))
+
+    def measures(
+        self,
+        isovalue: Number,
+        steps: SupportsIndex | slice | Sequence[int] | None = None,
+        *,
+        array: str | None = None,
+        on_surface: str | None = None,
+    ) -> NDArray[np.void]:
+        """`measure` of each step: a structured array with the fields step, time and those of `measure`.
+
+        steps: one, a slice or a range; None: all.
+        """
+        first, last, stride = span(slice(None) if steps is None else steps, "steps", len(self))
+        rows = [
+            (step, float(self.times[step]), *self.measure(isovalue, step, array=array, on_surface=on_surface).values())
+            for step in range(first, last + 1, stride)
+        ]
+        fields = [("step", np.int64), ("time", np.float64), *((each, np.float64) for each in _measures())]
+        return np.array(rows, fields)
+
+    def pieces(
+        self,
+        isovalue: Number,
+        step: SupportsIndex | None = None,
+        *,
+        time: Time = None,
+        fraction: Number | None = None,
+        array: str | None = None,
+    ) -> NDArray[np.void]:
+        """The connected pieces of the surface, the largest area first: a structured array.
+
+        Fields: triangles, area, volume (what the piece encloses: negative around lower values, NaN unless closed),
+        euler, closed (1 or 0), and x, y, z each of centroid (weighted by area), low and high (its extent).
+        """
+        at = moment(self, step, fraction, time)
+        _, rows = self._array(array).measure(*at, number(isovalue, "isovalue"), None, True)
+        place = (np.float64, 3)
+        kind = np.dtype([
+            ("triangles", np.float64), ("area", np.float64), ("volume", np.float64), ("euler", np.float64),
+            ("closed", np.float64), ("centroid", *place), ("low", *place), ("high", *place),
+        ])  # fmt: skip
+        return np.ascontiguousarray(rows).view(kind).reshape(len(rows))
+
     def values(
         self,
         step: SupportsIndex | None = None,
@@ -477,6 +542,11 @@ class Run:
         if name is not None and not isinstance(name, str):
             raise ArgumentError(f"array: expected a name, got {name!r}")
         return self._native.array(name)
+
+
+def _measures() -> list[str]:
+    """The names of all measures, as Python has them."""
+    return [name.replace("-", "_") for name in _native.measure_names()]
 
 
 def _each(isovalue: Number | Isovalues, answer: Callable[[float], T]) -> T | list[T]:

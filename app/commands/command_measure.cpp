@@ -1,0 +1,275 @@
+// `isochron measure`: area, volume, pieces and other numbers of surfaces, at steps of an index.
+#include "app/command_line/cancel.h"
+#include "app/command_line/progress_bar.h"
+#include "app/command_line/step_range.h"
+#include "app/command_line/subcommands.h"
+#include "app/commands/csv_rows.h"
+#include "app/indexing/open_index.h"
+#include "app/output/guarded_outputs.h"
+#include "app/safe_text.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/measure/measures.h"
+#include "index/system/new_file.h"
+#include "index/volume/instant_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MeasureArguments {
+    std::filesystem::path file, out;
+    std::vector<double> isovalues;
+    std::string steps;
+    std::uint32_t fraction = 0;
+    std::vector<std::string> measures;
+    std::optional<std::string> array, on_surface;
+    bool pieces = false, csv = false, json = false, force = false;
+};
+
+/// The measures that are asked for, by their numbers; those of the other array only with one.
+std::vector<std::size_t> chosen(const MeasureArguments& arguments) {
+    std::vector<std::size_t> numbers;
+    const std::span<const index::Measure> all = index::measures();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool named =
+            std::ranges::find(arguments.measures, all[i].name) != arguments.measures.end();
+        const bool there = all[i].unit != index::MeasureUnit::value || arguments.on_surface;
+        if (named && !there)
+            throw UsageError(fmt::format("--measure {}: needs --on-surface ARRAY", all[i].name));
+        if (named || (arguments.measures.empty() && there))
+            numbers.push_back(i);
+    }
+    return numbers;
+}
+
+/// The number of the other array.
+std::optional<std::size_t> array_on_surface(const MeasureArguments& arguments,
+                                            const index::IndexFile& file) {
+    if (!arguments.on_surface)
+        return std::nullopt;
+    const std::vector<std::string> names = index::color_source_names(file);
+    const auto found = std::ranges::find(names, *arguments.on_surface);
+    if (found == names.end())
+        throw index::Error(fmt::format(
+            "{}: no array {} to measure on the surface, expected {}", file.name(),
+            *arguments.on_surface,
+            names.empty() ? "an index with several arrays: isochron build --array A --array B ..."
+                          : fmt::format("{}", fmt::join(names, ", "))));
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
+/// What is measured, a row for each surface or for each of its pieces.
+struct Rows {
+    std::vector<std::string> columns, units; ///< a unit for each column
+    Json rows = Json::array();
+};
+
+void add_pieces(const index::MeasuredSurface& found, const Json& of_surface, Json& rows) {
+    for (std::size_t i = 0; i < found.pieces.size(); ++i) {
+        const index::MeasuredPiece& piece = found.pieces[i];
+        Json row = of_surface;
+        row["piece"] = i;
+        row["area"] = number(piece.area);
+        row["volume"] = number(piece.volume);
+        row["closed"] = piece.closed ? 1 : 0;
+        row["euler"] = piece.euler;
+        row["triangles"] = piece.triangles;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const char name = "xyz"[axis];
+            row[fmt::format("{}", name)] = number(piece.centroid[axis]);
+            row[fmt::format("{}-least", name)] = number(piece.low[axis]);
+            row[fmt::format("{}-greatest", name)] = number(piece.high[axis]);
+        }
+        rows.push_back(std::move(row));
+    }
+}
+
+Rows measured(const MeasureArguments& arguments,
+              const std::shared_ptr<const index::IndexFile>& file,
+              const std::vector<std::size_t>& numbers) {
+    const index::SeriesInfo& info = file->info();
+    index::MeasureWishes wishes{
+        .array = array_on_surface(arguments, *file), .pieces = arguments.pieces, .only = numbers};
+    const std::string other =
+        wishes.array ? index::ColorSource(*file, *wishes.array).array().value_unit : "";
+    Rows made{.columns = {"step", "fraction", "time", "isovalue"},
+              .units = {"", "", info.time_unit, info.value_unit}};
+    if (arguments.pieces) {
+        const std::string length = info.length_unit;
+        const auto power = [&](int n) {
+            return length.empty() ? "" : fmt::format("{}^{}", length, n);
+        };
+        made.columns.insert(made.columns.end(),
+                            {"piece", "area", "volume", "closed", "euler", "triangles", "x",
+                             "x-least", "x-greatest", "y", "y-least", "y-greatest", "z", "z-least",
+                             "z-greatest"});
+        made.units.insert(made.units.end(), {"", power(2), power(3), "", "", ""});
+        made.units.resize(made.columns.size(), length);
+    } else {
+        for (const std::size_t i : numbers) {
+            made.columns.emplace_back(index::measures()[i].name);
+            made.units.push_back(index::unit_of(index::measures()[i], info, other));
+        }
+    }
+    const std::vector<std::uint32_t> steps =
+        arguments.steps.empty()
+            ? steps_of(fmt::format("0:{}", info.steps() - 1), "--steps", info.steps())
+            : steps_of(arguments.steps, "--steps", info.steps());
+    const CancelOnSignal signals;
+    ProgressBar bar;
+    index::SurfaceMeasures measuring(file);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        signals.check();
+        if (steps.size() > 1)
+            bar.show("measuring", static_cast<double>(i) / static_cast<double>(steps.size()));
+        const index::Instant at = index::instant_named(*file, steps[i], arguments.fraction);
+        for (const double isovalue : arguments.isovalues) {
+            const auto found = measuring.measure({at, isovalue}, wishes);
+            Json row{{"step", at.step},
+                     {"fraction", at.fraction},
+                     {"time", index::time_at(info.times, at)},
+                     {"isovalue", isovalue}};
+            if (arguments.pieces) {
+                add_pieces(*found, row, made.rows);
+                continue;
+            }
+            for (const std::size_t k : numbers)
+                row[std::string(index::measures()[k].name)] = number(found->values[k]);
+            made.rows.push_back(std::move(row));
+        }
+    }
+    if (steps.size() > 1)
+        bar.show("measuring", 1);
+    return made;
+}
+
+Json as_json(const MeasureArguments& arguments, const index::IndexFile& file, const Rows& made) {
+    Json units = Json::object();
+    for (std::size_t i = 0; i < made.columns.size(); ++i)
+        if (!made.units[i].empty())
+            units[made.columns[i]] = made.units[i];
+    return Json{{"file", arguments.file.string()},
+                {"array", file.info().array},
+                {"units", std::move(units)},
+                {"rows", made.rows}};
+}
+
+/// Columns with their units, right-aligned.
+SafeText as_table(const Rows& made) {
+    std::vector<std::vector<std::string>> lines(made.rows.size() + 1);
+    for (std::size_t i = 0; i < made.columns.size(); ++i)
+        lines[0].push_back(made.units[i].empty()
+                               ? made.columns[i]
+                               : fmt::format("{} [{}]", made.columns[i], made.units[i]));
+    for (std::size_t k = 0; k < made.rows.size(); ++k)
+        for (const std::string& column : made.columns) {
+            const Json& value = made.rows[k][column];
+            lines[k + 1].push_back(value.is_null() ? "-"
+                                   : value.is_number_float()
+                                       ? fmt::format("{:.7g}", value.get<double>())
+                                       : value.dump());
+        }
+    std::vector<std::size_t> widths(made.columns.size());
+    for (const auto& line : lines)
+        for (std::size_t i = 0; i < line.size(); ++i)
+            widths[i] = std::max(widths[i], line[i].size());
+    SafeText text;
+    for (const auto& line : lines) {
+        std::string words;
+        for (std::size_t i = 0; i < line.size(); ++i)
+            words += fmt::format("{}{:>{}}", i == 0 ? "" : "  ", line[i], widths[i]);
+        text += SafeText("{}\n", words);
+    }
+    return text;
+}
+
+void run_measure(const MeasureArguments& arguments) {
+    const std::vector<std::size_t> numbers = chosen(arguments);
+    const auto file = array_called(open_index(arguments.file), arguments.array);
+    for (const double isovalue : arguments.isovalues)
+        warn_beyond(isovalue, *file);
+    if (!arguments.out.empty())
+        guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, file.get()},
+                      arguments.force);
+    const Rows made = measured(arguments, file, numbers);
+    const bool csv = arguments.csv || (!arguments.out.empty() && !arguments.json);
+    const SafeText text = arguments.json ? SafeText::json(as_json(arguments, *file, made))
+                          : csv          ? SafeText::lines(csv_of(made.rows, made.columns))
+                                         : as_table(made);
+    if (arguments.out.empty())
+        return print_safely(text);
+    index::NewFile written(arguments.out);
+    written.write_at(0, std::as_bytes(std::span(text.str())));
+    written.commit();
+    print_safely("wrote {}: {} rows\n", arguments.out.string(), made.rows.size());
+}
+
+} // namespace
+
+void add_measure(Command& program) {
+    auto arguments = std::make_shared<MeasureArguments>();
+    Command command = program.subcommand(
+        "measure", "Measure surfaces: area, enclosed volume, connected pieces and more.");
+    command.examples({"isochron measure run42.isochron --isovalue 100",
+                      "isochron measure run42.isochron --isovalue 100 --steps 7 --pieces"});
+    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
+    command.option("--array", arguments->array,
+                   "Array of the surfaces, if the index has several (default: its first)");
+    command
+        .option("--isovalue", arguments->isovalues,
+                "Isovalue, in the unit of the values (after scaling); again for another surface")
+        .repeatable()
+        .required();
+    command.option("--steps", arguments->steps,
+                   "FIRST:LAST[:STRIDE] or one step, counted from 0 (default: all steps)");
+    command
+        .option("--fraction", arguments->fraction,
+                "Between two steps: so many 65536ths of the way to the next step")
+        .between(0u, 65535u)
+        .shows_default();
+    std::vector<std::string> names;
+    std::string definitions;
+    for (const index::Measure& measure : index::measures()) {
+        names.emplace_back(measure.name);
+        definitions += fmt::format("\n  {:<14}{}", measure.name, measure.definition);
+    }
+    command
+        .option("--measure", arguments->measures,
+                "What to measure; again for another one (default: all of the list below)")
+        .repeatable()
+        .one_of(names);
+    command.option("--on-surface", arguments->on_surface,
+                   "Another array of the index, to measure on the surface");
+    command.flag("--pieces", arguments->pieces,
+                 "A row for each connected piece, the largest area first: area, enclosed volume "
+                 "(negative around lower values), Euler number, centroid, extent");
+    command.flag("--csv", arguments->csv, "Print CSV");
+    command.flag("--json", arguments->json, "Print one JSON object: file, array, units, rows");
+    command.option("-o,--out", arguments->out, "Output file, CSV or JSON (default: the terminal)");
+    command.flag("--force", arguments->force, "Replace a file that exists");
+    command.footer(
+        "Measures:" + definitions +
+        "\nAreas and volumes are in powers of the data's unit of length; docs/FORMATS.md "
+        "has the definitions.");
+    command.on_run([arguments] { run_measure(*arguments); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,61 @@
+// The surface of one step as measures ask for it; what several of them need is made once.
+#pragma once
+
+#include "index/file/index_file.h"
+#include "index/measure/mesh_pieces.h"
+#include "index/measure/vertex_sides.h"
+#include "index/surface/cell_mesh.h"
+#include "index/volume/query.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+namespace isochron::index {
+
+/// Not thread-safe. Functions throw Error and Stopped as StepView does.
+class MeasuredStep {
+  public:
+    /// @param complete see `pieces_of` @param stop, file, mesh outlive this
+    MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh, bool complete,
+                 const std::stop_token& stop)
+        : file_(file), query_(query), mesh_(mesh), complete_(complete), stop_(stop) {}
+
+    const CellMesh& mesh() const { return mesh_; }
+    const Grid& grid() const { return file_.info().grid; }
+    std::size_t triangles() const { return mesh_.triangles.size() / 3; }
+    /// Places of the vertices in physical space, less the grid's origin.
+    const std::vector<glm::dvec3>& points();
+    /// Half the cross product of two sides of each triangle: its normal, towards lower values if
+    /// `Grid::direction` has a positive determinant, as long as its area.
+    const std::vector<glm::dvec3>& normals();
+    const std::vector<double>& areas();
+    const MeshPieces& pieces();
+    const VertexSides& sides();
+    /// Volumes of the cells that no surface cuts, and the parts of those that it does.
+    struct Volumes {
+        double above = 0, below = 0;
+    };
+    const Volumes& volumes();
+    /// Connected sets of vertices above, by six neighbors.
+    std::uint64_t bodies();
+
+  private:
+    bool corner_is_above() const;
+
+    const IndexFile& file_;
+    const Query& query_;
+    const CellMesh& mesh_;
+    bool complete_;
+    const std::stop_token& stop_;
+    std::optional<std::vector<glm::dvec3>> points_, normals_;
+    std::optional<std::vector<double>> areas_;
+    std::optional<MeshPieces> pieces_;
+    std::optional<VertexSides> sides_;
+    std::optional<Volumes> volumes_;
+};
+
+} // namespace isochron::index

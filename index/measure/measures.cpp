@@ -1,0 +1,200 @@
+// The table of measures, and how a surface is measured.
+#include "index/measure/measures.h"
+
+#include "index/error.h"
+#include "index/measure/measured_step.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace isochron::index {
+namespace {
+
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+
+double area(MeasuredStep& step) {
+    const std::vector<double>& areas = step.areas();
+    return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+/// Number of edges of a mesh without a pair.
+std::uint64_t border_edges(MeasuredStep& step) {
+    const auto& edges = step.pieces().border_edges;
+    return std::accumulate(edges.begin(), edges.end(), std::uint64_t{0});
+}
+
+/// V - E + F, where each edge has two triangles, or one at the border.
+std::int64_t euler(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t border) {
+    return static_cast<std::int64_t>(vertices) -
+           static_cast<std::int64_t>((3 * triangles + border) / 2) +
+           static_cast<std::int64_t>(triangles);
+}
+
+/// The mean over the surface, weighted by areas, of the means at the corners of triangles.
+double mean(MeasuredStep& step) {
+    const CellMesh& mesh = step.mesh();
+    if (mesh.values.empty())
+        return kUndefined;
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < step.triangles(); ++i) {
+        const auto at = [&](std::size_t k) {
+            return static_cast<double>(mesh.values[mesh.triangles[3 * i + k]]);
+        };
+        const double value = (at(0) + at(1) + at(2)) / 3, weight = step.areas()[i];
+        if (std::isfinite(value)) {
+            sum += value * weight;
+            all += weight;
+        }
+    }
+    return sum / all;
+}
+
+/// The least value on the surface, or with `sign` -1 the greatest.
+double extreme(MeasuredStep& step, double sign) {
+    double found = kUndefined;
+    for (const float value : step.mesh().values)
+        if (!std::isnan(value) && !(found * sign <= value * sign))
+            found = value;
+    return found;
+}
+
+constexpr std::array<Measure, 11> kMeasures{{
+    {"cells", MeasureUnit::none, "active cells: least < isovalue <= greatest of the 8 vertices",
+     [](MeasuredStep& step) { return static_cast<double>(step.mesh().cases.size()); }},
+    {"area", MeasureUnit::area, "sum of the areas of the surface's triangles", area},
+    {"volume", MeasureUnit::volume,
+     "volume where the value is at least the isovalue, over the cells without a missing vertex",
+     [](MeasuredStep& step) { return step.volumes().above; }},
+    {"volume-below", MeasureUnit::volume,
+     "volume where the value is less than the isovalue, over the same cells",
+     [](MeasuredStep& step) { return step.volumes().below; }},
+    {"pieces", MeasureUnit::none, "connected pieces of the surface: triangles joined by edges",
+     [](MeasuredStep& step) { return static_cast<double>(step.pieces().count); }},
+    {"bodies", MeasureUnit::none,
+     "connected bodies: vertices of at least the isovalue, joined to their 6 neighbors",
+     [](MeasuredStep& step) { return static_cast<double>(step.bodies()); }},
+    {"euler", MeasureUnit::none, "Euler number of the surface: vertices - edges + triangles",
+     [](MeasuredStep& step) {
+         return static_cast<double>(
+             euler(step.mesh().vertices.size(), step.triangles(), border_edges(step)));
+     }},
+    {"border-edges", MeasureUnit::none,
+     "edges of the surface that one triangle has: at the grid's border or a missing value; 0: "
+     "closed",
+     [](MeasuredStep& step) { return static_cast<double>(border_edges(step)); }},
+    {"mean", MeasureUnit::value, "mean of the other array on the surface, weighted by area", mean},
+    {"least", MeasureUnit::value, "least value of the other array at the surface's vertices",
+     [](MeasuredStep& step) { return extreme(step, 1); }},
+    {"greatest", MeasureUnit::value, "greatest value of the other array at the surface's vertices",
+     [](MeasuredStep& step) { return extreme(step, -1); }},
+}};
+
+std::vector<MeasuredPiece> measured_pieces(MeasuredStep& step) {
+    const MeshPieces& pieces = step.pieces();
+    const std::vector<glm::dvec3>&points = step.points(), &normals = step.normals();
+    const CellMesh& mesh = step.mesh();
+    const glm::dvec3 origin = step.grid().origin;
+    // Towards lower values, whichever way the grid's axes turn.
+    const double outwards = glm::determinant(step.grid().direction) < 0 ? -1 : 1;
+    struct Sums {
+        glm::dvec3 low{std::numeric_limits<double>::infinity()},
+            high{-std::numeric_limits<double>::infinity()}, weighted{0.0};
+        std::uint64_t vertices = 0;
+    };
+    std::vector<MeasuredPiece> all(pieces.count);
+    std::vector<Sums> sums(pieces.count);
+    std::vector<bool> counted(points.size());
+    for (std::size_t i = 0; i < step.triangles(); ++i) {
+        const std::uint32_t number = pieces.of_triangle[i];
+        MeasuredPiece& piece = all[number];
+        Sums& sum = sums[number];
+        glm::dvec3 middle(0.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t corner = mesh.triangles[3 * i + k];
+            const glm::dvec3& at = points[corner];
+            middle += at / 3.0;
+            sum.low = glm::min(sum.low, at);
+            sum.high = glm::max(sum.high, at);
+            sum.vertices += !counted[corner];
+            counted[corner] = true;
+        }
+        ++piece.triangles;
+        piece.area += step.areas()[i];
+        piece.volume += outwards * glm::dot(normals[i], points[mesh.triangles[3 * i]]) / 3;
+        sum.weighted += step.areas()[i] * middle;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        MeasuredPiece& piece = all[i];
+        const Sums& sum = sums[i];
+        piece.closed = pieces.border_edges[i] == 0;
+        if (!piece.closed)
+            piece.volume = kUndefined;
+        piece.euler = euler(sum.vertices, piece.triangles, pieces.border_edges[i]);
+        // A piece of no area is a point.
+        const glm::dvec3 centroid = piece.area > 0 ? sum.weighted / piece.area : sum.low;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            piece.low[k] = origin[axis] + sum.low[axis];
+            piece.high[k] = origin[axis] + sum.high[axis];
+            piece.centroid[k] = origin[axis] + centroid[axis];
+        }
+    }
+    std::ranges::stable_sort(all, std::greater{}, &MeasuredPiece::area);
+    return all;
+}
+
+/// Whether all values of all steps are finite numbers.
+bool is_complete(const IndexFile& file) {
+    const std::vector<std::uint64_t>& bins = file.stats().counts.bins;
+    return std::accumulate(bins.begin(), bins.end(), std::uint64_t{0}) ==
+           file.info().grid.vertex_count() * file.info().steps();
+}
+
+} // namespace
+
+std::span<const Measure> measures() {
+    return kMeasures;
+}
+
+std::string unit_of(const Measure& measure, const SeriesInfo& info, std::string_view of_values) {
+    switch (measure.unit) {
+    case MeasureUnit::none: break;
+    case MeasureUnit::area: return info.length_unit.empty() ? "" : info.length_unit + "^2";
+    case MeasureUnit::volume: return info.length_unit.empty() ? "" : info.length_unit + "^3";
+    case MeasureUnit::value: return std::string(of_values);
+    }
+    return {};
+}
+
+SurfaceMeasures::SurfaceMeasures(std::shared_ptr<const IndexFile> file)
+    : file_(file), meshes_(file), complete_(is_complete(*file)) {}
+
+std::optional<MeasuredSurface> SurfaceMeasures::measure(const Query& query,
+                                                        const MeasureWishes& wishes,
+                                                        const std::stop_token& stop) {
+    const auto mesh = meshes_.make_packed(query, {.values = wishes.array}, stop);
+    if (!mesh)
+        return std::nullopt;
+    try {
+        MeasuredStep step(*file_, query, *mesh, complete_, stop);
+        MeasuredSurface found;
+        for (std::size_t i = 0; i < kMeasures.size(); ++i) {
+            const bool wanted =
+                wishes.only.empty() || std::ranges::find(wishes.only, i) != wishes.only.end();
+            found.values.push_back(wanted ? kMeasures[i].of(step) : kUndefined);
+        }
+        if (wishes.pieces)
+            found.pieces = measured_pieces(step);
+        return found;
+    } catch (const Stopped&) {
+        return std::nullopt;
+    }
+}
+
+} // namespace isochron::index

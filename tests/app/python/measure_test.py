@@ -1,0 +1,49 @@
+"""Measures of surfaces against numpy on what `mesh` and `values` give."""
+
+import unittest
+
+import numpy as np
+
+import isochron
+from made_series import STEPS, SeriesTest
+
+
+class Measures(SeriesTest):
+    def test_are_those_of_the_mesh_and_of_the_values(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        points, faces = run.mesh(isovalue, 1, dtype=np.float64)
+        a, b, c = (points[faces[:, k]] for k in range(3))
+        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        found = run.measure(isovalue, 1)
+        self.assertAlmostEqual(found["area"], area, delta=1e-6 * area)
+        self.assertEqual(found["cells"], len(run.cells(isovalue, 1)))
+        edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        count = np.unique(edges, axis=0, return_counts=True)[1]
+        self.assertEqual(found["euler"], len(points) - len(count) + len(faces))
+        self.assertEqual(found["border_edges"], np.count_nonzero(count == 1))
+        whole = np.prod([(n - 1) * d for n, d in zip(run.shape[1:], run.spacing)])
+        self.assertAlmostEqual(found["volume"] + found["volume_below"], whole, delta=1e-9 * whole)
+        self.assertTrue(np.isnan(found["mean"]))
+
+    def test_of_all_steps_are_rows(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        rows = run.measures(isovalue)
+        self.assertEqual(rows["step"].tolist(), list(range(STEPS)))
+        np.testing.assert_array_equal(rows["time"], run.times)
+        self.assertEqual(rows["area"][1], run.measure(isovalue, 1)["area"])
+        self.assertEqual(run.measures(isovalue, slice(1, 2))["step"].tolist(), [1])
+        with self.assertRaisesRegex(isochron.Error, "isovalue"):
+            run.measures(np.nan)
+
+    def test_of_pieces_add_up(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        pieces, found = run.pieces(isovalue, 1), run.measure(isovalue, 1)
+        self.assertEqual(len(pieces), found["pieces"])
+        self.assertAlmostEqual(pieces["area"].sum(), found["area"], delta=1e-9 * found["area"])
+        self.assertTrue(np.all(np.diff(pieces["area"]) <= 0))
+        self.assertTrue(np.all(pieces["low"] <= pieces["centroid"]) and np.all(pieces["centroid"] <= pieces["high"]))
+        np.testing.assert_array_equal(pieces["closed"] == 1, np.isfinite(pieces["volume"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,429 @@
+// Measures of surfaces: identities, known shapes, and slow ways to the same numbers.
+#include "index/measure/measures.h"
+
+#include "index/measure/mesh_pieces.h"
+#include "index/measure/vertex_sides.h"
+#include "index/search/index_search.h"
+#include "tests/support/indexed.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <deque>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace isochron::index {
+namespace {
+
+using Vertices = std::array<std::uint32_t, 3>;
+
+double value_of(const MeasuredSurface& found, std::string_view name) {
+    for (std::size_t i = 0; i < measures().size(); ++i)
+        if (measures()[i].name == name)
+            return found.values[i];
+    ADD_FAILURE() << name;
+    return kNaN;
+}
+
+/// A turned, sheared and mirrored grid; stretched along y if wished.
+Grid placed(const Vertices& vertices, bool stretched, std::mt19937& random) {
+    Grid grid{.vertices = vertices, .origin = {1e4, -3, 20}, .spacing = {0.5, 2.0, 0.75}};
+    const double angle = 0.1 + std::generate_canonical<double, 32>(random);
+    grid.direction = glm::dmat3(glm::dvec3(std::cos(angle), std::sin(angle), 0),
+                                glm::dvec3(std::sin(angle), -std::cos(angle), 0),
+                                glm::normalize(glm::dvec3(0.3, 0, 1)));
+    if (stretched) {
+        std::vector<double> distances{0.0};
+        for (std::uint32_t i = 1; i < vertices[1]; ++i)
+            distances.push_back(distances.back() + 0.2 +
+                                std::generate_canonical<double, 32>(random));
+        grid.spacing.y = distances.back() / (vertices[1] - 1);
+        grid.positions[1] = AxisPositions(distances);
+    }
+    return grid;
+}
+
+/// What is measured, cell by cell and vertex by vertex from the values alone.
+class SlowMeasures {
+  public:
+    SlowMeasures(const StepValues& values, const Grid& grid, std::size_t step, double isovalue)
+        : n_(grid.vertices), sides_(std::size_t{n_[0]} * n_[1] * n_[2]) {
+        for (std::size_t i = 0; i < sides_.size(); ++i) {
+            const double value = scaled_value(values, step, i);
+            sides_[i] = std::isnan(value) ? 0 : value >= isovalue ? 1 : 2;
+        }
+        for (std::uint32_t z = 0; z + 1 < n_[2]; ++z)
+            for (std::uint32_t y = 0; y + 1 < n_[1]; ++y)
+                for (std::uint32_t x = 0; x + 1 < n_[0]; ++x)
+                    add_cell(grid, x, y, z);
+    }
+
+    int side(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        return sides_[at(x, y, z)];
+    }
+
+    /// Bodies by a flood from each vertex.
+    std::uint64_t bodies() const {
+        std::vector<bool> seen(sides_.size());
+        std::uint64_t count = 0;
+        for (std::size_t start = 0; start < sides_.size(); ++start) {
+            if (sides_[start] != 1 || seen[start])
+                continue;
+            ++count;
+            std::deque<std::size_t> next{start};
+            seen[start] = true;
+            while (!next.empty()) {
+                const std::size_t i = next.front();
+                next.pop_front();
+                const Vertices place{static_cast<std::uint32_t>(i % n_[0]),
+                                     static_cast<std::uint32_t>(i / n_[0] % n_[1]),
+                                     static_cast<std::uint32_t>(i / n_[0] / n_[1])};
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    for (const int way : {-1, 1}) {
+                        Vertices to = place;
+                        to[axis] += static_cast<std::uint32_t>(way);
+                        if (to[axis] >= n_[axis])
+                            continue;
+                        const std::size_t k = at(to[0], to[1], to[2]);
+                        if (sides_[k] == 1 && !seen[k]) {
+                            seen[k] = true;
+                            next.push_back(k);
+                        }
+                    }
+            }
+        }
+        return count;
+    }
+
+    double whole = 0;     ///< volume of all cells without a missing vertex
+    double certain = 0;   ///< volume of the cells all of whose vertices are above
+    double uncertain = 0; ///< volume of the active ones
+
+  private:
+    std::size_t at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        return x + std::size_t{n_[0]} * (y + std::size_t{n_[1]} * z);
+    }
+    void add_cell(const Grid& grid, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        int above = 0, missing = 0;
+        for (std::uint32_t corner = 0; corner < 8; ++corner) {
+            const int of = side(x + corner % 2, y + corner / 2 % 2, z + corner / 4);
+            above += of == 1;
+            missing += of == 0;
+        }
+        if (missing > 0)
+            return;
+        const auto to = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+            return grid.physical({x + i, y + j, z + k}) - grid.physical({x, y, z});
+        };
+        const double volume = std::abs(glm::dot(to(1, 0, 0), glm::cross(to(0, 1, 0), to(0, 0, 1))));
+        whole += volume;
+        if (above == 8)
+            certain += volume;
+        else if (above > 0)
+            uncertain += volume;
+    }
+
+    Vertices n_;
+    std::vector<int> sides_;
+};
+
+/// Area and pieces of a mesh, edge by edge in maps.
+struct SlowMesh {
+    double area = 0;
+    std::size_t pieces = 0, edges = 0, border = 0;
+
+    explicit SlowMesh(const SurfaceMesh& mesh) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> of_edge;
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const auto& t = mesh.triangles[i];
+            const auto point = [&](std::uint32_t k) {
+                return glm::dvec3(mesh.points[k][0], mesh.points[k][1], mesh.points[k][2]);
+            };
+            area +=
+                glm::length(glm::cross(point(t[1]) - point(t[0]), point(t[2]) - point(t[0]))) / 2;
+            for (std::size_t k = 0; k < 3; ++k)
+                of_edge[std::minmax(t[k], t[(k + 1) % 3])].push_back(i);
+        }
+        edges = of_edge.size();
+        std::vector<std::set<std::size_t>> next(mesh.triangles.size());
+        for (const auto& [edge, triangles] : of_edge) {
+            border += triangles.size() == 1;
+            for (const std::size_t a : triangles)
+                for (const std::size_t b : triangles)
+                    next[a].insert(b);
+        }
+        std::vector<bool> seen(mesh.triangles.size());
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (seen[i])
+                continue;
+            ++pieces;
+            std::vector<std::size_t> open{i};
+            while (!open.empty()) {
+                const std::size_t now = open.back();
+                open.pop_back();
+                if (!seen[now]) {
+                    seen[now] = true;
+                    open.insert(open.end(), next[now].begin(), next[now].end());
+                }
+            }
+        }
+    }
+};
+
+class MeasuresTest : public testing::Test {
+  protected:
+    std::shared_ptr<const IndexFile> indexed_at(const StepValues& values, const Grid& grid,
+                                                std::uint64_t cache = 0) {
+        MemorySeries series(values);
+        series.info().grid = grid;
+        build_index(series, folder_.path() / "a.isochron", {});
+        return IndexFile::open(folder_.path() / "a.isochron", cache);
+    }
+    MeasuredSurface measured(const TestField& field, const Query& query,
+                             const MeasureWishes& wishes = {}) {
+        return *SurfaceMeasures(indexed(folder_, field.view())).measure(query, wishes);
+    }
+    static double middle(const StepValues& values) {
+        return quantiles(sorted_values(values), 3)[1];
+    }
+
+    test_support::TestFolder folder_;
+    std::mt19937 random_{test_seed()};
+};
+
+TEST_F(MeasuresTest, AgreeWithSlowWaysOnEveryTypeGridAndTie) {
+    for (const ValueType type : kAllTypes)
+        for (const bool rough : {false, true}) {
+            const Vertices n = rough ? Vertices{7, 5, 2} : Vertices{19, 17, 23};
+            const TestField field(
+                n, 2, type,
+                scaled(rough ? white_noise(random_) : turbulence(random_), rough ? 3 : 100, 10),
+                {random_() % 2 ? -0.5 : 2.0, 1.0});
+            const Grid grid = placed(n, random_() % 2 != 0, random_);
+            const auto file = indexed_at(field.view(), grid);
+            SurfaceMeasures measuring(file);
+            for (const double isovalue : ties(field.view(), 6)) {
+                const MeasuredSurface found = *measuring.measure({Instant(1), isovalue});
+                const SlowMeasures slow(field.view(), grid, 1, isovalue);
+                const SurfaceMesh mesh = mesh_of(file, {Instant(1), isovalue});
+                const SlowMesh of_mesh(mesh);
+                const double volume = value_of(found, "volume");
+                const double below = value_of(found, "volume-below");
+                EXPECT_NEAR(volume + below, slow.whole, 1e-9 * slow.whole);
+                EXPECT_GE(volume, slow.certain - 1e-9 * slow.whole);
+                EXPECT_LE(volume, slow.certain + slow.uncertain + 1e-9 * slow.whole);
+                EXPECT_EQ(value_of(found, "bodies"), static_cast<double>(slow.bodies()));
+                EXPECT_EQ(value_of(found, "pieces"), static_cast<double>(of_mesh.pieces));
+                EXPECT_EQ(value_of(found, "border-edges"), static_cast<double>(of_mesh.border));
+                EXPECT_EQ(value_of(found, "euler"), static_cast<double>(mesh.points.size()) -
+                                                        static_cast<double>(of_mesh.edges) +
+                                                        static_cast<double>(mesh.triangles.size()));
+                // Points of the mesh are floats, and far from 0.
+                EXPECT_NEAR(value_of(found, "area"), of_mesh.area, 1e-2 * (1 + of_mesh.area));
+            }
+        }
+}
+
+TEST_F(MeasuresTest, AgreeWithSlowWaysWhereValuesAreMissing) {
+    for (int round = 0; round < 8; ++round) {
+        const Vertices n{13, 11, 9};
+        TestField field(n, 1, ValueType::f32, scaled(white_noise(random_), 1, 0));
+        for (std::size_t i = 0; i < 13 * 11 * 9; ++i)
+            if (random_() % 12 == 0)
+                field.at<float>(0, i) = static_cast<float>(random_() % 3 ? kNaN : kInfinity);
+        const Grid grid = placed(n, true, random_);
+        const auto file = indexed_at(field.view(), grid);
+        const double isovalue = 0.1;
+        const MeasuredSurface found = *SurfaceMeasures(file).measure({Instant(0), isovalue});
+        const SlowMeasures slow(field.view(), grid, 0, isovalue);
+        const SlowMesh of_mesh(mesh_of(file, {Instant(0), isovalue}));
+        EXPECT_NEAR(value_of(found, "volume") + value_of(found, "volume-below"), slow.whole,
+                    1e-9 * slow.whole);
+        EXPECT_EQ(value_of(found, "bodies"), static_cast<double>(slow.bodies()));
+        EXPECT_EQ(value_of(found, "pieces"), static_cast<double>(of_mesh.pieces));
+        EXPECT_EQ(value_of(found, "border-edges"), static_cast<double>(of_mesh.border));
+    }
+}
+
+TEST_F(MeasuresTest, OfAPlaneThroughABoxAreExact) {
+    // x + 2 y + 3 z is linear: triangles lie in the plane, and the volume is a polynomial.
+    const TestField field({6, 6, 6}, 1, ValueType::f64,
+                          [](double x, double y, double z, double) { return x + 2 * y + 3 * z; });
+    for (const double isovalue : {2.5, 4.0, 15.0, 23.7}) {
+        const auto corner = [&](double less) {
+            return less > 0 ? less * less * less / 36
+                            : 0.0; // volume of the corner that the plane cuts off
+        };
+        double below = 0; // inclusion and exclusion over the box's corners, side 5
+        for (int bits = 0; bits < 8; ++bits) {
+            const double off = 5.0 * ((bits & 1) + 2 * (bits >> 1 & 1) + 3 * (bits >> 2));
+            const int sides = (bits & 1) + (bits >> 1 & 1) + (bits >> 2);
+            below += (sides % 2 ? -1 : 1) * corner(isovalue - off);
+        }
+        const MeasuredSurface found = measured(field, {Instant(0), isovalue});
+        EXPECT_NEAR(value_of(found, "volume-below"), below, 1e-6);
+        EXPECT_NEAR(value_of(found, "volume"), 125 - below, 1e-6);
+        EXPECT_EQ(value_of(found, "pieces"), 1);
+        EXPECT_EQ(value_of(found, "bodies"), 1);
+        EXPECT_EQ(value_of(found, "euler"), 1) << "a disk";
+    }
+}
+
+TEST_F(MeasuresTest, OfKnownShapesComeNearTheirFormulas) {
+    const double pi = std::numbers::pi;
+    const auto torus_at = [](double cx) {
+        return [cx](double x, double y, double z, double) {
+            const double ring = std::hypot(x - cx, y - 20) - 11;
+            return 4 - std::hypot(ring, z - 8);
+        };
+    };
+    const auto ball = [](double x, double y, double z, double) {
+        return 7 - std::hypot(x - 20.3, y - 19.6, z - 8.1);
+    };
+    struct Shape {
+        TestField::Function function;
+        double euler, area, volume;
+    };
+    const auto two = [&](double x, double y, double z, double t) {
+        return std::max(torus_at(17)(x, y, z, t), torus_at(39)(x, y, z, t));
+    };
+    for (const auto& [function, euler, area, volume] :
+         {Shape{ball, 2, 4 * pi * 49, 4 * pi / 3 * 343},
+          Shape{torus_at(20), 0, 4 * pi * pi * 11 * 4, 2 * pi * pi * 11 * 16},
+          Shape{two, -2, 0, 0}}) {
+        const TestField field({57, 41, 17}, 1, ValueType::f32, function);
+        const MeasuredSurface found = measured(field, {Instant(0), 0}, {.pieces = true});
+        EXPECT_EQ(value_of(found, "euler"), euler);
+        ASSERT_EQ(found.pieces.size(), 1u);
+        EXPECT_TRUE(found.pieces[0].closed);
+        EXPECT_EQ(found.pieces[0].euler, euler);
+        EXPECT_NEAR(found.pieces[0].volume, value_of(found, "volume"),
+                    1e-9 * value_of(found, "volume"))
+            << "by the divergence theorem";
+        if (area > 0) {
+            EXPECT_NEAR(value_of(found, "area"), area, 0.02 * area);
+            EXPECT_NEAR(value_of(found, "volume"), volume, 0.02 * volume);
+        }
+        // If values are distances, the volume grows with the level as the area says (coarea).
+        const double step = 1.0 / 16;
+        const double more = value_of(measured(field, {Instant(0), -step}), "volume");
+        const double less = value_of(measured(field, {Instant(0), step}), "volume");
+        EXPECT_NEAR((more - less) / (2 * step), value_of(found, "area"),
+                    0.02 * value_of(found, "area"));
+    }
+}
+
+TEST_F(MeasuresTest, OfRoughClosedSurfacesObeyTheDivergenceTheorem) {
+    // All 256 cases occur, those with four cut edges on a face among them.
+    for (const ValueType type : kAllTypes) {
+        const Vertices n{12, 10, 11};
+        const TestField::Function noise = scaled(white_noise(random_), 100, 10);
+        const TestField field(n, 1, type, [&](double x, double y, double z, double t) {
+            const bool inner =
+                x > 0 && y > 0 && z > 0 && x < n[0] - 1 && y < n[1] - 1 && z < n[2] - 1;
+            return inner ? noise(x, y, z, t) : -100;
+        });
+        const Grid grid = placed(n, random_() % 2 != 0, random_);
+        const MeasuredSurface found = *SurfaceMeasures(indexed_at(field.view(), grid))
+                                           .measure({Instant(0), 13.3}, {.pieces = true});
+        double sum = 0;
+        for (const MeasuredPiece& piece : found.pieces)
+            sum += piece.volume;
+        EXPECT_GT(found.pieces.size(), 5u);
+        EXPECT_EQ(value_of(found, "border-edges"), 0);
+        EXPECT_NEAR(value_of(found, "volume"), sum, 1e-9 * sum);
+    }
+}
+
+TEST_F(MeasuresTest, OfPiecesAddUpAndHolesAreNegative) {
+    // A shell: a ball with a hollow, and a small ball beside it.
+    const TestField field(
+        {41, 25, 25}, 1, ValueType::f32, [](double x, double y, double z, double) {
+            const double r = std::hypot(x - 12, y - 12, z - 12);
+            return std::max(3 - std::abs(r - 7), 2.5 - std::hypot(x - 33, y - 12, z - 12));
+        });
+    const MeasuredSurface found = measured(field, {Instant(0), 0}, {.pieces = true});
+    ASSERT_EQ(found.pieces.size(), 3u);
+    EXPECT_EQ(value_of(found, "bodies"), 2);
+    EXPECT_GT(found.pieces[0].volume, 0);
+    EXPECT_LT(found.pieces[1].volume, 0) << "the hollow";
+    EXPECT_GT(found.pieces[2].volume, 0);
+    double sum = 0, area = 0;
+    for (const MeasuredPiece& piece : found.pieces) {
+        sum += piece.volume;
+        area += piece.area;
+    }
+    EXPECT_NEAR(sum, value_of(found, "volume"), 1e-9 * sum);
+    EXPECT_NEAR(area, value_of(found, "area"), 1e-9 * area);
+    EXPECT_NEAR(found.pieces[2].centroid[0], 33, 0.02);
+    EXPECT_NEAR(found.pieces[2].low[0], 30.5, 0.2);
+    EXPECT_NEAR(found.pieces[2].high[0], 35.5, 0.2);
+}
+
+TEST_F(MeasuresTest, AreTheSameBitsByChunksAndAsAWholeAndBetweenSteps) {
+    const Vertices n{37, 41, 39};
+    const TestField field(n, 2, ValueType::f32, turbulence(random_));
+    const Grid grid = placed(n, true, random_);
+    for (const Instant at : {Instant(0), Instant(0, 20000)}) {
+        const Query query{at, middle(field.view())};
+        const auto whole = SurfaceMeasures(indexed_at(field.view(), grid)).measure(query);
+        const auto file = indexed_at(field.view(), grid, 1);
+        const auto chunks = SurfaceMeasures(file).measure(query);
+        for (std::size_t i = 0; i < measures().size(); ++i) {
+            if (!std::isnan(whole->values[i])) {
+                EXPECT_EQ(whole->values[i], chunks->values[i]) << measures()[i].name;
+            }
+        }
+        // Sides follow from the mesh alone, and from the values.
+        SurfaceMeshes meshes(file);
+        const auto mesh = meshes.make_packed(query);
+        EXPECT_EQ(VertexSides::of_mesh(*mesh, grid, false),
+                  VertexSides::of_values(step_of_query(*file, at, {&query.isovalue, 1}),
+                                         query.isovalue, {}));
+    }
+}
+
+TEST_F(MeasuresTest, OfNoSurfaceAreZeroAndWhole) {
+    const TestField field({5, 4, 3}, 1, ValueType::u8,
+                          [](double x, double, double, double) { return 10 + x; });
+    for (const double isovalue : {5.0, 10.0, 14.5, 300.0, -1e300, kNaN}) {
+        const MeasuredSurface found = measured(field, {Instant(0), isovalue});
+        EXPECT_EQ(value_of(found, "area"), 0);
+        EXPECT_EQ(value_of(found, "pieces"), 0);
+        EXPECT_EQ(value_of(found, "volume"), isovalue <= 10 ? 24 : 0) << isovalue;
+        EXPECT_EQ(value_of(found, "bodies"), isovalue <= 10 ? 1 : 0);
+    }
+}
+
+TEST_F(MeasuresTest, OfAnotherArrayAreMeansByArea) {
+    // The surface is the plane x = 4.5, and the other array is y there.
+    const TestField field({10, 9, 8}, 1, ValueType::f32,
+                          [](double x, double, double, double) { return x; });
+    const TestField other({10, 9, 8}, 1, ValueType::f32,
+                          [](double, double y, double, double) { return 3 * y; });
+    MemorySeries series(field.view()), colors(other.view());
+    build_index(series, folder_.path() / "b.isochron", {.color = &colors});
+    const auto file = IndexFile::open(folder_.path() / "b.isochron");
+    const auto found = SurfaceMeasures(file).measure({Instant(0), 4.5}, {.array = 0});
+    EXPECT_NEAR(value_of(*found, "mean"), 12, 1e-6);
+    EXPECT_EQ(value_of(*found, "least"), 0);
+    EXPECT_EQ(value_of(*found, "greatest"), 24);
+    const auto without = SurfaceMeasures(file).measure({Instant(0), 4.5});
+    EXPECT_TRUE(std::isnan(value_of(*without, "mean")));
+}
+
+TEST_F(MeasuresTest, AreStopped) {
+    const TestField field({40, 40, 40}, 1, ValueType::f32, turbulence(random_));
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_FALSE(SurfaceMeasures(indexed(folder_, field.view()))
+                     .measure({Instant(0), 0.0}, {}, stop.get_token()));
+}
+
+} // namespace
+} // namespace isochron::index

@@ -33,7 +33,9 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
 } // namespace isochron::index
 
 /// Nothing of a thread is destroyed: the module has one, which does not end.
-extern "C" int __cxa_thread_atexit(void (*)(void*), void*, void*) { return 0; }
+extern "C" int __cxa_thread_atexit(void (*)(void*), void*, void*) {
+    return 0;
+}
 
 namespace isochron::web {
 
@@ -120,11 +122,13 @@ void copy_to_cube(Volume& volume, const std::array<Reach, 3>& reach,
         if (begin[axis] >= end[axis])
             return;
     }
-    const std::size_t row = reach[0].end - reach[0].first, plane = row * (reach[1].end - reach[1].first);
+    const std::size_t row = reach[0].end - reach[0].first,
+                      plane = row * (reach[1].end - reach[1].first);
     for (std::uint32_t z = begin[2]; z < end[2]; ++z)
         for (std::uint32_t y = begin[1]; y < end[1]; ++y) {
             const std::size_t from =
-                (std::size_t{z - chunk[2] * kChunkEdge} * size[1] + y - chunk[1] * kChunkEdge) * size[0] +
+                (std::size_t{z - chunk[2] * kChunkEdge} * size[1] + y - chunk[1] * kChunkEdge) *
+                    size[0] +
                 begin[0] - chunk[0] * kChunkEdge;
             const std::size_t to = (z - reach[2].first) * plane + (y - reach[1].first) * row +
                                    begin[0] - reach[0].first;
@@ -133,8 +137,12 @@ void copy_to_cube(Volume& volume, const std::array<Reach, 3>& reach,
         }
 }
 
-EXPORT("take") void* take(std::size_t bytes) { return std::aligned_alloc(64, (bytes + 63) / 64 * 64); }
-EXPORT("give") void give(void* memory) { std::free(memory); }
+EXPORT("take") void* take(std::size_t bytes) {
+    return std::aligned_alloc(64, (bytes + 63) / 64 * 64);
+}
+EXPORT("give") void give(void* memory) {
+    std::free(memory);
+}
 
 /// XXH3-64 of bytes, as two numbers of 32 bits.
 EXPORT("checksum") void checksum(const std::byte* bytes, std::size_t count, std::uint32_t* out) {
@@ -146,7 +154,9 @@ EXPORT("checksum") void checksum(const std::byte* bytes, std::size_t count, std:
 EXPORT("volume") Volume* volume(const Description* of, const double* positions) {
     return new Volume(*of, grid_of(*of, positions));
 }
-EXPORT("close") void close(Volume* volume) { delete volume; }
+EXPORT("close") void close(Volume* volume) {
+    delete volume;
+}
 
 /// The place of a chunk in its layer.
 EXPORT("place") std::uint32_t place(const Volume* volume, std::uint32_t x, std::uint32_t y) {
@@ -158,7 +168,8 @@ EXPORT("at") std::uint32_t at(const Volume* volume, std::uint32_t place) {
     return x | y << 16;
 }
 /// Bytes of the values of a chunk.
-EXPORT("chunk_bytes") std::uint32_t chunk_bytes(const Volume* volume, std::uint32_t layer, std::uint32_t place) {
+EXPORT("chunk_bytes")
+std::uint32_t chunk_bytes(const Volume* volume, std::uint32_t layer, std::uint32_t place) {
     const auto [x, y, z] = volume->chunks.size(layer, place);
     return static_cast<std::uint32_t>(x * y * z * size_of(volume->type));
 }
@@ -184,10 +195,12 @@ EXPORT("set_isovalue") int set_isovalue(Volume* volume, double isovalue) {
 
 /// The chunks of a layer that may hold active cells. @param table of the layer, as in the file
 /// @param out gets their places, ascending @return their number; -1: the checksum does not match
-EXPORT("candidates") int candidates(const Volume* volume, const std::byte* table, std::uint32_t* out) {
+EXPORT("candidates")
+int candidates(const Volume* volume, const std::byte* table, std::uint32_t* out) {
     LayerHead head;
     std::memcpy(&head, table, sizeof head);
-    if (checksum_of({table + sizeof head.checksum, table_bytes(volume) - sizeof head.checksum}) != head.checksum)
+    if (checksum_of({table + sizeof head.checksum, table_bytes(volume) - sizeof head.checksum}) !=
+        head.checksum)
         return -1;
     const std::size_t size = volume->has_since ? sizeof(ChunkEntry) : kEntryWithoutSince;
     int count = 0;
@@ -206,17 +219,20 @@ EXPORT("check") int check(const Volume* volume, const std::byte* record, std::si
     if (count < volume->head_bytes())
         return 0;
     std::memcpy(&sum, record, sizeof sum);
-    return static_cast<RecordChecksum>(checksum_of({record + sizeof sum, count - sizeof sum})) == sum;
+    return static_cast<RecordChecksum>(checksum_of({record + sizeof sum, count - sizeof sum})) ==
+           sum;
 }
 /// Unpacks the values of a record that has been checked. @return 0: it is damaged
-EXPORT("unpack") int unpack(const Volume* volume, std::uint32_t layer, std::uint32_t place,
-                            const std::byte* record, std::size_t count, std::byte* out) {
+EXPORT("unpack")
+int unpack(const Volume* volume, std::uint32_t layer, std::uint32_t place, const std::byte* record,
+           std::size_t count, std::byte* out) {
     const std::size_t head = volume->head_bytes();
-    return unpack_chunk(volume->type, volume->chunks.size(layer, place), {record + head, count - head},
-                        {out, chunk_bytes(volume, layer, place)});
+    return unpack_chunk(volume->type, volume->chunks.size(layer, place),
+                        {record + head, count - head}, {out, chunk_bytes(volume, layer, place)});
 }
 /// The bricks of a record that may hold active cells, and in `around` the chunks that they need.
-EXPORT("bricks") std::uint32_t bricks(const Volume* volume, const std::byte* record, std::uint32_t* around) {
+EXPORT("bricks")
+std::uint32_t bricks(const Volume* volume, const std::byte* record, std::uint32_t* around) {
     ChunkBricks found;
     std::memcpy(found.data(), record + sizeof(RecordChecksum), sizeof found);
     const BricksOfChunk bits = volume->cut ? bricks_of(found, *volume->cut) : 0;
@@ -228,8 +244,9 @@ EXPORT("bricks") std::uint32_t bricks(const Volume* volume, const std::byte* rec
 /// @param of_bricks its bricks that may hold active cells
 /// @param around values of the chunks around it by their bit (index/search/chunk_reach.h); null: not needed
 /// @return number of cells
-EXPORT("find") std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
-                                  std::uint32_t of_bricks, const std::byte* const* around) {
+EXPORT("find")
+std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
+                   std::uint32_t of_bricks, const std::byte* const* around) {
     const auto [cx, cy] = volume->chunks.at(place);
     const std::array<std::uint32_t, 3> chunk{cx, cy, layer};
     std::array<Reach, 3> reach;
@@ -239,11 +256,13 @@ EXPORT("find") std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint
         first[axis] = reach[axis].first;
         end[axis] = reach[axis].end;
     }
-    const std::size_t values = std::size_t{end[0] - first[0]} * (end[1] - first[1]) * (end[2] - first[2]);
+    const std::size_t values =
+        std::size_t{end[0] - first[0]} * (end[1] - first[1]) * (end[2] - first[2]);
     volume->cube.assign(values * size_of(volume->type), std::byte{0});
     for (std::uint32_t bit = 0; bit < kChunksAround; ++bit)
         if (around[bit])
-            copy_to_cube(*volume, reach, {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
+            copy_to_cube(*volume, reach,
+                         {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
                          around[bit]);
     const StepValues cube{.grid = volume->grid.part(first, end),
                           .type = volume->type,

@@ -196,7 +196,9 @@ async function begin(): Promise<void> {
   background.value = state.background ?? (matchMedia("(prefers-color-scheme: light)").matches ? "#f4f5f7" : "#0f1116");
   scene.color(color.value, Number(opacity.value));
   scene.background(background.value);
-  const token = new URLSearchParams(location.hash.replace(/^#/, "")).get("token");
+  // The token came with the link; addresses that are copied leave it out, and this tab remembers it.
+  const token = new URLSearchParams(location.hash.replace(/^#/, "")).get("token") ?? sessionStorage.getItem("token");
+  if (token) sessionStorage.setItem("token", token);
   const headers: Record<string, string> = token ? { Authorization: `Bearer ${token}` } : {};
   let file = state.file;
   if (!file) {

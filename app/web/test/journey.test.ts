@@ -29,7 +29,7 @@ beforeAll(async () => {
   execFileSync(program, ["build", ...names, "-o", join(folder, "ball.isochron"), "--dims", `${n}`, `${n}`, `${n}`, "--type", "f32", "--value-unit", "mm"], { stdio: "pipe" });
   writeFileSync(join(folder, "site.json"), JSON.stringify({ files: ["ball.isochron"] }));
   writeFileSync(join(folder, "other.isochron"), "no index at all, but long enough for a header ".repeat(400));
-  server = new RangeServer([new URL("../build", import.meta.url).pathname, folder]);
+  server = new RangeServer([new URL("../site", import.meta.url).pathname, folder]);
   address = await server.listen();
   browser = await chromium.launch({ executablePath: process.env["CHROMIUM"] ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
 });

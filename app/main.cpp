@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
                                      "isochron explore run42.isochron"},
                         .first_commands = 5},
                        {add_info, add_build, add_explore, add_replay, add_movie, add_export,
-                        add_query, add_change, add_measure, add_table, add_verify, add_tell,
-                        add_reproduce, add_generate, add_config, add_manual, add_completion},
+                        add_query, add_change, add_measure, add_table, add_verify, add_serve,
+                        add_tell, add_reproduce, add_generate, add_config, add_manual,
+                        add_completion},
                        argc, argv);
 }

@@ -7,7 +7,7 @@ set(private libexec/isochron) # where file_of_program looks, from the program's 
 install(TARGETS isochron RUNTIME COMPONENT program)
 get_directory_property(readers DIRECTORY index BUILDSYSTEM_TARGETS)
 list(FILTER readers INCLUDE REGEX ^isochron-reader-)
-foreach(part IN LISTS readers ITEMS isochron-generate isochron-reader-image isochron_mpi isochron_images)
+foreach(part IN LISTS readers ITEMS isochron-generate isochron-reader-image isochron_mpi isochron_images isochron_site)
   if(TARGET ${part})
     install(TARGETS ${part} RUNTIME DESTINATION ${private} COMPONENT program
       LIBRARY DESTINATION ${private} COMPONENT program)

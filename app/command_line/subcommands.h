@@ -17,6 +17,7 @@ void add_measure(Command& program);
 void add_table(Command& program);
 void add_movie(Command& program);
 void add_replay(Command& program);
+void add_serve(Command& program);
 void add_reproduce(Command& program);
 void add_tell(Command& program);
 void add_config(Command& program);

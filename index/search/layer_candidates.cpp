@@ -6,34 +6,6 @@
 namespace isochron::index {
 namespace {
 
-using ChunksOfBricks = std::array<ChunksAround, kBricksOfChunk>;
-
-/// By brick of a chunk: the chunks that hold vertices of its cells, and, for normals, the neighbors
-/// of these along each axis.
-constexpr ChunksOfBricks chunks_of_bricks(bool normals) {
-    ChunksOfBricks around{};
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i) {
-        const std::array<std::uint32_t, 3> at{i % kChunkBricks[0],
-                                              i / kChunkBricks[0] % kChunkBricks[1],
-                                              i / kChunkBricks[0] / kChunkBricks[1]};
-        for (int bit = 0; bit < int{kChunksAround}; ++bit) {
-            const std::array<int, 3> d{bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
-            int below = 0; // axes along which only a neighbor's normal needs it
-            bool reached = true;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                below += d[axis] < 0 ? 1 : 0;
-                reached = reached && (d[axis] == 0 || (d[axis] < 0 && at[axis] == 0) ||
-                                      (d[axis] > 0 && at[axis] + 1 == kChunkBricks[axis]));
-            }
-            if (reached && below <= (normals ? 1 : 0))
-                around[i] |= 1u << bit;
-        }
-    }
-    return around;
-}
-constexpr ChunksOfBricks kChunksOfBrick = chunks_of_bricks(false),
-                         kWithNormals = chunks_of_bricks(true);
-
 /// By brick of a chunk: where in the chunk its cells lie.
 constexpr std::array<SidesOfCells, kBricksOfChunk> kSidesOfBrick = [] {
     std::array<SidesOfCells, kBricksOfChunk> sides{};
@@ -73,11 +45,12 @@ LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
             tables_[i] = step.layer(layer + i - 1);
     chunks_ = step.cube_chunks(layer, places_, stop);
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        bricks_.push_back(bricks_of(chunks_[i]->bricks, cut));
+        bricks_.push_back(index::bricks_of(chunks_[i]->bricks, cut));
         if (staying)
             bricks_.back() &= bricks_at(staying->others(layer, places_[i]));
         const auto [x, y] = grid.at(places_[i]);
-        const ChunksAround around = joined(bricks_[i], normals ? kWithNormals : kChunksOfBrick);
+        const ChunksAround around =
+            joined(bricks_[i], normals ? kChunksOfBrickWithNormals : kChunksOfBrick);
         for_each_around(around & ~(1u << kOwnChunk), {x, y, layer}, grid,
                         [&](unsigned bit, std::uint32_t cx, std::uint32_t cy, std::uint32_t) {
                             around_[bit / 9].push_back(grid.place(cx, cy));
@@ -96,13 +69,6 @@ LayerCandidates::LayerCandidates(const StepView& step, std::uint32_t layer,
             step.expect(layer + i - 1, places);
     }
     time_ = std::chrono::steady_clock::now() - started;
-}
-
-BricksOfChunk LayerCandidates::bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut) {
-    BricksOfChunk bits = 0;
-    for (std::uint32_t i = 0; i < kBricksOfChunk; ++i)
-        bits |= (may_hold(bricks[i], bricks[kBricksOfChunk + i], cut) ? 1u : 0u) << i;
-    return bits;
 }
 
 std::vector<std::uint32_t> LayerCandidates::places_of(const ChunkLayer& table,

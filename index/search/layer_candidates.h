@@ -3,6 +3,7 @@
 #pragma once
 
 #include "index/file/step_view.h"
+#include "index/search/brick_reach.h"
 #include "index/search/chunk_reach.h"
 #include "index/search/staying_cells.h"
 #include "index/volume/level_map.h"
@@ -17,10 +18,6 @@
 #include <vector>
 
 namespace isochron::index {
-
-/// A set of bricks of a chunk: bit i is brick i in the order of `ChunkBricks`.
-using BricksOfChunk = std::uint32_t;
-static_assert(kBricksOfChunk == 32);
 
 /// Whether a chunk, given by its layer and its place, is to be searched; empty: all are.
 using ChunkFilter = std::function<bool(std::uint32_t layer, std::uint32_t place)>;
@@ -50,8 +47,6 @@ class LayerCandidates {
     static bool may_hold(std::uint8_t low, std::uint8_t high, const LevelMap::Cut& cut) {
         return cut.may_hold(low, high);
     }
-    /// The bricks that may hold active cells.
-    static BricksOfChunk bricks_of(const ChunkBricks& bricks, const LevelMap::Cut& cut);
     /// The bricks of a chunk that hold the cells at these places.
     static BricksOfChunk bricks_at(SidesOfCells sides);
 

@@ -136,7 +136,7 @@ void WholeLayers::decode(const RecordPiece& piece, StepSlab& slab) {
         }
         const bool may_hold =
             LayerCandidates::may_hold(piece.table->low[place], piece.table->high[place], cut_);
-        slab.put(chunk, place, may_hold ? LayerCandidates::bricks_of(chunk.bricks, cut_) : 0);
+        slab.put(chunk, place, may_hold ? bricks_of(chunk.bricks, cut_) : 0);
     }
 }
 

@@ -20,14 +20,14 @@ using Steps = std::vector<std::vector<std::string>>;
 /// From the front to the back: a wing may include those of the steps that come after its own.
 const std::map<std::string, Steps> kOrder{
     {"app",
-     {{"main", "python"},
+     {{"main", "python", "web"},
       {"commands"},
       {"explore"},
       {"loop"},
       {"session", "indexing", "generate"},
       {"choice", "kept"},
       {"panel", "output"},
-      {"scene", "cluster", "control"},
+      {"scene", "cluster", "control", "serve"},
       {"quality"},
       {"frame"},
       {"config", "command_line"},

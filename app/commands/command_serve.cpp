@@ -1,0 +1,168 @@
+// `isochron serve`: indices on a web page, for this machine or for others; or as plain files for any
+// web server.
+#include "app/command_line/cancel.h"
+#include "app/command_line/subcommands.h"
+#include "app/control/control_address.h"
+#include "app/indexing/open_index.h"
+#include "app/safe_text.h"
+#include "app/serve/http_server.h"
+#include "app/text.h"
+#include "index/error.h"
+#include "index/system/module.h"
+#include "index/system/new_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <poll.h>
+#include <string>
+#include <sys/eventfd.h>
+#include <unistd.h>
+#include <vector>
+
+namespace isochron::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ServeArguments {
+    std::vector<fs::path> files;
+    std::string address = "127.0.0.1";
+    std::uint32_t port = 0;
+    fs::path write_site;
+    bool no_token = false;
+};
+
+const SiteModule& site_module() {
+    return *static_cast<const SiteModule*>(
+        index::module_symbol("isochron_site", "isochron_site_module"));
+}
+
+/// Whether a folder is empty, not there yet, or one that this command has written.
+bool is_own(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::exists(folder, error))
+        return true;
+    if (!fs::is_directory(folder, error))
+        return false;
+    if (fs::is_empty(folder, error))
+        return true;
+    std::ifstream list(folder / "site.json");
+    std::string words(64, '\0');
+    list.read(words.data(), static_cast<std::streamsize>(words.size()));
+    return words.find("\"isochron site\"") != std::string::npos;
+}
+
+void write_site(const ServeArguments& arguments) {
+    const fs::path& folder = arguments.write_site;
+    if (!is_own(folder))
+        throw index::Error(fmt::format("{}: expected a new or empty folder, or one that `isochron "
+                                       "serve --write-site` wrote; nothing is written",
+                                       folder.string()));
+    std::uintmax_t bytes = 0;
+    for (const fs::path& file : arguments.files)
+        bytes += fs::file_size(file);
+    print_safely("writing {}: {}\n", folder.string(), human_bytes(static_cast<double>(bytes)));
+    const CancelOnSignal signals;
+    fs::create_directories(folder);
+    for (const fs::path& file : arguments.files) {
+        signals.check();
+        const fs::path copy = folder / file.filename();
+        if (fs::exists(copy) && fs::equivalent(copy, file))
+            continue;
+        index::NewFile out(copy);
+        std::ifstream in(file, std::ios::binary);
+        std::vector<char> block(4 << 20);
+        for (std::uint64_t at = 0; in; signals.check()) {
+            in.read(block.data(), static_cast<std::streamsize>(block.size()));
+            const auto count = static_cast<std::size_t>(in.gcount());
+            out.write_at(at, std::as_bytes(std::span(block).first(count)));
+            at += count;
+        }
+        out.commit();
+    }
+    site_module().write_page(folder, arguments.files);
+    print_safely(
+        "wrote {}: put it on any web server that answers ranges; a link to its folder opens "
+        "the page\n",
+        folder.string());
+    print_safely(stderr,
+                 "isochron: note: an index holds the names of its source files and their notes "
+                 "(isochron info shows them)\n");
+}
+
+/// Waits without using the processor.
+void wait_for_signal() {
+    struct Event {
+        int file = eventfd(0, EFD_CLOEXEC);
+        ~Event() { close(file); }
+    };
+    const auto event = std::make_shared<const Event>();
+    const WakeOnSignal wake(event, [](const void* who) {
+        const std::uint64_t one = 1;
+        [[maybe_unused]] const auto written =
+            write(static_cast<const Event*>(who)->file, &one, sizeof one);
+    });
+    pollfd ready{event->file, POLLIN, 0};
+    while (!CancelOnSignal::received())
+        poll(&ready, 1, -1);
+}
+
+void run_serve(const ServeArguments& arguments) {
+    for (const fs::path& file : arguments.files)
+        if (open_index(file)->referral())
+            throw index::Error(
+                fmt::format("{}: has no copy of its values (it was built with --refer); "
+                            "isochron build {} -o NEW.isochron makes one that has",
+                            file.string(), file.string()));
+    if (!arguments.write_site.empty())
+        return write_site(arguments);
+    const std::string token = arguments.no_token ? "" : new_control_token();
+    const CancelOnSignal signals;
+    const auto server =
+        site_module().serve({.files = arguments.files, .token = token, .hosts = {}},
+                            {arguments.address, static_cast<std::uint16_t>(arguments.port)});
+    const bool all = arguments.address == "0.0.0.0" || arguments.address == "::";
+    const std::string host = all ? "THIS-MACHINE"
+                             : arguments.address.find(':') != std::string::npos
+                                 ? "[" + arguments.address + "]"
+                                 : arguments.address;
+    print_safely("http://{}:{}/{}\n", host, server->port(), token.empty() ? "" : "#token=" + token);
+    std::fflush(stdout);
+    print_safely(stderr, "isochron: serving until Ctrl+C\n");
+    wait_for_signal();
+}
+
+} // namespace
+
+void add_serve(Command& program) {
+    auto arguments = std::make_shared<ServeArguments>();
+    Command command = program.subcommand(
+        "serve", "Show indices on a web page, to browsers on this machine or on others.");
+    command.examples(
+        {"isochron serve run42.isochron", "isochron serve --write-site site/ run42.isochron"});
+    command.option("files", arguments->files, "Indices; the page shows the first")
+        .required()
+        .type_name("NAME.isochron");
+    command
+        .option("--address", arguments->address,
+                "Address to listen on: 0.0.0.0 lets all machines of the network ask")
+        .shows_default();
+    command.option("--port", arguments->port, "Port to listen on (default: one that is free)")
+        .between(0u, 65535u);
+    command.flag(
+        "--no-token", arguments->no_token,
+        "Let everybody who reaches the address open it, without the token of the printed link");
+    command
+        .option(
+            "--write-site", arguments->write_site,
+            "Write page and indices into this folder instead, as plain files for any web server")
+        .type_name("FOLDER");
+    command.footer(
+        "The page reads ranges of the files and searches in the browser; the server only sends "
+        "bytes of these files. docs/guide/sharing.md says what other servers need.");
+    command.on_run([arguments] { run_serve(*arguments); });
+}
+
+} // namespace isochron::app

@@ -1,0 +1,327 @@
+// What the page computes as WebAssembly: checks and unpacks chunks, finds cells, and makes triangles,
+// by the program's own sources.
+//
+// One array of an index at one level of detail is a Volume. Whoever calls gives and takes places in
+// the module's memory, from `take`.
+#include "index/file/chunks/chunk_codec.h"
+#include "index/file/chunks/chunk_grid.h"
+#include "index/file/chunks/chunk_table.h"
+#include "index/file/sections/file_layout.h"
+#include "index/file/sections/step_levels.h"
+#include "index/scan/scan.h"
+#include "index/search/brick_reach.h"
+#include "index/surface/mesh_maker.h"
+#include "index/volume/level_map.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#define EXPORT(name) __attribute__((export_name(name)))
+
+namespace isochron::index {
+
+std::uint64_t checksum_of(std::span<const std::byte> bytes) {
+    return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+} // namespace isochron::index
+
+/// Nothing of a thread is destroyed: the module has one, which does not end.
+extern "C" int __cxa_thread_atexit(void (*)(void*), void*, void*) {
+    return 0;
+}
+
+namespace isochron::web {
+
+using namespace isochron::index;
+
+/// What the page says of a volume; numbers of the page are doubles.
+struct Description {
+    double type, slope, intercept;
+    std::array<double, 3> vertices, spacing;
+    std::array<double, 9> direction; ///< column after column
+    double has_bricks, has_since;
+};
+
+/// The surface of one chunk.
+struct Surface {
+    std::vector<CellId> ids; ///< cells of the cube
+    MeshPart mesh;
+    std::vector<std::uint16_t> cells; ///< x, y, z of each cell in the grid
+    std::vector<float> points, normals;
+};
+
+struct Volume {
+    explicit Volume(const Description& of, const Grid& grid_of)
+        : grid(grid_of), type(static_cast<ValueType>(of.type)), scaling{of.slope, of.intercept},
+          chunks(grid), has_bricks(of.has_bricks != 0), has_since(of.has_since != 0) {}
+
+    Grid grid;
+    ValueType type;
+    Scaling scaling;
+    ChunkGrid chunks;
+    bool has_bricks, has_since;
+    std::optional<LevelMap> levels;
+    double isovalue = 0;
+    std::optional<LevelMap::Cut> cut;
+    MeshMaker maker;
+    std::vector<std::byte> cube;
+    Surface surface;
+
+    std::size_t head_bytes() const {
+        return sizeof(RecordChecksum) + (has_bricks ? sizeof(ChunkBricks) : 0);
+    }
+};
+
+Grid grid_of(const Description& of, const double* positions) {
+    Grid grid;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        grid.vertices[k] = static_cast<std::uint32_t>(of.vertices[k]);
+        grid.spacing[axis] = of.spacing[k];
+        for (int row = 0; row < 3; ++row)
+            grid.direction[axis][row] = of.direction[3 * k + static_cast<std::size_t>(row)];
+    }
+    // The number of distances along each axis, 0 where they are even, then the distances.
+    const double* at = positions + 3;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto count = static_cast<std::size_t>(positions[axis]);
+        if (count > 0)
+            grid.positions[axis] = AxisPositions(std::vector<double>(at, at + count));
+        at += count;
+    }
+    return grid;
+}
+
+/// The part of the grid that a chunk's cells and their normals need, along an axis.
+struct Reach {
+    std::uint32_t first, end;
+};
+Reach reach_of(const Volume& volume, std::size_t axis, std::uint32_t chunk) {
+    const std::uint32_t begin = chunk * kChunkEdge;
+    return {begin - (begin > 0 ? 1 : 0),
+            std::min(begin + kChunkEdge + 2, volume.grid.vertices[axis])};
+}
+
+/// Copies what a neighboring chunk has of the cube.
+void copy_to_cube(Volume& volume, const std::array<Reach, 3>& reach,
+                  const std::array<std::uint32_t, 3>& chunk, const std::byte* values) {
+    const std::size_t word = size_of(volume.type);
+    std::array<std::uint32_t, 3> begin, end, size;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t first = chunk[axis] * kChunkEdge;
+        size[axis] = std::min(kChunkEdge, volume.grid.vertices[axis] - first);
+        begin[axis] = std::max(reach[axis].first, first);
+        end[axis] = std::min(reach[axis].end, first + size[axis]);
+        if (begin[axis] >= end[axis])
+            return;
+    }
+    const std::size_t row = reach[0].end - reach[0].first,
+                      plane = row * (reach[1].end - reach[1].first);
+    for (std::uint32_t z = begin[2]; z < end[2]; ++z)
+        for (std::uint32_t y = begin[1]; y < end[1]; ++y) {
+            const std::size_t from =
+                (std::size_t{z - chunk[2] * kChunkEdge} * size[1] + y - chunk[1] * kChunkEdge) *
+                    size[0] +
+                begin[0] - chunk[0] * kChunkEdge;
+            const std::size_t to = (z - reach[2].first) * plane + (y - reach[1].first) * row +
+                                   begin[0] - reach[0].first;
+            std::memcpy(volume.cube.data() + to * word, values + from * word,
+                        (end[0] - begin[0]) * word);
+        }
+}
+
+EXPORT("take") void* take(std::size_t bytes) {
+    return std::aligned_alloc(64, (bytes + 63) / 64 * 64);
+}
+EXPORT("give") void give(void* memory) {
+    std::free(memory);
+}
+
+/// XXH3-64 of bytes, as two numbers of 32 bits.
+EXPORT("checksum") void checksum(const std::byte* bytes, std::size_t count, std::uint32_t* out) {
+    const std::uint64_t sum = checksum_of({bytes, count});
+    out[0] = static_cast<std::uint32_t>(sum);
+    out[1] = static_cast<std::uint32_t>(sum >> 32);
+}
+
+EXPORT("volume") Volume* volume(const Description* of, const double* positions) {
+    return new Volume(*of, grid_of(*of, positions));
+}
+EXPORT("close") void close(Volume* volume) {
+    delete volume;
+}
+
+/// The place of a chunk in its layer.
+EXPORT("place") std::uint32_t place(const Volume* volume, std::uint32_t x, std::uint32_t y) {
+    return volume->chunks.place(x, y);
+}
+/// Chunk coordinates x + 65536 y of a place.
+EXPORT("at") std::uint32_t at(const Volume* volume, std::uint32_t place) {
+    const auto [x, y] = volume->chunks.at(place);
+    return x | y << 16;
+}
+/// Bytes of the values of a chunk.
+EXPORT("chunk_bytes")
+std::uint32_t chunk_bytes(const Volume* volume, std::uint32_t layer, std::uint32_t place) {
+    const auto [x, y, z] = volume->chunks.size(layer, place);
+    return static_cast<std::uint32_t>(x * y * z * size_of(volume->type));
+}
+EXPORT("table_bytes") std::uint32_t table_bytes(const Volume* volume) {
+    return static_cast<std::uint32_t>(
+        layer_table_bytes(volume->chunks.chunks_of_layer(), volume->has_since));
+}
+
+/// Sets the levels of a step's bricks. @param bytes of the file; none for types of one byte
+/// @return 0 if they are damaged
+EXPORT("set_levels") int set_levels(Volume* volume, const std::byte* bytes, std::size_t count) {
+    volume->levels = has_step_levels(volume->type)
+                         ? step_levels(volume->type, {bytes, count})
+                         : std::optional<LevelMap>(LevelMap::of_type(volume->type));
+    return volume->levels ? 1 : 0;
+}
+/// Sets the isovalue, after the levels. @return 0: no cell is active
+EXPORT("set_isovalue") int set_isovalue(Volume* volume, double isovalue) {
+    volume->isovalue = isovalue;
+    volume->cut = volume->levels->cut(volume->scaling, isovalue);
+    return volume->cut ? 1 : 0;
+}
+
+/// The chunks of a layer that may hold active cells. @param table of the layer, as in the file
+/// @param out gets their places, ascending @return their number; -1: the checksum does not match
+EXPORT("candidates")
+int candidates(const Volume* volume, const std::byte* table, std::uint32_t* out) {
+    LayerHead head;
+    std::memcpy(&head, table, sizeof head);
+    if (checksum_of({table + sizeof head.checksum, table_bytes(volume) - sizeof head.checksum}) !=
+        head.checksum)
+        return -1;
+    const std::size_t size = volume->has_since ? sizeof(ChunkEntry) : kEntryWithoutSince;
+    int count = 0;
+    for (std::uint32_t i = 0; i < volume->chunks.chunks_of_layer(); ++i) {
+        ChunkEntry entry;
+        std::memcpy(&entry, table + sizeof head + i * size, size);
+        if (volume->cut && volume->cut->may_hold(entry.low, entry.high))
+            out[count++] = i;
+    }
+    return count;
+}
+
+/// Checks a record. @return 0: it is damaged
+EXPORT("check") int check(const Volume* volume, const std::byte* record, std::size_t count) {
+    RecordChecksum sum;
+    if (count < volume->head_bytes())
+        return 0;
+    std::memcpy(&sum, record, sizeof sum);
+    return static_cast<RecordChecksum>(checksum_of({record + sizeof sum, count - sizeof sum})) ==
+           sum;
+}
+/// Unpacks the values of a record that has been checked. @return 0: it is damaged
+EXPORT("unpack")
+int unpack(const Volume* volume, std::uint32_t layer, std::uint32_t place, const std::byte* record,
+           std::size_t count, std::byte* out) {
+    const std::size_t head = volume->head_bytes();
+    return unpack_chunk(volume->type, volume->chunks.size(layer, place),
+                        {record + head, count - head}, {out, chunk_bytes(volume, layer, place)});
+}
+/// The bricks of a record that may hold active cells, and in `around` the chunks that they need.
+EXPORT("bricks")
+std::uint32_t bricks(const Volume* volume, const std::byte* record, std::uint32_t* around) {
+    ChunkBricks found;
+    std::memcpy(found.data(), record + sizeof(RecordChecksum), sizeof found);
+    const BricksOfChunk bits = volume->cut ? bricks_of(found, *volume->cut) : 0;
+    *around = joined(bits, kChunksOfBrickWithNormals);
+    return bits;
+}
+
+/// Finds the active cells of a chunk, and makes their triangles.
+/// @param of_bricks its bricks that may hold active cells
+/// @param around values of the chunks around it by their bit (index/search/chunk_reach.h); null: not needed
+/// @return number of cells
+EXPORT("find")
+std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
+                   std::uint32_t of_bricks, const std::byte* const* around) {
+    const auto [cx, cy] = volume->chunks.at(place);
+    const std::array<std::uint32_t, 3> chunk{cx, cy, layer};
+    std::array<Reach, 3> reach;
+    std::array<std::uint32_t, 3> first, end;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        reach[axis] = reach_of(*volume, axis, chunk[axis]);
+        first[axis] = reach[axis].first;
+        end[axis] = reach[axis].end;
+    }
+    const std::size_t values =
+        std::size_t{end[0] - first[0]} * (end[1] - first[1]) * (end[2] - first[2]);
+    volume->cube.assign(values * size_of(volume->type), std::byte{0});
+    for (std::uint32_t bit = 0; bit < kChunksAround; ++bit)
+        if (around[bit])
+            copy_to_cube(*volume, reach,
+                         {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
+                         around[bit]);
+    const StepValues cube{.grid = volume->grid.part(first, end),
+                          .type = volume->type,
+                          .scaling = volume->scaling,
+                          .steps = 1,
+                          .first = volume->cube.data()};
+    const Query query{Instant(0), volume->isovalue};
+    Surface& made = volume->surface;
+    made.ids.clear();
+    scan(cube, query, made.ids);
+    made.cells.clear();
+    std::erase_if(made.ids, [&](CellId id) {
+        const auto local = cube.grid.cell_of(id);
+        std::array<std::uint32_t, 3> in_chunk;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            in_chunk[axis] = local[axis] + first[axis] - chunk[axis] * kChunkEdge; // wraps below
+        if (in_chunk[0] >= kChunkEdge || in_chunk[1] >= kChunkEdge || in_chunk[2] >= kChunkEdge)
+            return true;
+        const std::uint32_t brick =
+            in_chunk[0] / BrickGrid::kCells[0] +
+            kChunkBricks[0] * (in_chunk[1] / BrickGrid::kCells[1] +
+                               kChunkBricks[1] * (in_chunk[2] / BrickGrid::kCells[2]));
+        if (!(of_bricks >> brick & 1))
+            return true;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            made.cells.push_back(static_cast<std::uint16_t>(local[axis] + first[axis]));
+        return false;
+    });
+    volume->maker.make(cube, query, made.ids, made.mesh);
+    made.points.clear();
+    made.normals.clear();
+    for (const MeshVertex& vertex : made.mesh.vertices) {
+        const glm::dvec3 local = position_of(vertex);
+        const Grid& grid = volume->grid;
+        const glm::dvec3 to = grid.direction * glm::dvec3(grid.distance(0, local.x + first[0]),
+                                                          grid.distance(1, local.y + first[1]),
+                                                          grid.distance(2, local.z + first[2]));
+        const glm::dvec3 normal = normal_of(vertex);
+        for (int axis = 0; axis < 3; ++axis) {
+            made.points.push_back(static_cast<float>(to[axis]));
+            made.normals.push_back(static_cast<float>(normal[axis]));
+        }
+    }
+    return static_cast<std::uint32_t>(made.ids.size());
+}
+
+/// What `find` has found: cells, points, normals, triangles as places in memory, then how many points
+/// and how many triangles.
+EXPORT("found") void found(const Volume* volume, std::uint32_t* out) {
+    const Surface& made = volume->surface;
+    const auto place_of = [](const void* memory) {
+        return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
+    };
+    out[0] = place_of(made.cells.data());
+    out[1] = place_of(made.points.data());
+    out[2] = place_of(made.normals.data());
+    out[3] = place_of(made.mesh.triangles.data());
+    out[4] = static_cast<std::uint32_t>(made.points.size() / 3);
+    out[5] = static_cast<std::uint32_t>(made.mesh.triangles.size() / 3);
+}
+
+} // namespace isochron::web

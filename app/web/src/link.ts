@@ -1,0 +1,47 @@
+// The state in the link: settings alone, no paths but the name of the file beside the page.
+
+export interface Linked {
+  file?: string;
+  array?: number;
+  step?: number;
+  isovalue?: number;
+  view?: number[];
+  color?: string;
+  opacity?: number;
+  background?: string;
+}
+
+const numberOf = (text: string | null): number | undefined => {
+  const value = text === null || text === "" ? NaN : Number(text);
+  return Number.isFinite(value) ? value : undefined;
+};
+
+/** What a link says; anything else in it is ignored. */
+export function linked(hash: string): Linked {
+  const words = new URLSearchParams(hash.replace(/^#/, ""));
+  const state: Linked = {};
+  const file = words.get("file");
+  // A name beside the page: no folder, no other server.
+  if (file && /^[^/\\:?#]+$/.test(file) && !file.startsWith(".")) state.file = file;
+  for (const name of ["array", "step"] as const) {
+    const value = numberOf(words.get(name));
+    if (value !== undefined && Number.isInteger(value) && value >= 0) state[name] = value;
+  }
+  state.isovalue = numberOf(words.get("isovalue"));
+  const opacity = numberOf(words.get("opacity"));
+  if (opacity !== undefined && opacity > 0 && opacity <= 1) state.opacity = opacity;
+  const view = (words.get("view") ?? "").split(",").map(Number);
+  if (view.length === 6 && view.every(Number.isFinite)) state.view = view;
+  for (const name of ["color", "background"] as const) {
+    const value = words.get(name);
+    if (value && /^#[0-9a-f]{6}$/i.test(value)) state[name] = value;
+  }
+  return state;
+}
+
+export function linkOf(state: Linked): string {
+  const words = new URLSearchParams();
+  for (const [name, value] of Object.entries(state) as [string, unknown][])
+    if (value !== undefined) words.set(name, Array.isArray(value) ? value.map((n: number) => +n.toPrecision(6)).join(",") : String(value));
+  return `#${words.toString()}`;
+}

@@ -1,0 +1,27 @@
+// What the page and its worker say to each other.
+import type { Info } from "./reader/index_file";
+
+/** What is shown: one surface at one step. */
+export interface Asked {
+  array: number;
+  step: number;
+  isovalue: number;
+}
+
+export type ToWorker =
+  | { kind: "open"; address: string; headers: Record<string, string> }
+  /** @param coarsest levels to show, the coarsest first, the finest at last: 0 is the volume itself */
+  | { kind: "find"; number: number; asked: Asked; levels: number[] };
+
+/** A surface, in arrays that are handed over. */
+export interface Found {
+  points: Float32Array;
+  normals: Float32Array;
+  triangles: Uint32Array;
+  cells: number;
+}
+
+export type FromWorker =
+  | { kind: "opened"; arrays: Info[]; levels: number }
+  | { kind: "found"; number: number; asked: Asked; level: number; found: Found; last: boolean; requests: number; bytes: number }
+  | { kind: "failed"; number: number; words: string };

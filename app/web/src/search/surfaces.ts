@@ -1,0 +1,254 @@
+// The surface of an isovalue at a step: which chunks hold it, what they need, their cells and triangles.
+import type { ArrayOfIndex, IndexFile, StepEntry } from "../reader/index_file";
+import { TYPES } from "../reader/index_file";
+import type { Range } from "../reader/ranges";
+
+const AROUND = 27;
+const OWN = 13;
+const ALL_BRICKS = 0xffffffff;
+const ALL_AROUND = 0x7ffffff;
+/** Values of chunks that are kept unpacked, in bytes. */
+const MOST_KEPT = 256 << 20;
+
+/** The triangles of one chunk; what the arrays hold is copied out of the module. */
+export interface Piece {
+  /** x, y, z of each active cell. */
+  cells: Uint16Array;
+  /** x, y, z of each point in physical space, less the grid's origin. */
+  points: Float32Array;
+  /** Of length 1, towards lower values. */
+  normals: Float32Array;
+  triangles: Uint32Array;
+}
+
+/** The table of a layer of chunks. */
+interface Table {
+  bytes: Uint8Array;
+  /** Of each record, then the end of the last one. */
+  offsets: number[];
+  since: number[];
+}
+
+interface Kept {
+  place: number;
+  bytes: number;
+  used: number;
+}
+
+/** One array at one level of detail, as the module knows it. */
+export class Surfaces {
+  private readonly volume: number;
+  private readonly counts: [number, number, number];
+  private readonly tables = new Map<string, Table>();
+  private readonly levelsOfStep = new Map<number, Uint8Array>();
+  private readonly records = new Map<string, Uint8Array>();
+  private readonly kept = new Map<string, Kept>();
+  private keptBytes = 0;
+  private clock = 0;
+
+  constructor(
+    private readonly file: IndexFile,
+    readonly array: ArrayOfIndex,
+    readonly level: number,
+  ) {
+    const { calls } = file.module;
+    const { info } = array;
+    const grid = array.levels[level]!;
+    this.counts = grid.vertices.map((n) => Math.ceil(n / 16)) as [number, number, number];
+    const words = [
+      TYPES.indexOf(info.type), info.slope, info.intercept, ...grid.vertices, ...grid.spacing, ...info.direction.flat(),
+      info.hasBricks ? 1 : 0, file.hasSince ? 1 : 0,
+    ];
+    const positions = [...grid.positions.map((at) => at.length), ...grid.positions.flat()];
+    const put = (of: number[]) => file.module.put(new Uint8Array(Float64Array.from(of).buffer));
+    const [description, places] = [put(words), put(positions)];
+    this.volume = calls.volume(description, places);
+    file.module.give(description);
+    file.module.give(places);
+  }
+
+  close(): void {
+    for (const { place } of this.kept.values()) this.file.module.give(place);
+    this.kept.clear();
+    this.file.module.calls.close(this.volume);
+  }
+
+  private entry(step: number): StepEntry {
+    return this.array.entries[this.level * this.file.steps + step]!;
+  }
+  private damaged(step: number, what: string): Error {
+    return new Error(`${this.file.source.name}: damaged: ${this.array.info.array}, step ${step}: ${what}`);
+  }
+
+  /** Reads the tables and the levels of a step: they lie together behind its records. */
+  private async readTables(step: number, stop?: AbortSignal): Promise<void> {
+    if (this.levelsOfStep.has(step)) return;
+    const entry = this.entry(step);
+    const [bytes] = await this.file.source.read([{ begin: entry.offset + entry.tables, end: entry.offset + entry.bytes }], stop);
+    const length = this.file.module.calls.table_bytes(this.volume);
+    const size = this.file.hasSince ? 8 : 4;
+    for (let layer = 0; layer < this.counts[2]; ++layer) {
+      const own = bytes!.subarray(layer * length, (layer + 1) * length);
+      if (own.length !== length) throw this.damaged(step, "tables are missing");
+      const view = new DataView(own.buffer, own.byteOffset, own.length);
+      let end = entry.offset + Number(view.getBigUint64(8, true));
+      const table: Table = { bytes: own, offsets: [], since: [] };
+      for (let at = 16; at < length; at += size) {
+        table.offsets.push(end);
+        table.since.push(this.file.hasSince ? view.getUint32(at + 4, true) : step);
+        end += view.getUint16(at, true);
+      }
+      table.offsets.push(end);
+      if (end > entry.offset + entry.tables) throw this.damaged(step, `layer ${layer} lies outside its step`);
+      this.tables.set(`${step} ${layer}`, table);
+    }
+    this.levelsOfStep.set(step, bytes!.subarray(this.counts[2] * length));
+  }
+
+  /** Reads records that are not at hand, and checks them. */
+  private async readRecords(step: number, wanted: readonly (readonly [layer: number, place: number])[], stop?: AbortSignal): Promise<void> {
+    const missing = wanted.filter(([layer, place]) => !this.records.has(`${step} ${layer} ${place}`));
+    const ranges = missing.map(([layer, place]): Range => {
+      const { offsets } = this.tables.get(`${step} ${layer}`)!;
+      return { begin: offsets[place]!, end: offsets[place + 1]! };
+    });
+    const { module } = this.file;
+    const found = ranges.length ? await this.file.source.read(ranges, stop) : [];
+    found.forEach((bytes, i) => {
+      const [layer, place] = missing[i]!;
+      const at = module.put(bytes);
+      const sound = module.calls.check(this.volume, at, bytes.length);
+      module.give(at);
+      if (!sound) throw this.damaged(step, `chunk ${place} of layer ${layer}: its checksum does not match`);
+      this.records.set(`${step} ${layer} ${place}`, bytes);
+    });
+  }
+
+  /** Where the values of a chunk lie: at an earlier step, since which they have stayed. */
+  private home(step: number, layer: number, place: number): number {
+    const table = this.tables.get(`${step} ${layer}`)!;
+    const head = 4 + (this.array.info.hasBricks ? 64 : 0);
+    const bytes = table.offsets[place + 1]! - table.offsets[place]!;
+    const since = table.since[place]!;
+    return since < step && bytes === head ? since : step;
+  }
+
+  /** Unpacks a chunk whose record is at hand. @return its place in the module's memory */
+  private unpacked(step: number, layer: number, place: number): number {
+    const key = `${step} ${layer} ${place}`;
+    const known = this.kept.get(key);
+    if (known) {
+      known.used = ++this.clock;
+      return known.place;
+    }
+    const { module } = this.file;
+    const record = this.records.get(key)!;
+    const bytes = module.calls.chunk_bytes(this.volume, layer, place);
+    const out = module.take(bytes);
+    const at = module.put(record);
+    const sound = module.calls.unpack(this.volume, layer, place, at, record.length, out);
+    module.give(at);
+    if (!sound) {
+      module.give(out);
+      throw this.damaged(step, `chunk ${place} of layer ${layer}: it cannot be unpacked`);
+    }
+    this.kept.set(key, { place: out, bytes, used: ++this.clock });
+    this.keptBytes += bytes;
+    return out;
+  }
+
+  /** Forgets what was used longest ago. Not while a search holds places of memory. */
+  private forget(): void {
+    if (this.keptBytes <= MOST_KEPT) return;
+    const oldest = [...this.kept.entries()].sort((a, b) => a[1].used - b[1].used);
+    for (const [key, { place, bytes }] of oldest) {
+      if (this.keptBytes <= MOST_KEPT / 2) break;
+      this.file.module.give(place);
+      this.kept.delete(key);
+      this.records.delete(key);
+      this.keptBytes -= bytes;
+    }
+  }
+
+  /** The surface at a step, piece by piece. One search at a time. */
+  async find(step: number, isovalue: number, take: (piece: Piece) => void, stop?: AbortSignal): Promise<void> {
+    const { module } = this.file;
+    const { calls } = module;
+    await this.readTables(step, stop);
+    const levels = this.levelsOfStep.get(step)!;
+    const levelsAt = module.put(levels);
+    const sound = calls.set_levels(this.volume, levelsAt, levels.length);
+    module.give(levelsAt);
+    if (!sound) throw this.damaged(step, "the levels of its bricks");
+    if (!calls.set_isovalue(this.volume, isovalue)) return;
+
+    // Candidates of all layers, then the chunks that their bricks need.
+    const out = module.take(4 * this.counts[0] * this.counts[1]);
+    const candidates: [number, number][] = [];
+    for (let layer = 0; layer < this.counts[2]; ++layer) {
+      const table = module.put(this.tables.get(`${step} ${layer}`)!.bytes);
+      const count = calls.candidates(this.volume, table, out);
+      module.give(table);
+      if (count < 0) throw this.damaged(step, `the checksum of the table of layer ${layer} does not match`);
+      for (const place of module.words(out, count)) candidates.push([layer, place]);
+    }
+    module.give(out);
+    await this.readRecords(step, candidates, stop);
+    const around = module.take(4);
+    const asked: { layer: number; place: number; bricks: number; needs: [bit: number, layer: number, place: number][] }[] = [];
+    const needed = new Map<string, [number, number]>();
+    for (const [layer, place] of candidates) {
+      let bricks = ALL_BRICKS;
+      let reach = ALL_AROUND;
+      if (this.array.info.hasBricks) {
+        const record = module.put(this.records.get(`${step} ${layer} ${place}`)!.subarray(0, 68));
+        bricks = calls.bricks(this.volume, record, around) >>> 0;
+        reach = module.words(around, 1)[0]! | (1 << OWN);
+        module.give(record);
+      }
+      if (bricks === 0) continue;
+      const at = calls.at(this.volume, place);
+      const needs: [number, number, number][] = [];
+      for (let bit = 0; bit < AROUND; ++bit) {
+        const to = [(at & 0xffff) + (bit % 3) - 1, (at >>> 16) + (Math.floor(bit / 3) % 3) - 1, layer + Math.floor(bit / 9) - 1];
+        if (!((reach >>> bit) & 1) || to.some((n, axis) => n < 0 || n >= this.counts[axis]!)) continue;
+        const other = calls.place(this.volume, to[0]!, to[1]!);
+        needs.push([bit, to[2]!, other]);
+        needed.set(`${to[2]} ${other}`, [to[2]!, other]);
+      }
+      asked.push({ layer, place, bricks, needs });
+    }
+    module.give(around);
+    // Values may lie in records of earlier steps, whose tables are read first.
+    const byHome = new Map<number, [number, number][]>();
+    for (const chunk of needed.values()) {
+      const home = this.home(step, ...chunk);
+      byHome.set(home, [...(byHome.get(home) ?? []), chunk]);
+    }
+    await Promise.all([...byHome.keys()].map((home) => this.readTables(home, stop)));
+    await Promise.all([...byHome].map(([home, chunks]) => this.readRecords(home, chunks, stop)));
+
+    const pointers = module.take(4 * AROUND);
+    const found = module.take(24);
+    for (const { layer, place, bricks, needs } of asked) {
+      stop?.throwIfAborted();
+      const places = new Uint32Array(AROUND);
+      for (const [bit, toLayer, to] of needs) places[bit] = this.unpacked(this.home(step, toLayer, to), toLayer, to);
+      module.words(pointers, AROUND).set(places);
+      const count = calls.find(this.volume, layer, place, bricks, pointers);
+      if (count === 0) continue;
+      calls.found(this.volume, found);
+      const [cells, points, normals, triangles, pointCount, triangleCount] = module.words(found, 6) as unknown as [number, number, number, number, number, number];
+      const memory = calls.memory.buffer;
+      take({
+        cells: new Uint16Array(memory, cells, 3 * count).slice(),
+        points: new Float32Array(memory, points, 3 * pointCount).slice(),
+        normals: new Float32Array(memory, normals, 3 * pointCount).slice(),
+        triangles: new Uint32Array(memory, triangles, 3 * triangleCount).slice(),
+      });
+    }
+    module.give(pointers);
+    module.give(found);
+    this.forget();
+  }
+}

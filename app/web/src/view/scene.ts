@@ -1,0 +1,120 @@
+// The picture: the surface, its box, light and the camera that turns around them.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Found } from "../messages";
+import type { Info } from "../reader/index_file";
+
+/** Camera: place, target and zoom in one list of numbers, for links. */
+export type View = [number, number, number, number, number, number];
+
+export class Scene {
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
+  private readonly controls: OrbitControls;
+  private readonly surface: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
+  private box: THREE.LineSegments | null = null;
+  private wanted = false;
+  /** Called after the camera was moved. */
+  moved: () => void = () => {};
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener("change", () => {
+      this.draw();
+      this.moved();
+    });
+    const material = new THREE.MeshStandardMaterial({ color: 0xe8d3a0, roughness: 0.45, metalness: 0, side: THREE.DoubleSide });
+    this.surface = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    this.surface.frustumCulled = false;
+    const key = new THREE.DirectionalLight(0xffffff, 2.2);
+    key.position.set(-0.6, 0.8, 1);
+    this.camera.add(key);
+    this.scene.add(this.surface, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
+    new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  /** Shows the box of an array, and looks at it from a corner. */
+  frame(info: Info): void {
+    const size = info.vertices.map((n, axis) => info.positions[axis]!.at(-1) ?? (n - 1) * info.spacing[axis]!);
+    const columns = info.direction.map((column, axis) => new THREE.Vector3(...column).multiplyScalar(size[axis]!));
+    const corners = [...Array(8).keys()].map((bits) =>
+      columns.reduce((sum, column, axis) => (bits >> axis & 1 ? sum.add(column) : sum), new THREE.Vector3()),
+    );
+    const lines: THREE.Vector3[] = [];
+    for (let bits = 0; bits < 8; ++bits)
+      for (let axis = 0; axis < 3; ++axis) if (!(bits >> axis & 1)) lines.push(corners[bits]!, corners[bits | (1 << axis)]!);
+    if (this.box) this.scene.remove(this.box);
+    this.box = new THREE.LineSegments(
+      new THREE.BufferGeometry().setFromPoints(lines),
+      new THREE.LineBasicMaterial({ color: 0x808898, transparent: true, opacity: 0.6 }),
+    );
+    this.scene.add(this.box);
+    const bounds = new THREE.Box3().setFromPoints(corners).getBoundingSphere(new THREE.Sphere());
+    this.controls.target.copy(bounds.center);
+    this.camera.near = bounds.radius / 100;
+    this.camera.far = bounds.radius * 40;
+    this.camera.position.copy(bounds.center).add(new THREE.Vector3(-0.6, -0.85, 0.5).normalize().multiplyScalar((bounds.radius * 3.1) / Math.min(1, this.camera.aspect)));
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  get view(): View {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()] as View;
+  }
+  set view(view: View) {
+    this.camera.position.set(view[0], view[1], view[2]);
+    this.controls.target.set(view[3], view[4], view[5]);
+    this.controls.update();
+    this.draw();
+  }
+
+  show(found: Found): void {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(found.points, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(found.normals, 3));
+    geometry.setIndex(new THREE.BufferAttribute(found.triangles, 1));
+    this.surface.geometry.dispose();
+    this.surface.geometry = geometry;
+    this.draw();
+  }
+  color(color: string, opacity: number): void {
+    this.surface.material.color.set(color);
+    this.surface.material.opacity = opacity;
+    this.surface.material.transparent = opacity < 1;
+    this.surface.material.needsUpdate = true;
+    this.draw();
+  }
+  background(color: string): void {
+    this.scene.background = new THREE.Color(color);
+    this.draw();
+  }
+
+  /** The picture as PNG. */
+  picture(): Promise<Blob | null> {
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((take) => this.renderer.domElement.toBlob(take, "image/png"));
+  }
+
+  /** Draws once, with the next refresh. */
+  draw(): void {
+    if (this.wanted) return;
+    this.wanted = true;
+    requestAnimationFrame(() => {
+      this.wanted = false;
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.renderer.domElement;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}

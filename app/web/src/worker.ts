@@ -1,0 +1,81 @@
+// Reads, searches and makes triangles, beside the page. A newer wish ends the search for an older one.
+import type { FromWorker, Found, ToWorker } from "./messages";
+import { Module } from "./module";
+import { IndexFile } from "./reader/index_file";
+import { FileChanged, HttpSource } from "./reader/ranges";
+import { Surfaces, type Piece } from "./search/surfaces";
+
+const scope = self as unknown as DedicatedWorkerGlobalScope;
+let source: HttpSource;
+let file: IndexFile;
+let running: { number: number; stop: AbortController } | null = null;
+let idle: Promise<void> = Promise.resolve();
+const known = new Map<string, Surfaces>();
+
+function say(words: FromWorker, hand: Transferable[] = []): void {
+  scope.postMessage(words, hand);
+}
+
+/** Pieces of a surface as one. */
+function whole(pieces: Piece[]): Found {
+  const sum = (of: (piece: Piece) => number) => pieces.reduce((total, piece) => total + of(piece), 0);
+  const found: Found = {
+    points: new Float32Array(sum((piece) => piece.points.length)),
+    normals: new Float32Array(sum((piece) => piece.normals.length)),
+    triangles: new Uint32Array(sum((piece) => piece.triangles.length)),
+    cells: sum((piece) => piece.cells.length / 3),
+  };
+  let point = 0;
+  let corner = 0;
+  for (const piece of pieces) {
+    found.points.set(piece.points, 3 * point);
+    found.normals.set(piece.normals, 3 * point);
+    for (const number of piece.triangles) found.triangles[corner++] = number + point;
+    point += piece.points.length / 3;
+  }
+  return found;
+}
+
+async function open(address: string, headers: Record<string, string>): Promise<void> {
+  const module = await Module.load(fetch(new URL("./isochron.wasm", import.meta.url)));
+  source = new HttpSource(address, headers);
+  file = await IndexFile.open(source, module);
+  for (const surfaces of known.values()) surfaces.close();
+  known.clear();
+  say({ kind: "opened", arrays: file.arrays.map((each) => each.info), levels: file.arrays[0]!.levels.length });
+}
+
+async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal): Promise<void> {
+  const { number, asked, levels } = wish;
+  for (const level of levels) {
+    if (stop.aborted) return;
+    const key = `${asked.array} ${level}`;
+    let surfaces = known.get(key);
+    if (!surfaces) known.set(key, (surfaces = new Surfaces(file, file.arrays[asked.array]!, level)));
+    const pieces: Piece[] = [];
+    await surfaces.find(asked.step, asked.isovalue, (piece) => pieces.push(piece), stop);
+    const found = whole(pieces);
+    say(
+      { kind: "found", number, asked, level, found, last: level === levels.at(-1), requests: source.requests, bytes: source.bytes },
+      [found.points.buffer, found.normals.buffer, found.triangles.buffer],
+    );
+  }
+}
+
+function failed(number: number, error: unknown): void {
+  if (error instanceof DOMException && error.name === "AbortError") return;
+  const words = error instanceof Error ? error.message : String(error);
+  say({ kind: "failed", number, words: error instanceof FileChanged ? `${words}; open the page again` : words });
+}
+
+scope.onmessage = ({ data }: MessageEvent<ToWorker>) => {
+  if (data.kind === "open") {
+    idle = open(data.address, data.headers).catch((error: unknown) => failed(0, error));
+    return;
+  }
+  running?.stop.abort(new DOMException("a newer wish", "AbortError"));
+  const stop = new AbortController();
+  running = { number: data.number, stop };
+  // One search at a time: the module has one memory.
+  idle = idle.then(() => find(data, stop.signal)).catch((error: unknown) => failed(data.number, error));
+};

@@ -1,0 +1,106 @@
+// The page finds the cells that `isochron query` finds, in indices of all types that the program builds.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Module } from "../src/module";
+import { IndexFile, TYPES } from "../src/reader/index_file";
+import { Surfaces } from "../src/search/surfaces";
+import { FileSource } from "./file_source";
+
+const program = process.env["ISOCHRON_PROGRAM"] ?? "isochron";
+const rounds = Number(process.env["ISOCHRON_QUERIES"] ?? 6);
+let folder: string;
+let module: Module;
+
+beforeAll(async () => {
+  folder = mkdtempSync(join(tmpdir(), "isochron-web-"));
+  module = await Module.load(readFileSync(new URL("../src/isochron.wasm", import.meta.url)));
+});
+afterAll(() => rmSync(folder, { recursive: true }));
+
+/** Numbers from 0 to 1, the same in each run. */
+function random(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+const ARRAYS = {
+  i8: Int8Array, u8: Uint8Array, i16: Int16Array, u16: Uint16Array, i32: Int32Array, f32: Float32Array, f64: Float64Array,
+};
+
+/** Writes a series of raw files, parts of which stay from step to step. */
+function series(type: keyof typeof ARRAYS, size: readonly [number, number, number], steps: number, seed: number): string[] {
+  const next = random(seed);
+  const names: string[] = [];
+  for (let t = 0; t < steps; ++t) {
+    const values = new ARRAYS[type](size[0] * size[1] * size[2]);
+    let i = 0;
+    for (let z = 0; z < size[2]; ++z)
+      for (let y = 0; y < size[1]; ++y)
+        for (let x = 0; x < size[0]; ++x, ++i) {
+          const moving = x < size[0] / 2 ? 0 : t;
+          const smooth = Math.sin(0.3 * x + moving) * Math.cos(0.25 * y) + Math.sin(0.2 * z + 0.1 * y);
+          values[i] = type.startsWith("f") ? smooth + 0.02 * (x % 3) : Math.round(50 * smooth + 5 * (moving ? next() : 0)) + (type.startsWith("u") ? 110 : 0);
+          if (type.startsWith("f") && (x * 7 + y * 13 + z * 29) % 97 === 0) values[i] = NaN;
+        }
+    const name = join(folder, `${type}_${t}.raw`);
+    writeFileSync(name, values);
+    names.push(name);
+  }
+  return names;
+}
+
+/** The ids that the program finds. */
+function idsOf(index: string, array: string | null, step: number, level: number, isovalue: number): Uint32Array {
+  const out = join(folder, "ids.bin");
+  const more = array === null ? [] : ["--array", array];
+  execFileSync(program, ["query", index, `--isovalue=${isovalue}`, "--step", `${step}`, "--level", `${level}`, "--ids", out, "--force", "--repeat", "0", ...more], { stdio: "pipe" });
+  return new Uint32Array(Uint8Array.from(readFileSync(out)).buffer);
+}
+
+const CASES: [string, keyof typeof ARRAYS, [number, number, number], string[]][] = [
+  ...TYPES.map((type): [string, keyof typeof ARRAYS, [number, number, number], string[]] => [type, type, [37, 33, 50], []]),
+  ["stretched", "f32", [2, 65, 17], ["--spacing", "0.5", "2", "3"]],
+  ["lz4", "i16", [40, 20, 35], ["--codec", "lz4"]],
+  ["zstd", "f32", [40, 20, 35], ["--codec", "zstd"]],
+  ["scan", "u8", [33, 18, 20], ["--tiers", "tree"]],
+];
+
+test.each(CASES)("finds the cells of %s", async (name, type, size, options) => {
+  const index = join(folder, `${name}.isochron`);
+  execFileSync(program, ["build", ...series(type, size, 3, 7), "-o", index, "--dims", ...size.map(String), "--type", type, ...options], { stdio: "pipe" });
+  const source = new FileSource(index);
+  const file = await IndexFile.open(source, module);
+  const [array] = file.arrays;
+  expect(array!.info.vertices).toEqual(size);
+  const next = random(CASES.findIndex((each) => each[0] === name) + 1);
+  for (let round = 0; round < rounds; ++round) {
+    const level = round % 2 ? Math.floor(next() * array!.levels.length) : 0;
+    const step = Math.floor(next() * 3);
+    const { low, high } = array!.info;
+    let isovalue = low + (high - low) * (1.1 * next() - 0.05);
+    if (round % 3 === 0) isovalue = Math.round(isovalue); // a tie of whole numbers
+    const surfaces = new Surfaces(file, array!, level);
+    const cells = array!.levels[level]!.vertices.map((n) => n - 1);
+    const ids: number[] = [];
+    let triangles = 0;
+    await surfaces.find(step, isovalue, (piece) => {
+      for (let i = 0; i < piece.cells.length; i += 3)
+        ids.push((piece.cells[i + 2]! * cells[1]! + piece.cells[i + 1]!) * cells[0]! + piece.cells[i]!);
+      triangles += piece.triangles.length / 3;
+      for (const corner of piece.triangles) expect(corner).toBeLessThan(piece.points.length / 3);
+    });
+    ids.sort((a, b) => a - b);
+    const wanted = idsOf(index, null, step, level, isovalue);
+    expect(ids.length, `${name} step ${step} level ${level} isovalue ${isovalue}`).toBe(wanted.length);
+    expect(Uint32Array.from(ids)).toEqual(wanted);
+    expect(triangles).toBeGreaterThanOrEqual(ids.length);
+    surfaces.close();
+  }
+  source.close();
+});

@@ -1,0 +1,124 @@
+// The built page in Chromium: opens an index by ranges, shows its surface, obeys controls and links, and says in a line what is wrong.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium, type Browser, type Page } from "playwright-core";
+import { afterAll, beforeAll, beforeEach, expect, test } from "vitest";
+import { RangeServer } from "./range_server";
+
+const program = process.env["ISOCHRON_PROGRAM"] ?? "isochron";
+let folder: string;
+let server: RangeServer;
+let address: string;
+let browser: Browser;
+
+beforeAll(async () => {
+  folder = mkdtempSync(join(tmpdir(), "isochron-page-"));
+  const n = 40;
+  const names: string[] = [];
+  for (let t = 0; t < 3; ++t) {
+    const values = new Float32Array(n ** 3);
+    for (let i = 0; i < values.length; ++i) {
+      const at = [i % n, Math.floor(i / n) % n, Math.floor(i / n / n)].map((k) => k - n / 2 + 0.25);
+      values[i] = Math.hypot(...at) + t;
+    }
+    names.push(join(folder, `t${t}.raw`));
+    writeFileSync(names.at(-1)!, values);
+  }
+  execFileSync(program, ["build", ...names, "-o", join(folder, "ball.isochron"), "--dims", `${n}`, `${n}`, `${n}`, "--type", "f32", "--value-unit", "mm"], { stdio: "pipe" });
+  writeFileSync(join(folder, "site.json"), JSON.stringify({ files: ["ball.isochron"] }));
+  writeFileSync(join(folder, "other.isochron"), "no index at all, but long enough for a header ".repeat(400));
+  server = new RangeServer([new URL("../site", import.meta.url).pathname, folder]);
+  address = await server.listen();
+  browser = await chromium.launch({ executablePath: process.env["CHROMIUM"] ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+});
+afterAll(async () => {
+  await browser.close();
+  await server.close();
+  rmSync(folder, { recursive: true });
+});
+beforeEach(() => {
+  server.faults = {};
+});
+
+async function open(hash = ""): Promise<Page> {
+  const page = await browser.newPage({ viewport: { width: 800, height: 600 } });
+  await page.goto(address + hash);
+  return page;
+}
+/** Waits until the exact surface is shown. @return number of its cells */
+async function exact(page: Page): Promise<number> {
+  await page.waitForSelector('#chip[data-exact="true"]');
+  return Number(await page.getAttribute("#chip", "data-cells"));
+}
+function cells(step: number, isovalue: number): number {
+  const said = execFileSync(program, ["query", join(folder, "ball.isochron"), `--isovalue=${isovalue}`, "--step", `${step}`, "--repeat", "0", "--json"], { stdio: "pipe" });
+  return (JSON.parse(said.toString()) as { active_cells: number }).active_cells;
+}
+const settled = (page: Page, wanted: number) => page.waitForFunction((count) => {
+  const chip = document.getElementById("chip")!;
+  return chip.dataset["exact"] === "true" && chip.dataset["cells"] === String(count);
+}, wanted);
+
+test("shows the surface, and obeys isovalue, time and link", async () => {
+  const page = await open("#isovalue=12.5&background=%230f1116");
+  expect(await exact(page)).toBe(cells(0, 12.5));
+  await page.fill("#isovalue", "9,5");
+  await page.press("#isovalue", "Enter");
+  await settled(page, cells(0, 9.5));
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  await page.keyboard.press("ArrowRight");
+  await settled(page, cells(1, 9.5));
+  const link = page.url();
+  expect(link).toContain("step=1");
+  expect(link).toContain("isovalue=9.5");
+  const again = await browser.newPage();
+  await again.goto(link);
+  await settled(again, cells(1, 9.5));
+  // The ball is in the middle of the picture, and the background is not.
+  const pixel = (x: number, y: number) => page.evaluate(([px, py]) => {
+    const canvas = document.getElementById("picture") as HTMLCanvasElement;
+    const copy = document.createElement("canvas");
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const context = copy.getContext("2d")!;
+    context.drawImage(canvas, 0, 0);
+    return [...context.getImageData(px! * canvas.width, py! * canvas.height, 1, 1).data];
+  }, [x, y]);
+  const middle = await pixel(0.5, 0.5);
+  expect(middle[0]! + middle[1]!).toBeGreaterThan(150);
+  const side = await pixel(0.98, 0.5);
+  expect(side[0]! + side[1]!).toBeLessThan(80);
+  await page.close();
+  await again.close();
+});
+
+test.each<[string, () => string, RegExp]>([
+  ["a server without ranges", () => ((server.faults = { ignoresRanges: true }), ""), /sends the whole file/],
+  ["a file that changes", () => ((server.faults = { changes: true }), ""), /has changed/],
+  ["damaged chunks", () => ((server.faults = { damageFrom: 8192 }), ""), /damaged/],
+  ["a foreign file", () => "#file=other.isochron", /not an index of Isochron/],
+  ["a file that is not there", () => "#file=gone.isochron", /404/],
+])("says in a line that there is %s", async (_, prepare, said) => {
+  const page = await open(prepare());
+  await page.waitForSelector("#chip.failed");
+  expect(await page.textContent("#chip")).toMatch(said);
+  await page.close();
+});
+
+test("a link holds settings alone", async () => {
+  const page = await open("#file=../../etc/passwd&isovalue=12.5&color=javascript:alert(1)");
+  expect(await exact(page)).toBe(cells(0, 12.5));
+  expect(page.url()).not.toContain("passwd");
+  await page.close();
+});
+
+test("asks for little of the file", async () => {
+  server.asked = 0;
+  const page = await open("#isovalue=12.5");
+  await exact(page);
+  expect(server.asked).toBeLessThan(12);
+  expect(statSync(join(folder, "ball.isochron")).size).toBeGreaterThan(100_000);
+  await page.close();
+});

@@ -10,6 +10,11 @@ export interface Faults {
   ignoresRanges?: boolean;
   /** Each answer has another tag. */
   changes?: boolean;
+  /** Answers several ranges at once, in parts; else the whole file, or with `spans` one range over all. */
+  several?: boolean;
+  spans?: boolean;
+  /** Leaves every third of several ranges out. */
+  leavesOut?: boolean;
   /** Flips a bit in what lies behind this offset. */
   damageFrom?: number;
 }
@@ -35,8 +40,22 @@ export class RangeServer {
         "Content-Type": KINDS[extname(path)] ?? "application/octet-stream",
         ETag: `"${this.faults.changes ? ++this.asked : statSync(path).mtimeMs}"`,
       };
-      const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
-      if (!range || this.faults.ignoresRanges) return void answer.writeHead(200, head).end(all);
+      const asked = (request.headers.range ?? "").replace(/^bytes=/, "").split(",");
+      if (asked.length > 1 && (this.faults.several || this.faults.spans)) {
+        ++this.asked;
+        const ranges = asked.map((each) => each.split("-").map(Number) as [number, number]);
+        if (this.faults.spans) {
+          const [first, last] = [Math.min(...ranges.map((each) => each[0])), Math.max(...ranges.map((each) => each[1]))];
+          return void answer.writeHead(206, { ...head, "Content-Range": `bytes ${first}-${last}/${all.length}` }).end(all.subarray(first, last + 1));
+        }
+        const parts = ranges.filter((_, i) => !this.faults.leavesOut || i % 3 !== 2).flatMap(([first, last]) => [
+          Buffer.from(`\r\n--edge\r\nContent-Type: application/octet-stream\r\nContent-Range: bytes ${first}-${last}/${all.length}\r\n\r\n`),
+          all.subarray(first, last + 1),
+        ]);
+        return void answer.writeHead(206, { ...head, "Content-Type": "multipart/byteranges; boundary=edge" }).end(Buffer.concat([...parts, Buffer.from("\r\n--edge--\r\n")]));
+      }
+      const range = /^(\d+)-(\d+)$/.exec(asked[0]!);
+      if (!range || asked.length > 1 || this.faults.ignoresRanges) return void answer.writeHead(200, head).end(all);
       ++this.asked;
       const [begin, end] = [Number(range[1]), Math.min(all.length, Number(range[2]) + 1)];
       const bytes = Buffer.from(all.subarray(begin, end));

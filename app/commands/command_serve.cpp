@@ -8,6 +8,7 @@
 #include "app/serve/http_server.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/system/input_file.h"
 #include "index/system/module.h"
 #include "index/system/new_file.h"
 
@@ -30,7 +31,7 @@ struct ServeArguments {
     std::vector<fs::path> files;
     std::string address = "127.0.0.1";
     std::uint32_t port = 0;
-    fs::path write_site;
+    fs::path write_site, certificate, key;
     bool no_token = false;
 };
 
@@ -118,17 +119,26 @@ void run_serve(const ServeArguments& arguments) {
                             file.string(), file.string()));
     if (!arguments.write_site.empty())
         return write_site(arguments);
+    if (arguments.certificate.empty() != arguments.key.empty())
+        throw UsageError("--certificate and --key: expected both, or neither");
+    const auto text_of = [](const fs::path& file) {
+        constexpr std::uint64_t kMost = 1 << 20;
+        return file.empty() ? std::string() : index::read_text(file, kMost);
+    };
     const std::string token = arguments.no_token ? "" : new_control_token();
     const CancelOnSignal signals;
-    const auto server =
-        site_module().serve({.files = arguments.files, .token = token, .hosts = {}},
-                            {arguments.address, static_cast<std::uint16_t>(arguments.port)});
+    const auto server = site_module().serve({.files = arguments.files, .token = token, .hosts = {}},
+                                            {.address = arguments.address,
+                                             .port = static_cast<std::uint16_t>(arguments.port),
+                                             .certificate = text_of(arguments.certificate),
+                                             .key = text_of(arguments.key)});
     const bool all = arguments.address == "0.0.0.0" || arguments.address == "::";
     const std::string host = all ? "THIS-MACHINE"
                              : arguments.address.find(':') != std::string::npos
                                  ? "[" + arguments.address + "]"
                                  : arguments.address;
-    print_safely("http://{}:{}/{}\n", host, server->port(), token.empty() ? "" : "#token=" + token);
+    print_safely("http{}://{}:{}/{}\n", arguments.certificate.empty() ? "" : "s", host,
+                 server->port(), token.empty() ? "" : "#token=" + token);
     std::fflush(stdout);
     print_safely(stderr, "isochron: serving until Ctrl+C\n");
     wait_for_signal();
@@ -151,6 +161,11 @@ void add_serve(Command& program) {
         .shows_default();
     command.option("--port", arguments->port, "Port to listen on (default: one that is free)")
         .between(0u, 65535u);
+    command
+        .option("--certificate", arguments->certificate,
+                "Serve by https: headsets open the page in VR only so, or from localhost")
+        .type_name("CERT.pem");
+    command.option("--key", arguments->key, "Private key of the certificate").type_name("KEY.pem");
     command.flag(
         "--no-token", arguments->no_token,
         "Let everybody who reaches the address open it, without the token of the printed link");

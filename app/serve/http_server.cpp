@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -159,14 +160,28 @@ class Server final : public HttpServer {
             for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
                 parts.hosts.push_back(fmt::format("{}:{}", name, port_));
         site_.emplace(std::move(parts));
+        const bool secure = !place.certificate.empty();
+        if (secure && MHD_is_feature_supported(MHD_FEATURE_TLS) != MHD_YES)
+            refuse("--certificate: this libmicrohttpd has no TLS");
+        // Copies: libmicrohttpd reads them as long as it runs.
+        certificate_ = place.certificate;
+        key_ = place.key;
+        const std::array<MHD_OptionItem, 3> of_tls{
+            {{MHD_OPTION_HTTPS_MEM_CERT, 0, certificate_.data()},
+             {MHD_OPTION_HTTPS_MEM_KEY, 0, key_.data()},
+             {MHD_OPTION_END, 0, nullptr}}};
+        const MHD_OptionItem none{MHD_OPTION_END, 0, nullptr};
+        errno = 0;
         daemon_ = MHD_start_daemon(
-            MHD_USE_EPOLL_INTERNAL_THREAD, 0, nullptr, nullptr, answer_request, &*site_,
-            MHD_OPTION_LISTEN_SOCKET, listener_, MHD_OPTION_THREAD_POOL_SIZE, kThreads,
-            MHD_OPTION_CONNECTION_LIMIT, kMostClients, MHD_OPTION_CONNECTION_TIMEOUT, kSecondsIdle,
-            MHD_OPTION_CONNECTION_MEMORY_LIMIT, kMostHead, MHD_OPTION_UNESCAPE_CALLBACK,
-            keep_encoded, nullptr, MHD_OPTION_END);
+            MHD_USE_EPOLL_INTERNAL_THREAD | (secure ? MHD_USE_TLS : 0u), 0, nullptr, nullptr,
+            answer_request, &*site_, MHD_OPTION_LISTEN_SOCKET, listener_,
+            MHD_OPTION_THREAD_POOL_SIZE, kThreads, MHD_OPTION_CONNECTION_LIMIT, kMostClients,
+            MHD_OPTION_CONNECTION_TIMEOUT, kSecondsIdle, MHD_OPTION_CONNECTION_MEMORY_LIMIT,
+            kMostHead, MHD_OPTION_ARRAY, secure ? of_tls.data() : &none,
+            MHD_OPTION_UNESCAPE_CALLBACK, keep_encoded, nullptr, MHD_OPTION_END);
         if (!daemon_)
-            refuse(place.address);
+            refuse(secure ? "--certificate, --key: no certificate with its key in PEM"
+                          : place.address);
     }
     ~Server() override {
         if (daemon_)
@@ -179,9 +194,12 @@ class Server final : public HttpServer {
         const int error = errno;
         if (listener_ >= 0)
             close(listener_);
-        throw index::Error(fmt::format("{}: cannot serve there: {}", where, std::strerror(error)));
+        throw index::Error(
+            error == 0 ? where
+                       : fmt::format("{}: cannot serve there: {}", where, std::strerror(error)));
     }
 
+    std::string certificate_, key_;
     std::optional<Site> site_;
     MHD_Daemon* daemon_ = nullptr;
     int listener_ = -1;

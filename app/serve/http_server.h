@@ -20,6 +20,7 @@ class HttpServer {
 struct HttpPlace {
     std::string address = "127.0.0.1"; ///< address of IPv4 or IPv6
     std::uint16_t port = 0;            ///< 0: any that is free
+    std::string certificate, key;      ///< in PEM, both or neither: https
 };
 
 /// What the module has, under the name `isochron_site_module`.

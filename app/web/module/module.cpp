@@ -55,6 +55,7 @@ struct Surface {
     MeshPart mesh;
     std::vector<std::uint16_t> cells; ///< x, y, z of each cell in the grid
     std::vector<float> points, normals;
+    std::vector<float> values; ///< values of this array at the points of another one's surface
 };
 
 struct Volume {
@@ -135,6 +136,58 @@ void copy_to_cube(Volume& volume, const std::array<Reach, 3>& reach,
             std::memcpy(volume.cube.data() + to * word, values + from * word,
                         (end[0] - begin[0]) * word);
         }
+}
+
+/// The vertices of a chunk's cells, and those around them that normals need.
+struct Cube {
+    StepValues values;                  ///< a grid of its own
+    std::array<std::uint32_t, 3> first; ///< its first vertex in the grid of the volume
+    std::array<std::uint32_t, 3> begin; ///< the chunk's first vertex in the cube
+};
+
+Cube fill_cube(Volume& volume, std::uint32_t layer, std::uint32_t place,
+               const std::byte* const* around) {
+    const auto [cx, cy] = volume.chunks.at(place);
+    const std::array<std::uint32_t, 3> chunk{cx, cy, layer};
+    std::array<Reach, 3> reach;
+    std::array<std::uint32_t, 3> first, end, begin;
+    std::size_t count = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        reach[axis] = reach_of(volume, axis, chunk[axis]);
+        first[axis] = reach[axis].first;
+        end[axis] = reach[axis].end;
+        begin[axis] = chunk[axis] * kChunkEdge - first[axis];
+        count *= end[axis] - first[axis];
+    }
+    volume.cube.assign(count * size_of(volume.type), std::byte{0});
+    for (std::uint32_t bit = 0; bit < kChunksAround; ++bit)
+        if (around[bit])
+            copy_to_cube(volume, reach,
+                         {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
+                         around[bit]);
+    return {{.grid = volume.grid.part(first, end),
+             .type = volume.type,
+             .scaling = volume.scaling,
+             .steps = 1,
+             .first = volume.cube.data()},
+            first,
+            begin};
+}
+
+/// Calls `f(x, y, z)` for the cells of some bricks of a cube's chunk, ascending.
+template <class F>
+void for_each_cell(const Cube& cube, BricksOfChunk bricks, const F& f) {
+    const auto cells = cube.values.grid.cells();
+    for (std::uint32_t z = 0; z < kChunkEdge && cube.begin[2] + z < cells[2]; ++z)
+        for (std::uint32_t y = 0; y < kChunkEdge && cube.begin[1] + y < cells[1]; ++y)
+            for (std::uint32_t x = 0; x < kChunkEdge && cube.begin[0] + x < cells[0]; ++x) {
+                const std::uint32_t brick =
+                    x / BrickGrid::kCells[0] +
+                    kChunkBricks[0] *
+                        (y / BrickGrid::kCells[1] + kChunkBricks[1] * (z / BrickGrid::kCells[2]));
+                if (bricks >> brick & 1)
+                    f(cube.begin[0] + x, cube.begin[1] + y, cube.begin[2] + z);
+            }
 }
 
 EXPORT("take") void* take(std::size_t bytes) {
@@ -247,50 +300,22 @@ std::uint32_t bricks(const Volume* volume, const std::byte* record, std::uint32_
 EXPORT("find")
 std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
                    std::uint32_t of_bricks, const std::byte* const* around) {
-    const auto [cx, cy] = volume->chunks.at(place);
-    const std::array<std::uint32_t, 3> chunk{cx, cy, layer};
-    std::array<Reach, 3> reach;
-    std::array<std::uint32_t, 3> first, end;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        reach[axis] = reach_of(*volume, axis, chunk[axis]);
-        first[axis] = reach[axis].first;
-        end[axis] = reach[axis].end;
-    }
-    const std::size_t values =
-        std::size_t{end[0] - first[0]} * (end[1] - first[1]) * (end[2] - first[2]);
-    volume->cube.assign(values * size_of(volume->type), std::byte{0});
-    for (std::uint32_t bit = 0; bit < kChunksAround; ++bit)
-        if (around[bit])
-            copy_to_cube(*volume, reach,
-                         {cx + bit % 3 - 1, cy + bit / 3 % 3 - 1, layer + bit / 9 - 1},
-                         around[bit]);
-    const StepValues cube{.grid = volume->grid.part(first, end),
-                          .type = volume->type,
-                          .scaling = volume->scaling,
-                          .steps = 1,
-                          .first = volume->cube.data()};
+    const Cube of_chunk = fill_cube(*volume, layer, place, around);
+    const StepValues& cube = of_chunk.values;
+    const auto& first = of_chunk.first;
     const Query query{Instant(0), volume->isovalue};
     Surface& made = volume->surface;
     made.ids.clear();
-    scan(cube, query, made.ids);
+    for_each_cell(of_chunk, of_bricks, [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        made.ids.push_back(static_cast<CellId>(wide_id(cube.grid, x, y, z)));
+    });
+    keep_active(cube, query, made.ids);
     made.cells.clear();
-    std::erase_if(made.ids, [&](CellId id) {
+    for (const CellId id : made.ids) {
         const auto local = cube.grid.cell_of(id);
-        std::array<std::uint32_t, 3> in_chunk;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            in_chunk[axis] = local[axis] + first[axis] - chunk[axis] * kChunkEdge; // wraps below
-        if (in_chunk[0] >= kChunkEdge || in_chunk[1] >= kChunkEdge || in_chunk[2] >= kChunkEdge)
-            return true;
-        const std::uint32_t brick =
-            in_chunk[0] / BrickGrid::kCells[0] +
-            kChunkBricks[0] * (in_chunk[1] / BrickGrid::kCells[1] +
-                               kChunkBricks[1] * (in_chunk[2] / BrickGrid::kCells[2]));
-        if (!(of_bricks >> brick & 1))
-            return true;
         for (std::size_t axis = 0; axis < 3; ++axis)
             made.cells.push_back(static_cast<std::uint16_t>(local[axis] + first[axis]));
-        return false;
-    });
+    }
     volume->maker.make(cube, query, made.ids, made.mesh);
     made.points.clear();
     made.normals.clear();
@@ -307,6 +332,30 @@ std::uint32_t find(Volume* volume, std::uint32_t layer, std::uint32_t place,
         }
     }
     return static_cast<std::uint32_t>(made.ids.size());
+}
+
+/// The values of another array at the points that `find` has made of a chunk, interpolated between the
+/// ends of their edges. @param of the volume that was searched @param around chunks of the other array
+/// @return their place in memory, a float for each point
+EXPORT("values")
+const float* values(Volume* other, const Volume* of, std::uint32_t layer, std::uint32_t place,
+                    const std::byte* const* around) {
+    const Cube of_chunk = fill_cube(*other, layer, place, around);
+    const auto n = of_chunk.values.grid.vertices;
+    const std::array<std::size_t, 3> step{1, n[0], std::size_t{n[0]} * n[1]};
+    std::vector<float>& out = other->surface.values;
+    out.clear();
+    visit_value_type(other->type, [&]<class T>(std::type_identity<T>) {
+        const T* const stored = of_chunk.values.step<T>(0).data();
+        for (const MeshVertex& vertex : of->surface.mesh.vertices) {
+            const T* const low = stored + vertex.x + vertex.y * step[1] + vertex.z * step[2];
+            const double a = other->scaling(static_cast<double>(low[0]));
+            const double b = other->scaling(static_cast<double>(low[step[vertex.axis]]));
+            const double share = static_cast<double>(vertex.share) / MeshVertex::kWhole;
+            out.push_back(static_cast<float>(a + share * (b - a)));
+        }
+    });
+    return out.data();
 }
 
 /// What `find` has found: cells, points, normals, triangles as places in memory, then how many points

@@ -1,5 +1,7 @@
 // The state in the link: settings alone, no paths but the name of the file beside the page.
 
+import { MAP_NAMES } from "./view/colors";
+
 export interface Linked {
   file?: string;
   array?: number;
@@ -9,6 +11,9 @@ export interface Linked {
   color?: string;
   opacity?: number;
   background?: string;
+  colors?: number;
+  map?: string;
+  clip?: [axis: number, share: number];
 }
 
 const numberOf = (text: string | null): number | undefined => {
@@ -23,13 +28,17 @@ export function linked(hash: string): Linked {
   const file = words.get("file");
   // A name beside the page: no folder, no other server.
   if (file && /^[^/\\:?#]+$/.test(file) && !file.startsWith(".")) state.file = file;
-  for (const name of ["array", "step"] as const) {
+  for (const name of ["array", "step", "colors"] as const) {
     const value = numberOf(words.get(name));
     if (value !== undefined && Number.isInteger(value) && value >= 0) state[name] = value;
   }
   state.isovalue = numberOf(words.get("isovalue"));
   const opacity = numberOf(words.get("opacity"));
   if (opacity !== undefined && opacity > 0 && opacity <= 1) state.opacity = opacity;
+  const map = words.get("map");
+  if (map && (MAP_NAMES as string[]).includes(map)) state.map = map;
+  const clip = (words.get("clip") ?? "").split(",").map(Number);
+  if (clip.length === 2 && [0, 1, 2].includes(clip[0]!) && clip[1]! >= 0 && clip[1]! <= 1) state.clip = clip as [number, number];
   const view = (words.get("view") ?? "").split(",").map(Number);
   if (view.length === 6 && view.every(Number.isFinite)) state.view = view;
   for (const name of ["color", "background"] as const) {

@@ -1,8 +1,9 @@
 // The page: opens the index beside it, and shows the surface that the controls and the link ask for.
 import "./style.css";
 import { linked, linkOf, type Linked } from "./link";
-import type { Asked, FromWorker, ToWorker } from "./messages";
+import type { Asked, Found, FromWorker, ToWorker } from "./messages";
 import type { Info } from "./reader/index_file";
+import { colorsOf, drawLegend, MAP_NAMES, type MapName } from "./view/colors";
 import { Histogram } from "./view/histogram";
 import { Scene, type View } from "./view/scene";
 
@@ -25,6 +26,12 @@ const color = part<HTMLInputElement>("color");
 const opacity = part<HTMLInputElement>("opacity");
 const background = part<HTMLInputElement>("background");
 
+const colorBy = part<HTMLSelectElement>("color-by");
+const map = part<HTMLSelectElement>("map");
+const clipAxis = part<HTMLSelectElement>("clip-axis");
+const clipShare = part<HTMLInputElement>("clip-share");
+map.replaceChildren(...MAP_NAMES.map((name) => new Option(name, name)));
+
 const scene = new Scene(part<HTMLCanvasElement>("picture"));
 const histogram = new Histogram(part<HTMLCanvasElement>("histogram"));
 const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
@@ -33,7 +40,8 @@ const say = (words: ToWorker) => worker.postMessage(words);
 let state: Linked = linked(location.hash);
 let infos: Info[] = [];
 let levels = 1;
-let asked: Asked = { array: 0, step: 0, isovalue: 0 };
+let asked: Asked = { array: 0, step: 0, isovalue: 0, colors: null };
+let last: Found | null = null;
 let number = 0;
 let shown = 0;
 let playing = false;
@@ -77,6 +85,8 @@ function keep(): void {
     ...(state.file ? { file: state.file } : {}),
     array: asked.array, step: asked.step, isovalue: asked.isovalue, view: scene.view, color: color.value,
     opacity: Number(opacity.value), background: background.value,
+    ...(asked.colors === null ? {} : { colors: asked.colors, map: map.value }),
+    ...(clipAxis.value === "" ? {} : { clip: [Number(clipAxis.value), Number(clipShare.value)] as [number, number] }),
   };
   history.replaceState(null, "", linkOf(state));
 }
@@ -90,6 +100,24 @@ function choose(array: number): void {
   histogram.show(info());
 }
 
+/** Shows what was found last in its colors, with their legend. */
+function paint(): void {
+  const of = asked.colors === null ? null : infos[asked.colors]!;
+  const name = map.value as MapName;
+  part("legend").hidden = of === null;
+  if (of) {
+    drawLegend(part<HTMLCanvasElement>("legend-colors"), name);
+    part("legend-words").textContent = `${words(of.low)} to ${words(of.high)} ${of.valueUnit}`;
+  }
+  if (last) scene.show(last, of && last.values ? colorsOf(name, last.values, of.low, of.high) : null);
+}
+
+function clip(): void {
+  clipShare.hidden = clipAxis.value === "";
+  scene.clip(info(), clipAxis.value === "" ? null : { axis: Number(clipAxis.value), share: Number(clipShare.value) });
+  keep();
+}
+
 function opened(found: Info[], count: number): void {
   infos = found;
   levels = count;
@@ -97,9 +125,20 @@ function opened(found: Info[], count: number): void {
   const linkedView = state.view;
   asked.step = Math.min(state.step ?? 0, infos[0]!.times.length - 1);
   choose(Math.min(state.array ?? 0, infos.length - 1));
+  colorBy.replaceChildren(new Option("one color", ""), ...infos.map((each, i) => new Option(each.array || "values", String(i))));
+  colorBy.parentElement!.hidden = infos.length < 2;
+  if (state.colors !== undefined && state.colors < infos.length) asked.colors = state.colors;
+  colorBy.value = asked.colors === null ? "" : String(asked.colors);
+  if (state.map) map.value = state.map;
+  const cut = state.clip;
   scene.frame(info());
   if (linkedView) scene.view = linkedView as View;
   document.body.classList.add("open");
+  if (cut) {
+    clipAxis.value = String(cut[0]);
+    clipShare.value = String(cut[1]);
+  }
+  clip();
   ask(false);
 }
 
@@ -112,7 +151,8 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   }
   if (data.number < shown) return; // an older wish
   shown = data.number;
-  scene.show(data.found);
+  last = data.found;
+  paint();
   const exact = data.level === 0;
   const cells = data.found.cells.toLocaleString("en");
   chip.classList.remove("failed");
@@ -159,6 +199,16 @@ const style = () => {
   keep();
 };
 for (const input of [color, opacity, background]) input.addEventListener("input", style);
+colorBy.addEventListener("change", () => {
+  asked = { ...asked, colors: colorBy.value === "" ? null : Number(colorBy.value) };
+  ask(false);
+});
+map.addEventListener("change", () => {
+  paint();
+  keep();
+});
+clipAxis.addEventListener("change", clip);
+clipShare.addEventListener("input", clip);
 part("copy").addEventListener("click", () => {
   keep();
   void navigator.clipboard?.writeText(location.href);
@@ -184,6 +234,32 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
   if (event.key !== " ") ask(false);
 });
+const enter = part<HTMLButtonElement>("enter");
+void scene
+  .headset(
+    {
+      isovalue: (share) => {
+        const { low, high } = info();
+        asked = { ...asked, isovalue: Math.min(high, Math.max(low, asked.isovalue + share * (high - low))) };
+        ask(true);
+      },
+      step: (steps) => {
+        const count = info().times.length;
+        asked = { ...asked, step: (asked.step + steps + count) % count };
+        ask(false);
+      },
+      words: () => `${info().array || "values"} ${words(asked.isovalue)} ${info().valueUnit}\n${moment.textContent ?? ""}`,
+    },
+    (inside) => {
+      document.body.classList.toggle("inside", inside);
+      if (!inside) ask(false);
+    },
+  )
+  .then((begin) => {
+    if (!begin) return;
+    enter.hidden = false;
+    enter.addEventListener("click", () => void begin().catch((error: unknown) => (chip.textContent = String(error))));
+  });
 let later = 0;
 scene.moved = () => {
   clearTimeout(later);

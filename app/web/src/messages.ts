@@ -6,6 +6,8 @@ export interface Asked {
   array: number;
   step: number;
   isovalue: number;
+  /** The array whose values color the surface; null: its own color. */
+  colors: number | null;
 }
 
 export type ToWorker =
@@ -18,6 +20,7 @@ export interface Found {
   points: Float32Array;
   normals: Float32Array;
   triangles: Uint32Array;
+  values: Float32Array | null;
   cells: number;
 }
 

@@ -20,6 +20,7 @@ interface Exports {
   unpack(volume: number, layer: number, place: number, record: number, count: number, out: number): number;
   bricks(volume: number, record: number, around: number): number;
   find(volume: number, layer: number, place: number, bricks: number, around: number): number;
+  values(other: number, of: number, layer: number, place: number, around: number): number;
   found(volume: number, out: number): void;
 }
 

@@ -23,6 +23,7 @@ function whole(pieces: Piece[]): Found {
     points: new Float32Array(sum((piece) => piece.points.length)),
     normals: new Float32Array(sum((piece) => piece.normals.length)),
     triangles: new Uint32Array(sum((piece) => piece.triangles.length)),
+    values: pieces[0]?.values ? new Float32Array(sum((piece) => piece.points.length / 3)) : null,
     cells: sum((piece) => piece.cells.length / 3),
   };
   let point = 0;
@@ -30,6 +31,7 @@ function whole(pieces: Piece[]): Found {
   for (const piece of pieces) {
     found.points.set(piece.points, 3 * point);
     found.normals.set(piece.normals, 3 * point);
+    if (piece.values) found.values?.set(piece.values, point);
     for (const number of piece.triangles) found.triangles[corner++] = number + point;
     point += piece.points.length / 3;
   }
@@ -45,19 +47,25 @@ async function open(address: string, headers: Record<string, string>): Promise<v
   say({ kind: "opened", arrays: file.arrays.map((each) => each.info), levels: file.arrays[0]!.levels.length });
 }
 
+function surfacesOf(array: number, level: number): Surfaces {
+  const key = `${array} ${level}`;
+  let surfaces = known.get(key);
+  if (!surfaces) known.set(key, (surfaces = new Surfaces(file, file.arrays[array]!, level)));
+  return surfaces;
+}
+
 async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal): Promise<void> {
   const { number, asked, levels } = wish;
   for (const level of levels) {
     if (stop.aborted) return;
-    const key = `${asked.array} ${level}`;
-    let surfaces = known.get(key);
-    if (!surfaces) known.set(key, (surfaces = new Surfaces(file, file.arrays[asked.array]!, level)));
+    const surfaces = surfacesOf(asked.array, level);
+    const colors = asked.colors === null ? undefined : surfacesOf(asked.colors, level);
     const pieces: Piece[] = [];
-    await surfaces.find(asked.step, asked.isovalue, (piece) => pieces.push(piece), stop);
+    await surfaces.find(asked.step, asked.isovalue, (piece) => pieces.push(piece), stop, colors);
     const found = whole(pieces);
     say(
       { kind: "found", number, asked, level, found, last: level === levels.at(-1), requests: source.requests, bytes: source.bytes },
-      [found.points.buffer, found.normals.buffer, found.triangles.buffer],
+      [found.points.buffer, found.normals.buffer, found.triangles.buffer, ...(found.values ? [found.values.buffer] : [])],
     );
   }
 }

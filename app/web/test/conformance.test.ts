@@ -104,3 +104,35 @@ test.each(CASES)("finds the cells of %s", async (name, type, size, options) => {
   }
   source.close();
 });
+
+test("values of another array are interpolated where the surface cuts edges", async () => {
+  const n = [20, 37, 18] as const;
+  const cells = (f: (x: number, y: number, z: number) => number): string => {
+    const words: number[] = [];
+    for (let z = 0; z < n[2]; ++z) for (let y = 0; y < n[1]; ++y) for (let x = 0; x < n[0]; ++x) words.push(f(x, y, z));
+    return words.join(" ");
+  };
+  const extent = `0 ${n[0] - 1} 0 ${n[1] - 1} 0 ${n[2] - 1}`;
+  const arrays = { d: cells((x, y, z) => Math.hypot(x - 9.3, y - 18.2, z - 8.4)), w: cells((x, y, z) => 2 * x - 3 * y + 5 * z) };
+  const data = Object.entries(arrays).map(([name, text]) => `<DataArray type="Float32" Name="${name}" format="ascii">${text}</DataArray>`);
+  writeFileSync(join(folder, "two.vti"), `<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian"><ImageData WholeExtent="${extent}" Origin="100 0 -5" Spacing="0.5 2 1">` +
+    `<Piece Extent="${extent}"><PointData>${data.join("")}</PointData></Piece></ImageData></VTKFile>`);
+  const index = join(folder, "two.isochron");
+  execFileSync(program, ["build", join(folder, "two.vti"), "-o", index, "--array", "d", "--array", "w"], { stdio: "pipe" });
+  const source = new FileSource(index);
+  const file = await IndexFile.open(source, module);
+  expect(file.arrays.map((each) => each.info.array)).toEqual(["d", "w"]);
+  const [surfaces, colors] = [0, 1].map((i) => new Surfaces(file, file.arrays[i]!, 0));
+  let points = 0;
+  await surfaces!.find(0, 7.1, (piece) => {
+    piece.values!.forEach((value, i) => {
+      const [x, y, z] = piece.points.subarray(3 * i, 3 * i + 3);
+      expect(value).toBeCloseTo(2 * (x! / 0.5) - 3 * (y! / 2) + 5 * z!, 3);
+      ++points;
+    });
+  }, undefined, colors);
+  expect(points).toBeGreaterThan(500);
+  surfaces!.close();
+  colors!.close();
+  source.close();
+});

@@ -113,7 +113,9 @@ TEST_F(ServeCommand, RefusesWhatItCannotServe) {
              {{"serve", "t0.raw"}, "t0.raw"},
              {{"serve", "gone.isochron"}, "gone.isochron"},
              {{"serve", "a.isochron", "--address", "not.an.address"}, "--address"},
-             {{"serve", "a.isochron", "--port", "70000"}, "--port"}}) {
+             {{"serve", "a.isochron", "--port", "70000"}, "--port"},
+             {{"serve", "a.isochron", "--certificate", "t0.raw"}, "--key"},
+             {{"serve", "a.isochron", "--certificate", "t0.raw", "--key", "t0.raw"}, "PEM"}}) {
         const ChildResult refused = isochron(arguments);
         EXPECT_NE(refused.status, 0);
         EXPECT_THAT(refused.err, HasSubstr(said));

@@ -19,6 +19,8 @@ export interface Piece {
   /** Of length 1, towards lower values. */
   normals: Float32Array;
   triangles: Uint32Array;
+  /** Of another array at the points, where one was asked for. */
+  values: Float32Array | null;
 }
 
 /** The table of a layer of chunks. */
@@ -39,10 +41,11 @@ interface Kept {
 export class Surfaces {
   private readonly volume: number;
   private readonly counts: [number, number, number];
-  private readonly tables = new Map<string, Table>();
+  /** By step, then by layer. */
+  private readonly tables = new Map<number, Table[]>();
   private readonly levelsOfStep = new Map<number, Uint8Array>();
-  private readonly records = new Map<string, Uint8Array>();
-  private readonly kept = new Map<string, Kept>();
+  private readonly records = new Map<number, Uint8Array>();
+  private readonly kept = new Map<number, Kept>();
   private keptBytes = 0;
   private clock = 0;
 
@@ -73,6 +76,10 @@ export class Surfaces {
     this.file.module.calls.close(this.volume);
   }
 
+  /** A number for a chunk at a step. */
+  private key(step: number, layer: number, place: number): number {
+    return (step * this.counts[2] + layer) * this.counts[0] * this.counts[1] + place;
+  }
   private entry(step: number): StepEntry {
     return this.array.entries[this.level * this.file.steps + step]!;
   }
@@ -86,6 +93,7 @@ export class Surfaces {
     const entry = this.entry(step);
     const [bytes] = await this.file.source.read([{ begin: entry.offset + entry.tables, end: entry.offset + entry.bytes }], stop);
     const length = this.file.module.calls.table_bytes(this.volume);
+    const tables: Table[] = [];
     const size = this.file.hasSince ? 8 : 4;
     for (let layer = 0; layer < this.counts[2]; ++layer) {
       const own = bytes!.subarray(layer * length, (layer + 1) * length);
@@ -100,16 +108,17 @@ export class Surfaces {
       }
       table.offsets.push(end);
       if (end > entry.offset + entry.tables) throw this.damaged(step, `layer ${layer} lies outside its step`);
-      this.tables.set(`${step} ${layer}`, table);
+      tables.push(table);
     }
+    this.tables.set(step, tables);
     this.levelsOfStep.set(step, bytes!.subarray(this.counts[2] * length));
   }
 
   /** Reads records that are not at hand, and checks them. */
   private async readRecords(step: number, wanted: readonly (readonly [layer: number, place: number])[], stop?: AbortSignal): Promise<void> {
-    const missing = wanted.filter(([layer, place]) => !this.records.has(`${step} ${layer} ${place}`));
+    const missing = wanted.filter(([layer, place]) => !this.records.has(this.key(step, layer, place)));
     const ranges = missing.map(([layer, place]): Range => {
-      const { offsets } = this.tables.get(`${step} ${layer}`)!;
+      const { offsets } = this.tables.get(step)![layer]!;
       return { begin: offsets[place]!, end: offsets[place + 1]! };
     });
     const { module } = this.file;
@@ -120,13 +129,13 @@ export class Surfaces {
       const sound = module.calls.check(this.volume, at, bytes.length);
       module.give(at);
       if (!sound) throw this.damaged(step, `chunk ${place} of layer ${layer}: its checksum does not match`);
-      this.records.set(`${step} ${layer} ${place}`, bytes);
+      this.records.set(this.key(step, layer, place), bytes);
     });
   }
 
   /** Where the values of a chunk lie: at an earlier step, since which they have stayed. */
   private home(step: number, layer: number, place: number): number {
-    const table = this.tables.get(`${step} ${layer}`)!;
+    const table = this.tables.get(step)![layer]!;
     const head = 4 + (this.array.info.hasBricks ? 64 : 0);
     const bytes = table.offsets[place + 1]! - table.offsets[place]!;
     const since = table.since[place]!;
@@ -135,7 +144,7 @@ export class Surfaces {
 
   /** Unpacks a chunk whose record is at hand. @return its place in the module's memory */
   private unpacked(step: number, layer: number, place: number): number {
-    const key = `${step} ${layer} ${place}`;
+    const key = this.key(step, layer, place);
     const known = this.kept.get(key);
     if (known) {
       known.used = ++this.clock;
@@ -170,8 +179,32 @@ export class Surfaces {
     }
   }
 
-  /** The surface at a step, piece by piece. One search at a time. */
-  async find(step: number, isovalue: number, take: (piece: Piece) => void, stop?: AbortSignal): Promise<void> {
+  /** Gets the records of chunks at a step, also of those whose values lie in records of earlier steps. */
+  private async readChunks(step: number, chunks: Iterable<[layer: number, place: number]>, stop?: AbortSignal): Promise<void> {
+    await this.readTables(step, stop);
+    const byHome = new Map<number, [number, number][]>();
+    for (const chunk of chunks) {
+      const home = this.home(step, ...chunk);
+      const others = byHome.get(home);
+      if (others) others.push(chunk);
+      else byHome.set(home, [chunk]);
+    }
+    await Promise.all([...byHome.keys()].map((home) => this.readTables(home, stop)));
+    await Promise.all([...byHome].map(([home, some]) => this.readRecords(home, some, stop)));
+  }
+
+  /** Writes the places of unpacked chunks, whose records are at hand, where the module looks for them. */
+  private point(step: number, needs: readonly [bit: number, layer: number, place: number][], pointers: number): void {
+    const places = new Uint32Array(AROUND);
+    for (const [bit, layer, place] of needs) places[bit] = this.unpacked(this.home(step, layer, place), layer, place);
+    this.file.module.words(pointers, AROUND).set(places);
+  }
+
+  /**
+   * The surface at a step, piece by piece. One search at a time.
+   * @param colors another array at the same level, whose values at the points are wanted
+   */
+  async find(step: number, isovalue: number, take: (piece: Piece) => void, stop?: AbortSignal, colors?: Surfaces): Promise<void> {
     const { module } = this.file;
     const { calls } = module;
     await this.readTables(step, stop);
@@ -186,7 +219,7 @@ export class Surfaces {
     const out = module.take(4 * this.counts[0] * this.counts[1]);
     const candidates: [number, number][] = [];
     for (let layer = 0; layer < this.counts[2]; ++layer) {
-      const table = module.put(this.tables.get(`${step} ${layer}`)!.bytes);
+      const table = module.put(this.tables.get(step)![layer]!.bytes);
       const count = calls.candidates(this.volume, table, out);
       module.give(table);
       if (count < 0) throw this.damaged(step, `the checksum of the table of layer ${layer} does not match`);
@@ -196,12 +229,12 @@ export class Surfaces {
     await this.readRecords(step, candidates, stop);
     const around = module.take(4);
     const asked: { layer: number; place: number; bricks: number; needs: [bit: number, layer: number, place: number][] }[] = [];
-    const needed = new Map<string, [number, number]>();
+    const needed = new Map<number, [number, number]>();
     for (const [layer, place] of candidates) {
       let bricks = ALL_BRICKS;
       let reach = ALL_AROUND;
       if (this.array.info.hasBricks) {
-        const record = module.put(this.records.get(`${step} ${layer} ${place}`)!.subarray(0, 68));
+        const record = module.put(this.records.get(this.key(step, layer, place))!.subarray(0, 68));
         bricks = calls.bricks(this.volume, record, around) >>> 0;
         reach = module.words(around, 1)[0]! | (1 << OWN);
         module.give(record);
@@ -210,45 +243,45 @@ export class Surfaces {
       const at = calls.at(this.volume, place);
       const needs: [number, number, number][] = [];
       for (let bit = 0; bit < AROUND; ++bit) {
-        const to = [(at & 0xffff) + (bit % 3) - 1, (at >>> 16) + (Math.floor(bit / 3) % 3) - 1, layer + Math.floor(bit / 9) - 1];
-        if (!((reach >>> bit) & 1) || to.some((n, axis) => n < 0 || n >= this.counts[axis]!)) continue;
-        const other = calls.place(this.volume, to[0]!, to[1]!);
-        needs.push([bit, to[2]!, other]);
-        needed.set(`${to[2]} ${other}`, [to[2]!, other]);
+        if (!((reach >>> bit) & 1)) continue;
+        const [x, y, z] = [(at & 0xffff) + (bit % 3) - 1, (at >>> 16) + (Math.floor(bit / 3) % 3) - 1, layer + Math.floor(bit / 9) - 1];
+        if (x < 0 || y < 0 || z < 0 || x >= this.counts[0] || y >= this.counts[1] || z >= this.counts[2]) continue;
+        const other = calls.place(this.volume, x, y);
+        needs.push([bit, z, other]);
+        needed.set(this.key(0, z, other), [z, other]);
       }
       asked.push({ layer, place, bricks, needs });
     }
     module.give(around);
-    // Values may lie in records of earlier steps, whose tables are read first.
-    const byHome = new Map<number, [number, number][]>();
-    for (const chunk of needed.values()) {
-      const home = this.home(step, ...chunk);
-      byHome.set(home, [...(byHome.get(home) ?? []), chunk]);
-    }
-    await Promise.all([...byHome.keys()].map((home) => this.readTables(home, stop)));
-    await Promise.all([...byHome].map(([home, chunks]) => this.readRecords(home, chunks, stop)));
+    await Promise.all([this.readChunks(step, needed.values(), stop), colors?.readChunks(step, needed.values(), stop)]);
 
     const pointers = module.take(4 * AROUND);
     const found = module.take(24);
     for (const { layer, place, bricks, needs } of asked) {
       stop?.throwIfAborted();
-      const places = new Uint32Array(AROUND);
-      for (const [bit, toLayer, to] of needs) places[bit] = this.unpacked(this.home(step, toLayer, to), toLayer, to);
-      module.words(pointers, AROUND).set(places);
+      this.point(step, needs, pointers);
       const count = calls.find(this.volume, layer, place, bricks, pointers);
       if (count === 0) continue;
       calls.found(this.volume, found);
       const [cells, points, normals, triangles, pointCount, triangleCount] = module.words(found, 6) as unknown as [number, number, number, number, number, number];
+      let values: Float32Array | null = null;
+      if (colors) {
+        colors.point(step, needs, pointers);
+        const at = calls.values(colors.volume, this.volume, layer, place, pointers);
+        values = new Float32Array(calls.memory.buffer, at, pointCount).slice();
+      }
       const memory = calls.memory.buffer;
       take({
         cells: new Uint16Array(memory, cells, 3 * count).slice(),
         points: new Float32Array(memory, points, 3 * pointCount).slice(),
         normals: new Float32Array(memory, normals, 3 * pointCount).slice(),
         triangles: new Uint32Array(memory, triangles, 3 * triangleCount).slice(),
+        values,
       });
     }
     module.give(pointers);
     module.give(found);
     this.forget();
+    colors?.forget();
   }
 }

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Found } from "../messages";
 import type { Info } from "../reader/index_file";
+import { Headset, type HeadsetWishes } from "./headset";
 
 /** Camera: place, target and zoom in one list of numbers, for links. */
 export type View = [number, number, number, number, number, number];
@@ -10,11 +11,17 @@ export type View = [number, number, number, number, number, number];
 export class Scene {
   private readonly renderer: THREE.WebGLRenderer;
   private readonly scene = new THREE.Scene();
+  /** The data: what hands grab in a headset. */
+  private readonly world = new THREE.Group();
   private readonly camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
   private readonly controls: OrbitControls;
   private readonly surface: THREE.Mesh<THREE.BufferGeometry, THREE.MeshStandardMaterial>;
   private box: THREE.LineSegments | null = null;
   private wanted = false;
+  private own = "#e8d3a0";
+  /** The clip plane among the data, and where that is in the world. */
+  private readonly cutOfData = new THREE.Plane();
+  private readonly cut = new THREE.Plane();
   /** Called after the camera was moved. */
   moved: () => void = () => {};
 
@@ -33,7 +40,8 @@ export class Scene {
     const key = new THREE.DirectionalLight(0xffffff, 2.2);
     key.position.set(-0.6, 0.8, 1);
     this.camera.add(key);
-    this.scene.add(this.surface, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
+    this.world.add(this.surface);
+    this.scene.add(this.world, this.camera, new THREE.HemisphereLight(0xffffff, 0x303440, 1.1));
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
@@ -47,12 +55,12 @@ export class Scene {
     const lines: THREE.Vector3[] = [];
     for (let bits = 0; bits < 8; ++bits)
       for (let axis = 0; axis < 3; ++axis) if (!(bits >> axis & 1)) lines.push(corners[bits]!, corners[bits | (1 << axis)]!);
-    if (this.box) this.scene.remove(this.box);
+    if (this.box) this.world.remove(this.box);
     this.box = new THREE.LineSegments(
       new THREE.BufferGeometry().setFromPoints(lines),
       new THREE.LineBasicMaterial({ color: 0x808898, transparent: true, opacity: 0.6 }),
     );
-    this.scene.add(this.box);
+    this.world.add(this.box);
     const bounds = new THREE.Box3().setFromPoints(corners).getBoundingSphere(new THREE.Sphere());
     this.controls.target.copy(bounds.center);
     this.camera.near = bounds.radius / 100;
@@ -73,20 +81,37 @@ export class Scene {
     this.draw();
   }
 
-  show(found: Found): void {
+  /** @param colors linear, three for each point; null: the surface has its own color */
+  show(found: Found, colors: Float32Array | null): void {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(found.points, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(found.normals, 3));
+    if (colors) geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3));
+    this.surface.material.vertexColors = colors !== null;
+    this.surface.material.color.set(colors ? "#ffffff" : this.own);
+    this.surface.material.needsUpdate = true;
     geometry.setIndex(new THREE.BufferAttribute(found.triangles, 1));
     this.surface.geometry.dispose();
     this.surface.geometry = geometry;
     this.draw();
   }
   color(color: string, opacity: number): void {
-    this.surface.material.color.set(color);
+    this.own = color;
+    if (!this.surface.material.vertexColors) this.surface.material.color.set(color);
     this.surface.material.opacity = opacity;
     this.surface.material.transparent = opacity < 1;
     this.surface.material.needsUpdate = true;
+    this.draw();
+  }
+  /** Cuts away what lies beyond a plane: along an axis of the array at a share of its length; null: nothing. */
+  clip(info: Info, at: { axis: number; share: number } | null): void {
+    this.renderer.localClippingEnabled = at !== null;
+    if (at) {
+      const size = info.positions[at.axis]!.at(-1) ?? (info.vertices[at.axis]! - 1) * info.spacing[at.axis]!;
+      const along = new THREE.Vector3(...info.direction[at.axis]!);
+      this.cutOfData.setFromNormalAndCoplanarPoint(along.clone().negate(), along.multiplyScalar(size * at.share));
+    }
+    this.surface.material.clippingPlanes = at ? [this.cut] : null;
     this.draw();
   }
   background(color: string): void {
@@ -94,20 +119,42 @@ export class Scene {
     this.draw();
   }
 
+  /** Prepares headsets. @return what enters one; null where there is none */
+  async headset(wishes: HeadsetWishes, changed: (inside: boolean) => void): Promise<(() => Promise<void>) | null> {
+    if (!(await Headset.there())) return null;
+    const headset = new Headset(this.renderer, this.scene, this.world, () => new THREE.Box3().setFromObject(this.box!, true), wishes);
+    headset.changed = (inside) => {
+      // Two eyes do not wait for what the page draws, and the page draws nothing meanwhile.
+      if (inside)
+        this.renderer.setAnimationLoop((now: number) => {
+          headset.frame(now);
+          this.render();
+        });
+      else this.resize();
+      changed(inside);
+    };
+    return () => headset.enter();
+  }
+
   /** The picture as PNG. */
   picture(): Promise<Blob | null> {
-    this.renderer.render(this.scene, this.camera);
+    this.render();
     return new Promise((take) => this.renderer.domElement.toBlob(take, "image/png"));
   }
 
   /** Draws once, with the next refresh. */
   draw(): void {
-    if (this.wanted) return;
+    if (this.wanted || this.renderer.xr.isPresenting) return;
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
-      this.renderer.render(this.scene, this.camera);
+      this.render();
     });
+  }
+  private render(): void {
+    this.world.updateMatrixWorld();
+    this.cut.copy(this.cutOfData).applyMatrix4(this.world.matrixWorld);
+    this.renderer.render(this.scene, this.camera);
   }
 
   private resize(): void {

@@ -1,9 +1,6 @@
 // Ends the process soon after a signal, whatever its threads do: a driver may draw, and a disk may
-// stall, for longer than anybody waits.
-//
-//     EndInTime::allow("isochron");     // the program
-//     EndInTime::watch();               // work that hears signals begins
-//     EndInTime::signaled(SIGTERM);     // the handler: in 0.2 s the process has ended
+// stall, for longer than anybody waits. The program allows it, work that hears signals begins to watch,
+// and the handler of signals says when one has come.
 #pragma once
 
 #include <chrono>

@@ -2,7 +2,6 @@
 // no longer.
 #include "tests/house/source_tree.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,9 +22,9 @@ std::string words_of_file(const fs::path& path) {
 }
 
 bool git(const std::string& words) {
-    return std::system(
-               fmt::format("git -C '{}' {} >/dev/null 2>&1", checkout().string(), words).c_str()) ==
-           0;
+    const std::string command =
+        "git -C '" + checkout().string() + "' " + words + " >/dev/null 2>&1";
+    return std::system(command.c_str()) == 0;
 }
 
 std::set<std::string> commits_in(const std::string& text) {

@@ -1,6 +1,7 @@
-// Ctrl-C ends long work at its next report of progress.
+// Ctrl-C ends long work at its next report of progress, or soon.
 #include "app/command_line/cancel.h"
 
+#include "app/end_in_time.h"
 #include "index/readers/process/process_text.h"
 #include "index/readers/process/reader_pool.h"
 
@@ -53,6 +54,7 @@ pid_t find_launcher() {
 void note_signal(int signal, siginfo_t* about, void*) {
     came = signal;
     sender = about->si_pid;
+    EndInTime::signaled(signal);
     if (const WakeOnSignal* const woken = woken_by_signals)
         woken->wake_(woken->who_.get());
 }
@@ -62,8 +64,9 @@ CancelOnSignal::CancelOnSignal() {
         came = 0;
         launcher = find_launcher(); // before the end of a shell between the two leaves no trace
         index::readers_of_this_process().call_while_waiting(end_what_is_canceled);
+        EndInTime::watch();
     }
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_sigaction = note_signal;
     action.sa_flags = SA_RESTART | SA_SIGINFO;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {

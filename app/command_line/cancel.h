@@ -1,4 +1,5 @@
-// Ctrl-C ends long work at its next report of progress, so that the work can clean up.
+// Ctrl-C ends long work at its next report of progress, so that the work can clean up. Where none
+// comes soon, `EndInTime` ends the process.
 #pragma once
 
 #include "index/interrupted.h"

@@ -6,6 +6,7 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/command_help.h"
 #include "app/command_line/memory_shortage.h"
+#include "app/end_in_time.h"
 #include "app/safe_text.h"
 #include "app/text.h"
 #include "app/version.h"
@@ -29,6 +30,8 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include <unistd.h>
 
 namespace isochron::app {
 namespace {
@@ -382,10 +385,13 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
     // A file that may not grow further (ulimit -f) is an error of the call that writes, with a line.
     std::signal(SIGXFSZ, SIG_IGN);
     prepare_for_shortage(text.name);
+    EndInTime::allow(text.name);
     int status = 0;
     try {
         status = parse_and_run(text, commands, argc, argv);
     } catch (const Canceled& canceled) {
+        while (!EndInTime::is_first_to_tell())
+            ::pause(); // it is told and ended now
         return fail(text.name, canceled.what(), canceled.status);
     } catch (const ReportedElsewhere&) {
         return 0;

@@ -2,6 +2,7 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
+#include "app/end_in_time.h"
 #include "app/indexing/asked_build.h"
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
@@ -139,6 +140,8 @@ void end_job(stereo::Cluster& cluster, const std::string& what, int status) {
 void run_build(const BuildArguments& arguments, const Command& command) {
     const CancelOnSignal signals;
     const auto team = index::join_team();
+    if (team->size() > 1)
+        EndInTime::leave_to_the_job();
     // A step may take as long as its disk needs; only a process that does not respond is lost.
     using Duration = stereo::ClusterLimits::Duration;
     constexpr Duration kForEver(std::numeric_limits<double>::infinity());

@@ -11,6 +11,7 @@
 #include "app/safe_text.h"
 #include "app/text.h"
 #include "index/error.h"
+#include "index/export/simplified_mesh.h"
 #include "index/export/surface_export.h"
 #include "index/file/color_source.h"
 #include "index/readers/formats/length_units.h"
@@ -234,6 +235,26 @@ void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
             count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
 }
 
+/// Says by how much single precision moves vertices, where that is much of a cell, as of thin layers.
+void warn_of_rounding(const index::SurfaceFormat& format, const index::Grid& grid,
+                      const index::ExportPlan& plan) {
+    if (format.of_cells)
+        return;
+    const double moved = index::ExportedPlaces(grid, plan).rounding(0);
+    const double share = moved / (plan.unit_factor * index::shortest_side(grid));
+    if (share <= index::ExportedPlaces::kMostOfSide)
+        return;
+    print_safely(
+        stderr,
+        "isochron: note: coordinates of single precision are off by up to {} ({} of a "
+        "cell's shortest side){}\n",
+        upper_text(moved, plan.length_unit), upper_text(share, ""),
+        format.with_doubles
+            ? "; --precision double keeps them"
+            : fmt::format("; --precision double keeps them, in {}",
+                          fmt::join(format_names(&index::SurfaceFormat::with_doubles), ", ")));
+}
+
 /// Steps are visited in turn, once. Of small ones, which are read as a whole, few are kept, so that a step
 /// gets the memory of an earlier one: new memory is cleared first, which takes longer than decoding.
 void keep_few_steps(const index::IndexFile& file) {
@@ -268,6 +289,7 @@ void run_export(const ExportArguments& arguments) {
     guard_outputs(outputs, {{arguments.file}, file.get()}, arguments.force);
     if (target.name.has_parent_path())
         index::make_folder(target.name.parent_path());
+    warn_of_rounding(*target.format, file->info().grid, request.plan);
     index::ExportCount count;
     {
         const CancelOnSignal signals;

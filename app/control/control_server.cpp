@@ -65,6 +65,10 @@ ControlServer::~ControlServer() {
     wake_();
     thread_.join();
     desk_.set_socket_wake({});
+    withdraw();
+}
+
+void ControlServer::withdraw() const {
     unlink((address_.is_tcp() ? control_token_file(address_.port) : address_.path).c_str());
 }
 

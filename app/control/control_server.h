@@ -47,6 +47,8 @@ class ControlServer {
     std::string where() const;
     const ControlAddress& address() const { return address_; }
     std::size_t clients() const { return clients_; }
+    /// Removes the socket, and the token's file: nobody new can connect.
+    void withdraw() const;
 
   private:
     using Connection = ControlConnection;

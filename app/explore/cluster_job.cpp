@@ -6,6 +6,7 @@
 #include "app/command_line/cancel.h"
 #include "app/command_line/subcommands.h"
 #include "app/config/display_config_text.h"
+#include "app/end_in_time.h"
 #include "app/safe_text.h"
 #include "app/version.h"
 #include "interaction/recording/commands_json.h"
@@ -238,6 +239,8 @@ Facts start_fact(const Session& session) {
 void run_in_cluster(const std::function<void(ClusterJob&)>& command) {
     const auto team = index::join_team();
     stereo::Cluster cluster(*team);
+    if (cluster.size() > 1)
+        EndInTime::leave_to_the_job();
     ClusterJob job(cluster);
     // Signals are heard from here on: a window may be there before the command hears them.
     std::optional<CancelOnSignal> signals;

@@ -2,6 +2,7 @@
 #include "app/explore/exploration.h"
 
 #include "app/config/tracker_setup.h"
+#include "app/end_in_time.h"
 #include "app/explore/control_options.h"
 #include "app/explore/explore_start.h"
 #include "app/explore/explored_data.h"
@@ -280,12 +281,14 @@ std::optional<NextData> Exploration::run() {
                   session_->outputs().headset());
     const WakeOnSignal ends(live.wake(), stereo::Wake::call);
     session_->set_clock(live.clock());
+    std::optional<SavedAtEnd> saved([this, &live] { save(live); });
     if (job_.leads())
         lead(live);
     else
         job_.follow(*session_);
     session_->frames().end();
     finish(live, memory);
+    saved.reset();
     signals_.check();
     if (live.next_data())
         return live.next_data();
@@ -399,11 +402,12 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
         print_safely(stderr, "recording: {}\n", *options_.record);
 }
 
-/// What there is of a session whose display is gone.
+/// What there is of a session whose display is gone, or that a signal ends while it draws.
 void Exploration::save(LiveLoop& live) {
     try {
-        live.finish(*session_);
+        live.save(*session_);
         session_->outputs().pictures().finish();
+        claim_.reset();
         if (options_.record)
             print_safely(stderr, "recording: {}\n", *options_.record);
     } catch (const std::exception& error) {

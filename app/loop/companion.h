@@ -58,6 +58,9 @@ class Companion {
     /// Ends the work. @return the last messages @throws index::Error, interaction::Error when
     /// something cannot be written
     virtual std::vector<std::string> finish(const Session& /*session*/) { return {}; }
+    /// Saves what would be lost if the process ended now, as it does then. Called while nothing but
+    /// drawing may go on, maybe on another thread. @throws as `finish`
+    virtual void save(const Session& session) { finish(session); }
 };
 
 } // namespace isochron::app

@@ -222,6 +222,11 @@ std::vector<std::string> LiveLoop::finish(const Session& session) {
     return words;
 }
 
+void LiveLoop::save(const Session& session) const {
+    for (const auto& [place, companion] : companions_ | std::views::reverse)
+        companion->save(session);
+}
+
 std::vector<std::string> LiveLoop::status() const {
     std::vector<std::string> lines = trackers_.status();
     const std::vector<std::string> headset = headset_.status();

@@ -94,6 +94,8 @@ class LiveLoop {
     /// Ends the work of all companions. @return what the user is told of it
     /// @throws index::Error, interaction::Error when something cannot be written
     std::vector<std::string> finish(const Session& session);
+    /// Instead of `finish`, where the process ends now.
+    void save(const Session& session) const;
     /// Status of the trackers and the headset, a line each.
     std::vector<std::string> status() const;
 

@@ -32,6 +32,7 @@ class SessionControl final : public Companion {
     void after_frame(Session& session, const LiveFrame& frame) override {
         tell(session, frame.drawn);
     }
+    void save(const Session&) override { server_->withdraw(); }
     /// The next frame is due at once where a client waits for it.
     FrameOutlook outlook(interaction::Seconds) const override {
         return {.busy = waits_ || desk_.has_commands(), .final = true};

@@ -22,7 +22,7 @@ bool only_looks_differ(const interaction::Commands& start, interaction::Commands
     return now == start;
 }
 
-void save(const fs::path& path, const SavedSession& session, bool& moves_earlier) {
+void write_session(const fs::path& path, const SavedSession& session, bool& moves_earlier) {
     std::error_code error; // save_session reports a folder that cannot be made
     fs::create_directories(path.parent_path(), error);
     if (moves_earlier && fs::is_regular_file(path, error))
@@ -71,7 +71,7 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
     if (!keep(state, head, arrays))
         return;
     writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
-        save(path, session, *moves);
+        write_session(path, session, *moves);
         return std::string();
     });
 }
@@ -80,7 +80,7 @@ void SessionKeeper::save_now(const ExplorerState& state, const interaction::Stan
                              const Arrays& arrays) {
     keep(state, head, arrays);
     writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
-        save(path, session, *moves);
+        write_session(path, session, *moves);
         return "session saved: " + path.string();
     });
 }
@@ -89,7 +89,7 @@ void SessionKeeper::finish(const ExplorerState& state, const interaction::Standi
                            const Arrays& arrays) {
     writing_.finish();
     if (keep(state, head, arrays))
-        save(path_, kept_, *moves_earlier_);
+        write_session(path_, kept_, *moves_earlier_);
 }
 
 } // namespace isochron::app

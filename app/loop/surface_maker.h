@@ -45,6 +45,7 @@ class SurfaceMaker final : public Companion {
     /// Cancels an unfinished export, and waits for its end. @return as `messages`
     std::vector<std::string> finish();
     std::vector<std::string> finish(const Session&) override { return finish(); }
+    void save(const Session&) override {} ///< an export that goes on ends with its process
 
   private:
     void begin(const ExplorerState& state, std::optional<ColorScale> scale);

@@ -1,6 +1,7 @@
 // Draws, presents and keeps pictures in windows, in an emulated room, or in a headset.
 #include "app/output/outputs.h"
 
+#include "app/end_in_time.h"
 #include "app/output/picture_names.h"
 #include "app/version.h"
 #include "render/gl/driver.h"
@@ -293,6 +294,7 @@ void Outputs::take_screenshots(const PictureNote& frame) {
 }
 
 void Outputs::each_picture(const PictureNote& frame, const TakeNotedPicture& take) {
+    const DrawsOnly draws;
     const auto give = [&](const PicturePart& part, const std::string& suffix, render::Image image) {
         take(suffix, std::move(image), text_of(noted(frame, part)));
     };

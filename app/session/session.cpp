@@ -1,6 +1,7 @@
 // One session: brings data, search, devices and displays together, frame by frame.
 #include "app/session/session.h"
 
+#include "app/end_in_time.h"
 #include "app/frame/stop_watch.h"
 #include "app/session/start_state.h"
 #include "index/file/index_watch.h"
@@ -352,6 +353,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
     StopWatch stages;
+    const DrawsOnly draws;
     contents_.begin_frame();
     draw_eyes(frame, now, input, facts);
     panel_.draw_alone(facts, report.time);

@@ -21,10 +21,9 @@ float linear_light(std::uint8_t srgb) {
 ExportedPlaces::ExportedPlaces(const Grid& grid, const ExportPlan& plan)
     : grid_(grid), factor_(plan.unit_factor), double_(plan.double_precision),
       quantized_(plan.quantized), turned_(glm::determinant(grid.direction) < 0) {
-    constexpr double kMost = 1e-3; // share of a cell's side
     const double side = shortest_side(grid) * factor_;
     find_farthest();
-    if (double_ || farthest_ * std::numeric_limits<float>::epsilon() <= kMost * side)
+    if (double_ || farthest_ * std::numeric_limits<float>::epsilon() <= kMostOfSide * side)
         return;
     origin_ = glm::dvec3(glm::vec3(grid.origin * factor_));
     find_farthest();

@@ -78,8 +78,10 @@ struct ExportedStep {
 /// The coordinates of a grid's vertices as they stand in a file.
 class ExportedPlaces {
   public:
-    /// Places are those of physical space. Where single precision would move them by more than a
-    /// thousandth of a voxel, they count from the grid's first vertex, rounded to a float.
+    static constexpr double kMostOfSide = 1e-3; ///< share of a cell's shortest side
+
+    /// Places are those of physical space. Where single precision would move them by more than
+    /// `kMostOfSide`, they count from the grid's first vertex, rounded to a float.
     ExportedPlaces(const Grid& grid, const ExportPlan& plan);
 
     /// Subtracted from all coordinates, in the unit of the file.

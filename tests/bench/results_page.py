@@ -26,7 +26,7 @@ RESULTS = {
     "artifacts": ("docs/results/artifacts.json", "`isochron-bench artifacts --json`"),
     "scale": ("docs/results/scale.txt", "what `isochron-bench scale` printed"),
     "gpu": ("docs/results/gpu.txt", "what programs printed where a GPU drew"),
-    "agreement": ("docs/results/agreement.json", "`isochron-bench render --agreement-only --json`"),
+    "agreement": ("docs/results/agreement.json", "`isochron-bench render --data vorticity --agreement-only --json`"),
     "motion": ("docs/results/motion.json", "`isochron-bench motion --json`"),
     "building": ("docs/results/building.json", "`isochron-bench building --json`"),
     "change": ("docs/results/change.json", "`isochron-bench change --json`"),
@@ -373,7 +373,7 @@ def frames_gpu(gpu):
 
 def live_frames(gpu):
     """Frames of a live session on a GPU, of which a display wants one every 11.1 ms."""
-    bars, missed, shape, count = [], [], None, None
+    bars, missed, exact, shape, count = [], [], [], None, None
     for line in gpu.text.splitlines():
         if match := re.search(r"\b(\d+\^3) u8, [\d,]+ cells at", line):
             shape = match[1]
@@ -383,9 +383,11 @@ def live_frames(gpu):
             bars += map(ms, [f"{shape}: half of the frames", "99 of 100", "the longest"], match.groups(), [True] * 3)
         elif shape and (match := re.search(r"^\s+missed\s+(\d+) refreshes", line)):
             missed.append(f"{match[1]} of {count} refreshes with {shape}")
+        elif shape and (match := re.search(r"^\s+at rest\s+(\d+) times, (\d+) of them exact", line)):
+            exact.append(f"{match[2]} of {match[1]} with {shape}")
             shape = None
     machine = re.findall("^EGL, OpenGL.*", gpu.text, re.M)[-1]
-    return Row(bars=bars, missed=", and ".join(missed), mark=1000 / 90, mark_text="a frame of 90 Hz",
+    return Row(bars=bars, missed=", and ".join(missed), exact=", ".join(exact), mark=1000 / 90, mark_text="a frame of 90 Hz",
                source=f"`{gpu.path}`, {machine}")
 
 
@@ -540,10 +542,17 @@ def values_of(paths):
         "command": " ".join(path if name == "index" else f"--{name} {path}" for name, path in paths.items())}
 
 
+# Commits of measurements that the history does not have, and that could not be made again: of a GPU that is no longer
+# at hand, and of times that need a machine to themselves.
+GONE = ("69ae3ff3c705", "498f46717f94")
+
+
 def files_of(paths):
     """The page in Markdown and the charts that it shows, by their paths from its folder."""
     values = values_of(paths)
     page = expand(Path(__file__).with_suffix(".md").read_text(encoding="utf-8"), values)
+    for commit in GONE:  # but where a program's own words are quoted
+        page = re.sub(f"(?<!\n)commit {commit}", f"commit {commit}, which is no longer in the history", page)
     charts = re.findall(r"!\[(.*)\]\((pictures/charts/(\w+)\.svg)\)", page)
     return {"RESULTS.md": page} | {path: svg_of(title, **values[name]) for title, path, name in charts}
 

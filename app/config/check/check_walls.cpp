@@ -19,7 +19,7 @@ namespace {
 
 using stereo::StereoMode;
 
-constexpr float kSeam = 0.005f;     ///< [m] widest gap between screens that is no problem
+constexpr float kSeam = 0.010f;     ///< [m] widest gap between screens that is no problem
 constexpr float kNeighbors = 0.10f; ///< [m] corners this near are meant to coincide
 constexpr float kSame = 1e-3f;      ///< [m] corners this near are the same
 
@@ -95,16 +95,28 @@ float gap_between(const Wall& a, const Wall& b) {
     return widest;
 }
 
-/// How far apart the corners of two walls may be that meet. At a corner of four displays, those on
-/// the diagonal are farther apart.
-float allowed_gap(const Wall& a, const Wall& b) {
-    return kSeam + std::sqrt(2.0f) * (a.screen().bezel + b.screen().bezel);
-}
-
 bool in_one_wall(const Wall& a, const Wall& b) {
     constexpr float kParallel = 0.999f, kDeep = 0.1f; // cosine, and [m]
     return glm::dot(a.normal, b.normal) > kParallel &&
            std::abs(glm::dot(a.normal, b.corners[0] - a.corners[0])) < kDeep;
+}
+
+/// Monitors on a desk, turned towards the viewer: they have frames, and nobody sees a wall in them.
+bool are_turned_monitors(const Wall& a, const Wall& b) {
+    constexpr float kLargest = 1.0f; // [m] along a side
+    const auto largest = [](const Wall& wall) {
+        const glm::vec2 size = stereo::size_of(wall.screen());
+        return std::max(size.x, size.y);
+    };
+    return !in_one_wall(a, b) && std::max(largest(a), largest(b)) < kLargest;
+}
+
+/// How far apart the corners of two walls may be that meet. At a corner of four displays, those on
+/// the diagonal are farther apart.
+float allowed_gap(const Wall& a, const Wall& b) {
+    constexpr float kFrames = 0.06f; // [m] of two monitors
+    return std::max(kSeam + std::sqrt(2.0f) * (a.screen().bezel + b.screen().bezel),
+                    are_turned_monitors(a, b) ? kFrames : 0.0f);
 }
 
 /// Gaps wider than a seam, and than the frames of both: one for each two walls, and one for all

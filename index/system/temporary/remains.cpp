@@ -2,6 +2,7 @@
 #include "index/system/temporary/remains.h"
 
 #include "index/system/descriptor.h"
+#include "index/system/temporary/own_remains.h"
 #include "index/system/user_folders.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -161,6 +163,21 @@ void sweep(const fs::path& folder) {
         ::unlinkat(ledger.number(), others[i].second.c_str(), 0);
 }
 
+/// What stands in the ledger for this process, by the path of its link. Never destroyed: another thread
+/// may read it while the process ends.
+struct OwnRemain {
+    std::string path, contents;
+    int file;
+};
+struct OwnRemains {
+    std::mutex mutex;
+    std::map<std::string, OwnRemain> by_link;
+};
+OwnRemains& own_remains() {
+    static OwnRemains* const all = new OwnRemains;
+    return *all;
+}
+
 std::uint32_t random_number() {
     static std::mutex mutex;
     static std::random_device random;
@@ -211,15 +228,33 @@ LedgerEntry::LedgerEntry(const fs::path& path, int file, std::string_view conten
         const std::string text =
             fmt::format("{:x} {:x} {:x} {}{}", identity->device, identity->number, identity->born,
                         contents, (parent / path.filename()).string());
-        if (open && ::symlinkat(text.c_str(), open.number(), name.c_str()) == 0)
-            link_ = std::move(link);
+        if (!open || ::symlinkat(text.c_str(), open.number(), name.c_str()) != 0)
+            return;
+        link_ = std::move(link);
+        OwnRemains& own = own_remains();
+        const std::lock_guard lock(own.mutex);
+        own.by_link[link_] = {path.string(), std::string(contents), file};
     } catch (const std::exception&) { // then there is no entry
     }
 }
 
 void LedgerEntry::strike() noexcept {
-    if (!link_.empty())
-        ::unlink(link_.c_str());
+    if (link_.empty())
+        return;
+    ::unlink(link_.c_str());
+    OwnRemains& own = own_remains();
+    const std::lock_guard lock(own.mutex);
+    own.by_link.erase(link_);
+}
+
+void remove_own_remains() noexcept {
+    OwnRemains& own = own_remains();
+    const std::lock_guard lock(own.mutex);
+    for (const auto& [link, remain] : own.by_link) {
+        remove_temporary(remain.path.c_str(), remain.file, remain.contents);
+        if (identity_of(AT_FDCWD, remain.path.c_str()) != identity_of(remain.file, ""))
+            ::unlink(link.c_str());
+    }
 }
 
 void remove_remains_in(const fs::path& folder) {

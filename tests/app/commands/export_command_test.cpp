@@ -453,6 +453,58 @@ TEST_F(ExportCommand, FarFromTheOriginPlacesKeepTheirShape) {
     EXPECT_NEAR(first_x("km.ply", false), x / 1000, 1e-8);
 }
 
+/// Wide grids of thin layers, as of weather: what the note says is what a vertex moves at most.
+TEST_F(ExportCommand, WhatSinglePrecisionMovesIsSaidWhereItIsMuchOfACell) {
+    const auto coordinates = [&](const std::string& file, std::size_t bytes) {
+        const std::string text = folder.read(file);
+        const std::size_t header = text.find("end_header\n");
+        const std::size_t at = text.find("element vertex ") + 15;
+        std::vector<double> all;
+        const std::size_t count = std::stoul(text.substr(at));
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::size_t stride = 3 * bytes; // without normals
+                const char* const from =
+                    text.data() + header + 11 + i * (stride + 3) + axis * bytes; // and a color
+                double wide = 0;
+                float narrow = 0;
+                std::memcpy(bytes == 8 ? static_cast<void*>(&wide) : &narrow, from, bytes);
+                all.push_back(bytes == 8 ? wide : narrow);
+            }
+        return all;
+    };
+    for (const auto& [spacing, said] : {std::pair{"300000", true}, {"3000", true}, {"3", false}}) {
+        expect_done(build_of(
+            "t*.raw", {"--spacing", spacing, spacing, "1", "--length-unit", "m", "--force"}));
+        const std::vector<std::string> command{"export",       "a.isochron", "--isovalue",
+                                               "0.1",          "--steps",    "0",
+                                               "--no-normals", "--force",    "-o"};
+        const auto with = [&](const std::vector<std::string>& more) {
+            std::vector<std::string> all = command;
+            all.insert(all.end(), more.begin(), more.end());
+            return expect_done(all);
+        };
+        const std::string note = with({"single.ply"}).err;
+        EXPECT_THAT(with({"double.ply", "--precision", "double"}).err,
+                    Not(HasSubstr("single precision")));
+        const auto single = coordinates("single.ply", 4), exact = coordinates("double.ply", 8);
+        ASSERT_EQ(single.size(), exact.size());
+        double most = 0;
+        for (std::size_t i = 0; i + 2 < exact.size(); i += 3)
+            most = std::max(most, std::hypot(single[i] - exact[i], single[i + 1] - exact[i + 1],
+                                             single[i + 2] - exact[i + 2]));
+        ASSERT_EQ(note.find("off by up to ") != note.npos, said) << note;
+        if (!said) {
+            EXPECT_LE(most, 1e-3) << "of a cell's shortest side";
+            continue;
+        }
+        const double bound = std::stod(note.substr(note.find("off by up to ") + 13));
+        EXPECT_LE(most, bound);
+        EXPECT_GT(most, 0.2 * bound);
+        EXPECT_THAT(note, HasSubstr("--precision double keeps them"));
+    }
+}
+
 TEST_F(ExportCommand, WhereNoCellHasTheIsovalueFilesAreEmptyAndThatIsSaid) {
     build();
     for (const std::string format :
@@ -504,6 +556,12 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
     for (const auto& [arguments, said] : wrong)
         expect_refused(arguments, said == "to color by" ? 1 : 2, said);
     expect_refused({"--isovalue", "0", "-o", "a.ply", "--array", "none"}, 1, "no array none");
+    std::vector<std::string> many{"-o", "a.ply"};
+    for (int i = 0; i < 9; ++i)
+        many.insert(many.end(), {"--isovalue", std::to_string(i)});
+    expect_refused(many, 2, "--isovalue: expected at most 8 of them, got 9");
+    expect_refused({"--isovalue", "0.1", "-o", "a.ply", "--simplify", "1e-9"}, 1,
+                   "a file of this precision moves vertices by up to");
 }
 
 } // namespace

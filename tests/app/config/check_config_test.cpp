@@ -98,12 +98,26 @@ TEST(CheckConfig, WallsThatNearlyMeetAreWarnedOf) {
                            "upper_right = [{0}, 3, 1]\n",
                            1.0f + gap);
     };
-    EXPECT_THAT(lines_of(window_with(kSquare) + east(0.004f)), IsEmpty());
+    EXPECT_THAT(lines_of(window_with(kSquare) + east(0.009f)), IsEmpty()) << "by a tape";
     EXPECT_THAT(lines_of(window_with(kSquare) + east(0.02f)),
                 ElementsAre("lab.toml:13: warning: windows.viewports.projection: window east: a "
                             "corner is 20 mm from one of window west, where walls meet within "
-                            "5 mm"));
+                            "10 mm"));
     EXPECT_THAT(lines_of(window_with(kSquare) + east(0.5f)), IsEmpty()) << "walls apart";
+}
+
+TEST(CheckConfig, FramesOfTurnedMonitorsAreNoGap) {
+    const auto monitor = [](const char* name, float edge) {
+        return fmt::format("[[windows]]\nname = \"{}\"\nsize = [1920, 1200]\n"
+                           "[[windows.viewports]]\n[windows.viewports.projection]\n"
+                           "lower_left = [{}, 1, {}]\nupper_left = [{}, 1.375, {}]\n"
+                           "upper_right = [{}, 1.375, {}]\n",
+                           name, edge, -1.0f, edge, -1.0f, edge + (edge < 0 ? 0.6f : 0.48f),
+                           edge < 0 ? -1.0f : -0.64f);
+    };
+    EXPECT_THAT(lines_of(monitor("left", -0.6f) + monitor("right", 0.05f)), IsEmpty());
+    EXPECT_THAT(lines_of(monitor("left", -0.6f) + monitor("right", 0.08f)),
+                ElementsAre(HasSubstr("a corner is 80 mm from one of window left")));
 }
 
 TEST(CheckConfig, WhatTwoCannotShareIsWrong) {

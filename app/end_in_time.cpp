@@ -1,0 +1,115 @@
+// Ends the process soon after a signal.
+#include "app/end_in_time.h"
+
+#include "app/safe_text.h"
+#include "index/system/temporary/own_remains.h"
+
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <semaphore.h>
+#include <unistd.h>
+
+namespace isochron::app {
+namespace {
+
+/// Never destroyed: the thread that waits may outlive `main`.
+struct Watch {
+    sem_t came{}; ///< a signal
+    std::atomic<int> signal = 0;
+    std::atomic<const char*> program = nullptr; ///< null: the process is not ended
+    std::once_flag begun;
+    std::atomic_flag told;
+    std::timed_mutex still; ///< held while what is saved may change
+    std::function<void()> save;
+    std::atomic<bool> saves = false;
+    int draws = 0; ///< objects of DrawsOnly, one within the other
+    Watch() { sem_init(&came, 0, 0); }
+};
+
+Watch& watch_of_process() {
+    static Watch* const watch = new Watch;
+    return *watch;
+}
+
+[[noreturn]] void end(Watch& watch) {
+    const std::chrono::seconds most = watch.saves ? EndInTime::kToSave : EndInTime::kToCleanUp;
+    ::alarm(static_cast<unsigned>(most.count())); // ends it where even that hangs
+    if (watch.still.try_lock_for(most) && watch.save)
+        watch.save();
+    index::remove_own_remains();
+    if (!EndInTime::is_first_to_tell()) {
+        std::this_thread::sleep_for(EndInTime::kByItself); // another thread says it now
+    } else {
+        if (::isatty(STDERR_FILENO) != 0)
+            print_safely(stderr, "\n"); // behind a bar of progress
+        print_safely(stderr, "{}: canceled\n", watch.program.load());
+    }
+    ::_exit(128 + watch.signal);
+}
+
+void wait_for_a_signal(Watch& watch) {
+    while (sem_wait(&watch.came) != 0) {
+    }
+    std::this_thread::sleep_for(EndInTime::kByItself);
+    if (watch.program != nullptr)
+        end(watch);
+}
+
+} // namespace
+
+void EndInTime::allow(const char* program) {
+    watch_of_process().program = program;
+}
+
+void EndInTime::leave_to_the_job() {
+    watch_of_process().program = nullptr;
+}
+
+void EndInTime::watch() {
+    Watch& watch = watch_of_process();
+    if (watch.program != nullptr)
+        std::call_once(watch.begun,
+                       [&] { std::thread([&watch] { wait_for_a_signal(watch); }).detach(); });
+}
+
+void EndInTime::signaled(int signal) noexcept {
+    Watch& watch = watch_of_process();
+    watch.signal = signal;
+    sem_post(&watch.came);
+}
+
+bool EndInTime::is_first_to_tell() {
+    return !watch_of_process().told.test_and_set();
+}
+
+SavedAtEnd::SavedAtEnd(std::function<void()> save) {
+    Watch& watch = watch_of_process();
+    watch.still.lock();
+    watch.save = std::move(save);
+    watch.saves = true;
+}
+
+SavedAtEnd::~SavedAtEnd() {
+    Watch& watch = watch_of_process();
+    watch.saves = false;
+    watch.save = {};
+    watch.still.unlock();
+}
+
+DrawsOnly::DrawsOnly() {
+    Watch& watch = watch_of_process();
+    if (watch.save && watch.draws++ == 0)
+        watch.still.unlock();
+}
+
+DrawsOnly::~DrawsOnly() {
+    Watch& watch = watch_of_process();
+    if (watch.save && --watch.draws == 0)
+        watch.still.lock();
+}
+
+} // namespace isochron::app

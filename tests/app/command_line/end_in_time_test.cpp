@@ -1,0 +1,91 @@
+// A process that was signaled ends soon, whatever its threads do, with its files cleaned up and its work
+// saved.
+#include "app/end_in_time.h"
+
+#include "index/system/new_file.h"
+#include "tests/support/test_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+namespace isochron::app {
+namespace {
+
+using test_support::TestFolder;
+using namespace std::chrono_literals;
+
+/// Runs in a process of its own: what never ends by itself.
+[[noreturn]] void hang() {
+    for (;;)
+        std::this_thread::sleep_for(1h);
+}
+
+void begin() {
+    EndInTime::allow("lab");
+    EndInTime::watch();
+}
+
+class EndInTimeTest : public testing::Test {
+  protected:
+    EndInTimeTest() { setenv("XDG_STATE_HOME", home_.path().c_str(), 1); } // its ledger
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+    }
+    TestFolder folder;
+
+  private:
+    TestFolder home_;
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+TEST_F(EndInTimeTest, EndsWhatDoesNotEndByItselfAndRemovesItsTemporaryFiles) {
+    EXPECT_EXIT(
+        {
+            begin();
+            const index::NewFile file(folder.path() / "a", index::NewFile::Writers::several);
+            if (std::filesystem::is_empty(folder.path()))
+                _exit(1);
+            EndInTime::signaled(SIGTERM);
+            hang();
+        },
+        testing::ExitedWithCode(128 + SIGTERM), "lab: canceled");
+    EXPECT_LT(seconds(), 5) << "on a busy machine";
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_F(EndInTimeTest, SavesWhileItDrawsAndNotWhileWhatIsSavedMayChange) {
+    EXPECT_EXIT(
+        {
+            begin();
+            bool whole = true;
+            const SavedAtEnd saved([&] { folder.write(whole ? "whole" : "half", ""); });
+            whole = false;
+            EndInTime::signaled(SIGINT);
+            std::this_thread::sleep_for(3 * EndInTime::kByItself);
+            whole = true;
+            const DrawsOnly draws;
+            const DrawsOnly within;
+            hang();
+        },
+        testing::ExitedWithCode(128 + SIGINT), "lab: canceled");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"whole"});
+}
+
+TEST_F(EndInTimeTest, LeavesAloneWhatEndsByItselfAndJobsOfSeveralProcesses) {
+    EXPECT_EXIT(
+        {
+            begin();
+            EndInTime::leave_to_the_job();
+            EndInTime::signaled(SIGTERM);
+            std::this_thread::sleep_for(3 * EndInTime::kByItself);
+            _exit(EndInTime::is_first_to_tell() ? 7 : 8);
+        },
+        testing::ExitedWithCode(7), "");
+}
+
+} // namespace
+} // namespace isochron::app

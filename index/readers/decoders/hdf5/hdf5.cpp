@@ -87,7 +87,7 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     place_axes(record, layout, options, volume.info);
     if (of_views)
         place_bigdataviewer(*file, first, volume.info);
-    time_hdf5(*file, array, record, layout, steps, volume.info);
+    time_hdf5(*file, array, record, layout, steps, options, volume.info);
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }
 

@@ -283,9 +283,14 @@ for name, tags, said in [
     data = save(blank(flat, new_series(), PixelSpacing=[0.75, 0.5], **tags), named("film"))
     refuse(data, f"a film, 12 frames of one slice ({said}")
     expect(data, flat, spacing=(0.5, 0.75, 3), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
-placed = save(blank(flat, new_series(), **{**nuclear, "Modality": "US"}, FrameTime=33), named("solid"))
-refuse(placed, "a film, 12 frames of one slice (steps by FrameTime")
-expect(placed, flat, spacing=(0.5, 0.75, 2), spacing_given=[0.5, 0.75, 2], note="they are taken for slices")
+expect(save(blank(flat, new_series(), **{**nuclear, "Modality": "US"}, FrameTime=33), named("solid")), flat,
+       spacing=(0.5, 0.75, 2), note="they are taken for slices")
+series, cine = new_series(), []
+for t in range(12):  # a file for each frame, at one place
+    cine.append(save(blank(flat[t], series, PixelSpacing=[0.75, 0.5], TriggerTime=30 * t, ImageOrientationPatient=[1, 0, 0, 0, 1, 0],
+                           ImagePositionPatient=[-10, 20, 5]), named("cine")))
+refuse(cine, "a film, 12 frames of one slice (steps by TriggerTime")
+expect(cine, flat, spacing=(0.5, 0.75, 3), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
 offsets = blank(flat, new_series(), Modality="RTDOSE", PixelSpacing=[0.75, 0.5], ImagePositionPatient=[-10, 20, 5],
                 ImageOrientationPatient=[1, 0, 0, 0, 1, 0], GridFrameOffsetVector=[-2 * i for i in range(12)],
                 FrameIncrementPointer=[Tag("GridFrameOffsetVector")])

@@ -28,6 +28,8 @@ using gdcm::Tag;
 const Tag kFrameGroups(0x5200, 0x9230), kContent(0x0020, 0x9111), kDetector(0x0054, 0x0022),
     kTransformation(0x0028, 0x9145), kMeasures(0x0028, 0x9110);
 
+const Tag kGradient(0x0018, 0x9089); // DiffusionGradientOrientation
+
 /// What tells volumes apart in one series, in a group of a frame or else at the root.
 struct KindSource {
     const char *name, *unit; ///< unit of its numbers; null: it is text
@@ -37,7 +39,7 @@ const std::array<KindSource, 10> kKindSources{{
     {"echo time", " ms", {0x0018, 0x9114}, {0x0018, 0x9082}, {0x0018, 0x0081}},
     {"inversion time", " ms", {0x0018, 0x9115}, {0x0018, 0x9079}, {0x0018, 0x0082}},
     {"b-value", " s/mm2", {0x0018, 0x9117}, {0x0018, 0x9087}, {0x0018, 0x9087}},
-    {"gradient", "", kNoTag, {0x0018, 0x9089}, {0x0018, 0x9089}},
+    {"gradient", "", kNoTag, kGradient, kGradient},
     {"image type", nullptr, {0x0018, 0x9226}, {0x0008, 0x9007}, {0x0008, 0x0008}},
     {"component", nullptr, {0x0018, 0x9226}, {0x0008, 0x9208}, {0x0008, 0x9208}},
     {"voltage", " kV", {0x0018, 0x9325}, {0x0018, 0x0060}, {0x0018, 0x0060}},
@@ -185,7 +187,8 @@ class OtherDimensions {
         for (const Tag& tag : tags_of_clocks())
             known.insert(tag);
         for (const KindSource& source : kKindSources)
-            known.insert({source.tag, source.root});
+            if (source.tag != kGradient) // which may be counted without being said
+                known.insert({source.tag, source.root});
         for (std::size_t i = 0; i < root.items(kIndices); ++i) {
             const auto pointer = root.within(kIndices, i).numbers({0x0020, 0x9165});
             const Tag tag = pointer.size() == 2 ? Tag(static_cast<std::uint16_t>(pointer[0]),

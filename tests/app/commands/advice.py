@@ -279,6 +279,13 @@ for advice, gives in [("--component 0", ".0"), ("--component magnitude", "magnit
            "them as steps", (advice,), gives=gives, build=True)
 
 # ---- times
+for i, name in enumerate(("02-01-2020", "01-02-2020")):
+    nrrd(f"either_{name}.nrrd", values + i)
+follow("'either_*.nrrd'", "--dates dmy or --dates mdy makes dates of them", ("--dates dmy",), gives="read as day-month-year", gone=True)
+follow("'either_*.nrrd'", "--dates dmy or --dates mdy makes dates of them", ("--dates mdy",), gives="names have dates", gone=True)
+netcdf("since.nc", times=[0, 1], time_units="days since 02-01-2000")
+for advice, date in (("--dates dmy", "2000-01-02"), ("--dates mdy", "2000-02-01")):
+    follow("since.nc", "(--dates dmy, --dates mdy)", (advice,), gives=date, gone=True)
 vti("time_1.vti", 0)
 vti("time_2.vti")
 follow("'time_*.vti'", "; --time-step sets them all", ("--time-step", "2"), gives="times 0 to 2")

@@ -43,7 +43,7 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& 
                                            ? std::vector<std::string>()
                                            : file.texts_in(inside(around[i], name));
                     dates.size() == steps)
-                    place_dates(dates, name, info, {});
+                    place_dates(dates, name, info, options.dates);
         return;
     }
     if (array.times) { // unless attributes say more

@@ -71,7 +71,7 @@ class XdmfFile final : public DecodedFile {
             if (step.time)
                 times.values.push_back(*step.time);
         if (times.values.size() == steps_.size())
-            place_times(std::move(times), info_);
+            place_times(std::move(times), info_, options.dates);
         if (!info_.times.empty()) // the last ones may have none
             steps_.resize(info_.times.size());
     }

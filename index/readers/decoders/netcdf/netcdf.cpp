@@ -309,7 +309,7 @@ class NetcdfVolume final : public DecodedFile {
         if (!info_.times.empty())
             return;
         const NetcdfDates found = dates_along(file_, variable_.dimensions[*layout_.time]);
-        place_dates(found.dates, found.name, info_, {});
+        place_dates(found.dates, found.name, info_, options.dates);
     }
 
     /// Times of steps that have a group each: as the groups state them, or their names.

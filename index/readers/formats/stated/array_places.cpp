@@ -371,7 +371,7 @@ void place_steps(const StatedAxis& time, const ReadOptions& options, SeriesInfo&
         for (std::uint64_t i = 0; i < time.length; ++i)
             stated.values.push_back(time.first + static_cast<double>(i) * time.step);
     }
-    place_times(std::move(stated), info, {});
+    place_times(std::move(stated), info, options.dates);
 }
 
 std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,

@@ -236,6 +236,10 @@ void Exploration::open_session() {
         earlier_ = earlier_session(earlier_kept_in(options_, *file_), options_.resume);
     else if (options_.resume)
         throw UsageError("--resume is for one process, without mpirun");
+    if (const std::string note =
+            earlier_ ? other_reading("--resume", earlier_->reading, *file_) : std::string();
+        !note.empty())
+        print_safely(stderr, "isochron: {}\n", note);
     if (!windows_)
         open_outputs();
     if (!prepare_session())

@@ -41,6 +41,16 @@ std::string held_hash(const index::IndexFile& file, const std::string& hash) {
     return is_held(file, hash) ? hash : data_hash_of(file);
 }
 
+std::string other_reading(const std::string& name, std::uint32_t reading,
+                          const index::IndexFile& file) {
+    const std::uint32_t now = file.metadata().reading_number;
+    return reading == 0 || reading == now
+               ? std::string()
+               : fmt::format("{}: made on data whose files were read otherwise (reading {}, {} has "
+                             "{}): places, times or missing values may differ",
+                             name, reading, file.name(), now);
+}
+
 std::filesystem::path kept_on_fewer_steps(const std::filesystem::path& path,
                                           const index::IndexFile& file) {
     namespace fs = std::filesystem;
@@ -141,7 +151,8 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
                 *path,
                 SavedSession{std::string(kProgram), std::filesystem::absolute(data).string(),
                              data_hash_of(file), session.state().as_commands(), live.standing(),
-                             session.left_arrays(), !earlier || earlier->only_looked},
+                             session.left_arrays(), !earlier || earlier->only_looked,
+                             file.metadata().reading_number},
                 resumed));
 }
 

@@ -17,6 +17,10 @@ namespace isochron::app {
 std::string data_hash_of(const index::IndexFile& file);
 /// `hash` if the data have it, or had it when they had fewer steps; else the data's hash now.
 std::string held_hash(const index::IndexFile& file, const std::string& hash);
+/// What to say where something made on data is shown on these, whose files were understood in another
+/// way; empty: nothing, also where it does not say its reading. @param name of what was made
+std::string other_reading(const std::string& name, std::uint32_t reading,
+                          const index::IndexFile& file);
 
 /// `path` if it exists; else the newest session file in its folder that was saved when these data
 /// had fewer steps; `path` again if there is none.

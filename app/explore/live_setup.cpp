@@ -62,6 +62,7 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
         header.text = session.panel().text_share(window);
     }
     header.data_hash = data_hash_of(file);
+    header.reading = file.metadata().reading_number;
     header.start = session.state().as_commands();
     return header;
 }

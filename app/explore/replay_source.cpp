@@ -5,6 +5,7 @@
 #include "app/explore/drawing_options.h"
 #include "app/explore/kept_session.h"
 #include "app/indexing/open_index.h"
+#include "app/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -97,6 +98,9 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
                             options.recording, header.data));
     }
     auto file = open_index_to_show(path, config.memory.cache_bytes());
+    if (const std::string note = other_reading(options.recording, header.reading, *file);
+        !note.empty())
+        print_safely(stderr, "isochron: {}\n", note);
     if (!options.any_data && !other_data(header, *file).empty())
         throw interaction::Error(
             fmt::format("{}: recorded on other data: expected hash {}, {} has {} "

@@ -47,6 +47,16 @@ bool AskedBuild::take(BuildSources sources, const std::vector<fs::path>& files) 
     return sources_.volume != nullptr;
 }
 
+std::string AskedBuild::reread() const {
+    const std::uint32_t reading = held_ ? held_->metadata().reading_number : index::kReading;
+    return reading == index::kReading
+               ? std::string()
+               : fmt::format("{}: built with reading {} of the files, this program has {}: the "
+                             "sources of its {} steps were read again, and are the same",
+                             arguments_.out.string(), reading, index::kReading,
+                             held_->info().steps());
+}
+
 double AskedBuild::bytes() const {
     const index::SeriesInfo& info = sources_.volume->info();
     const std::size_t known = held_ ? held_->info().steps() : 0;

@@ -27,6 +27,9 @@ class AskedBuild {
     /// @param files that an index may refer to
     /// @return false: the index holds every step already @throws index::Error, UsageError
     bool take(BuildSources sources, const std::vector<std::filesystem::path>& files);
+    /// One sentence where the held steps had to be read again and compared, as the files are understood
+    /// otherwise since; else empty. After `take`.
+    std::string reread() const;
     double bytes() const; ///< bytes of the values that are to be read
     /// Appends in place where that can be, else builds anew.
     /// @return why an index was written anew that should grow, or nothing @throws index::Error

@@ -90,6 +90,7 @@ void fill_in(index::ReadOptions& read, const index::ReadOptions& held) {
     take(read.extra_axis_is_time, held.extra_axis_is_time);
     take(read.member, held.member);
     take(read.times_from_names, held.times_from_names);
+    take(read.dates, held.dates);
     take(read.keep_first, held.keep_first);
     take(read.crop, held.crop);
     take(read.stride, held.stride);
@@ -143,6 +144,9 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
         read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
     if (arguments.resample_by_cell)
         read.resample = index::kBySmallestCell;
+    if (!arguments.dates.empty())
+        read.dates =
+            arguments.dates == "dmy" ? index::DayMonth::day_first : index::DayMonth::month_first;
     if (!arguments.type.empty())
         read.type = index::value_type_from_name(arguments.type);
     if (!arguments.spacing.empty())
@@ -306,6 +310,12 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "Use as time the number that differs from file to file in the names of the files, or "
               "of their folders; of several, the last: 30 of t_0030.vti, 0.25 of 0.25/p.vti. Or "
               "the date: 2020-01-02, 20200102T0600")
+        .group("Reading");
+    command
+        .option("--dates", arguments.dates,
+                "Order of day and month in dates whose year is last, in names and in files: "
+                "01-02-2020 is the first of February (dmy) or January 2 (mdy)")
+        .one_of({"dmy", "mdy"})
         .group("Reading");
     command
         .flag("--keep-first", read.keep_first,

@@ -18,7 +18,7 @@ struct BuildArguments {
     double patience = 60;                       ///< [s] in which a reader may do nothing
     std::filesystem::path out;
     index::ReadOptions read;
-    std::string type;
+    std::string type, dates;
     std::vector<std::uint32_t> dims, resample;
     bool resample_by_cell = false; ///< by the size of the smallest cell
     std::vector<double> spacing, origin;

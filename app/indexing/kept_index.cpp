@@ -76,6 +76,8 @@ std::string options_text(const BuildArguments& arguments) {
                        fmt::join(arguments.origin, ","));
     if (arguments.resample_by_cell)
         key += "by cell";
+    if (read.dates)
+        key += fmt::format("dates {};", static_cast<int>(*read.dates));
     if (read.member)
         key += fmt::format("member {};", *read.member);
     key += fmt::format("{};{};{}", arguments.crop, arguments.stride, arguments.steps);

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <span>
 
 namespace isochron::app {
@@ -75,8 +76,11 @@ SavedSession session_from(const json& value) {
         saved.arrays = arrays_from(*arrays);
     if (const json* looked = members.find("only_looked"))
         saved.only_looked = interaction::boolean(*looked, "only_looked");
+    if (const json* reading = members.find("reading_number"))
+        saved.reading = static_cast<std::uint32_t>(interaction::natural(
+            *reading, "reading_number", std::numeric_limits<std::uint32_t>::max()));
     members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays",
-                  "only_looked"});
+                  "only_looked", "reading_number"});
     return saved;
 }
 
@@ -94,6 +98,8 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
         value["arrays"] = arrays_json(session.arrays);
     if (session.only_looked)
         value["only_looked"] = true;
+    if (session.reading != 0)
+        value["reading_number"] = session.reading;
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));

@@ -8,6 +8,7 @@
 #include "app/frame/explorer_state.h"
 #include "interaction/controls/desktop_emulation.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct SavedSession {
     /// Nothing was made in it, nor in the one that it goes on with: only view and time differ from
     /// the first look at the data.
     bool only_looked = false;
+    std::uint32_t reading = 0; ///< `index::Metadata::reading_number` of the data; 0: not said
 };
 
 /// Writes readable JSON. The file appears under its name when complete, or not at all.

@@ -61,15 +61,15 @@ void expect_unchanged(const std::string& name, VolumeSeries& all, std::size_t he
         if (checksum.take() == checksums[step])
             continue;
         const std::vector<std::string>& sources = all.info().sources;
-        throw Error(
-            fmt::format("{}: cannot be appended to: its source {} has changed under step {}{}", name,
-                        sources.size() == all.info().steps() ? sources[step]
-                        : sources.empty()                    ? "?"
-                                                             : sources.back(),
-                        step,
-                        read_alike ? ""
-                                   : ", or is read otherwise than by the version that built it: "
-                                     "build it again without --append"));
+        throw Error(fmt::format(
+            "{}: cannot be appended to: its source {} has changed under step {}{}", name,
+            sources.size() == all.info().steps() ? sources[step]
+            : sources.empty()                    ? "?"
+                                                 : sources.back(),
+            step,
+            read_alike ? ""
+                       : ", or is read otherwise than by the version that built it: "
+                         "build it again without --append"));
     }
 }
 
@@ -120,8 +120,10 @@ std::unique_ptr<VolumeSeries> append_colors_to(std::shared_ptr<const IndexFile> 
         throw Error(fmt::format("{}: cannot be appended to: its colors {} differ in type or "
                                 "scaling",
                                 name, given));
+    const bool read_alike = index->metadata().reading_number == kReading;
+    const std::vector<std::uint64_t> unknown(index->info().steps(), 0);
     expect_unchanged(name, *all, index->info().steps(), index->color_checksums(),
-                     index->source_states(), true);
+                     read_alike ? index->source_states() : unknown, read_alike);
     return std::make_unique<AppendedSeries>(std::move(index), std::move(all),
                                             static_cast<Load>(&IndexFile::load_color));
 }

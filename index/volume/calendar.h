@@ -19,6 +19,9 @@ struct Date {
     bool operator==(const Date&) const = default;
 };
 
+/// What stands first in dates whose year is last: 31-01-2020 or 01-31-2020.
+enum class DayMonth : std::uint8_t { day_first, month_first };
+
 /// By its name in CF or FMS, in lower case: `standard` (also `gregorian` and no name), `noleap`,
 /// `360_day`, `thirty_day_months` and so on. `Calendar::gregorian` is `proleptic_gregorian`. @return none for other names
 std::optional<Calendar> calendar_of(std::string_view name);

@@ -1,6 +1,7 @@
 // A time-varying scalar volume as its files give it: its description, and its steps one by one.
 #pragma once
 
+#include "index/volume/calendar.h"
 #include "index/volume/grid.h"
 #include "index/volume/value_type.h"
 
@@ -56,9 +57,10 @@ struct ReadOptions {
     bool any_array = false;
     bool allow_surplus = false; ///< --allow-surplus: more values may follow than the header says
     bool extra_axis_is_time =
-        false;                     ///< --extra-axis-is-time: an axis beside those of space is time
+        false; ///< --extra-axis-is-time: an axis beside those of space is time
     std::optional<std::uint32_t> member; ///< --member: the run of an ensemble, counted from 0
-    bool times_from_names = false; ///< --times-from-names: the number in each file's name
+    bool times_from_names = false;       ///< --times-from-names: the number in each file's name
+    std::optional<DayMonth> dates;       ///< --dates: dmy or mdy
     bool keep_first = false; ///< --keep-first: of steps with the same time not the last, the first
     /// --resample NX NY NZ: grids that are not regular become one of so many vertices.
     std::optional<std::array<std::uint32_t, 3>> resample;

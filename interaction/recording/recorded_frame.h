@@ -5,6 +5,7 @@
 #include "interaction/input/tracked_input.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 namespace isochron::interaction {
@@ -20,6 +21,7 @@ struct RecordingHeader {
     std::array<int, 2> window{};     ///< [pixels] at the start; 0: as the configuration says
     double text = 0;                 ///< height of words, as a share of the window's; 0: as usual
     Commands start;                  ///< the state at the start: every setting
+    std::uint32_t reading = 0; ///< how the data's files were read, as indexes count it; 0: not said
     bool operator==(const RecordingHeader&) const = default;
 };
 

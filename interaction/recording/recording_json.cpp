@@ -167,6 +167,8 @@ json to_json(const RecordingHeader& header) {
                {"window", header.window},   {"start", commands_json(header.start)}};
     if (header.text > 0)
         value["text"] = header.text;
+    if (header.reading != 0)
+        value["reading_number"] = header.reading;
     return value;
 }
 
@@ -193,9 +195,12 @@ RecordingHeader header_from_json(const json& value) {
     }
     if (const json* share = members.find("text"))
         header.text = number(*share, "text", 0, 1);
+    if (const json* reading = members.find("reading_number"))
+        header.reading = static_cast<std::uint32_t>(
+            natural(*reading, "reading_number", std::numeric_limits<std::uint32_t>::max()));
     header.start = commands_from(members.at("start"), "start");
     members.done({"format", "version", "program", "configuration", "data", "data_hash", "window",
-                  "text", "start"});
+                  "text", "reading_number", "start"});
     return header;
 }
 

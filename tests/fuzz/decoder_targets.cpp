@@ -134,8 +134,7 @@ void expect_whole(const index::TiffStack& stack) {
     claim(stack.planes.empty() ||
               stack.planes.size() == stack.channels * stack.slices * stack.frames,
           "every plane has a page");
-    claim(std::isfinite(stack.time_step), "times are finite");
-    claim(stack.times.empty() || stack.times.size() == stack.frames, "every frame has a time");
+    claim(stack.time.at.empty() || stack.time.at.size() == stack.frames, "every frame has a time");
 }
 
 /// A TIFF of 1 to 64 pages, as many as the input's length leaves.

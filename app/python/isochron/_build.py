@@ -33,6 +33,7 @@ def build(
     array: str | Iterable[str] | None = None,
     all_arrays: bool = False,
     component: SupportsIndex | str | None = None,
+    member: SupportsIndex | None = None,
     spacing: Along | None = None,
     origin: Sequence[Number] | None = None,
     times: Sequence[Any] | NDArray[Any] | None = None,
@@ -45,6 +46,7 @@ def build(
     steps: Steps | None = None,
     resample: Along | str | None = None,
     times_from_names: bool = False,
+    dates: str | None = None,
     keep_first: bool = False,
     extra_axis_is_time: bool = False,
     allow_surplus: bool = False,
@@ -83,6 +85,7 @@ def build(
         "X0:X1,Y0:Y1,Z0:Z1" with both ends as for the program. Files need the ends of all axes.
     stride: every second vertex, or every so manieth along z, y and x. steps: slice(0, 21, 5), or "0:20:5" with both ends.
     resample: vertices along z, y and x onto which other grids are interpolated, or "cell": by the smallest cell.
+    member: which run of an ensemble, from 0. dates: "dmy" or "mdy", of dates whose year is last.
     times_from_names, keep_first, extra_axis_is_time, allow_surplus, allow, patience: as `isochron build --help` says.
     dims, type, big_endian, header_bytes: of headerless raw files: dims is (nx, ny, nz), x fastest, type such as
         "f32" or numpy.float32. Arrays and other files are converted to the type.
@@ -110,8 +113,8 @@ def build(
         words += option(name, bool(on))
     for name, text in (("component", component), ("length_unit", length_unit), ("value_unit", value_unit),
                        ("color", color), ("color_component", color_component), ("color_unit", color_unit),
-                       ("codec", codec), ("patience", patience), ("header_bytes", header_bytes),
-                       ("lattice", lattice), ("max_variation", max_variation), ("threads", threads)):  # fmt: skip
+                       ("codec", codec), ("dates", dates), ("member", member), ("patience", patience),
+                       ("header_bytes", header_bytes), ("lattice", lattice), ("max_variation", max_variation), ("threads", threads)):  # fmt: skip
         if text is not None:
             words += option(name, text if isinstance(text, str) else whole(text, name))
     if tiers is not None:

@@ -239,7 +239,7 @@ std::vector<Format> table() {
          .joins_by_names = true,
          .names_files = true},
         {.name = "hdf5",
-         .ends = {{".h5"}, {".hdf5"}, {".he5"}, {".hdf"}, {".vtkhdf"}},
+         .ends = {{".h5"}, {".hdf5"}, {".he5"}, {".hdf"}, {".vtkhdf"}, {".athdf"}},
          .recognize = is_plain_hdf5,
          .may_begin = is_hdf5,
          .reader = "hdf5",

@@ -18,6 +18,19 @@
 
 namespace isochron::index {
 
+namespace {
+
+/// Whether `1 N` stands there, before numbers with points: the number of orbitals and that of the
+/// orbital, which belong into files with a negative number of atoms only.
+bool has_line_of_orbital(const std::string& head, std::size_t at) {
+    const std::vector<std::string> words = words_of(take_line(head, at));
+    return words.size() == 2 && words[0] == "1" &&
+           words[1].find_first_not_of("0123456789") == std::string::npos &&
+           take_line(head, at).find('.') != std::string::npos;
+}
+
+} // namespace
+
 std::unique_ptr<VolumeFile> open_gaussian_cube(const std::filesystem::path& path,
                                                const ReadOptions& options) {
     constexpr std::size_t kMost = 1 << 20;
@@ -70,6 +83,10 @@ std::unique_ptr<VolumeFile> open_gaussian_cube(const std::filesystem::path& path
         components = whole(orbitals[0], "orbitals", kMostValues);
         for (auto seen = static_cast<std::int64_t>(orbitals.size()) - 1; seen < components;)
             seen += static_cast<std::int64_t>(line("orbitals", 1).size());
+    }
+    if (atoms > 0 && has_line_of_orbital(head, at)) {
+        text("orbital");
+        info.notes.push_back("a line of orbitals follows the atoms, as Molden writes it");
     }
     if (components < 1)
         throw Error(

@@ -4,9 +4,8 @@
 #include "index/lower_case.h"
 #include "index/readers/formats/text_header.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <string_view>
@@ -117,43 +116,6 @@ std::string tidy_length_unit(const std::string& unit) {
         return "";
     const LengthUnit* known = known_unit(unit);
     return known ? std::string(known->sign) : unit;
-}
-
-OneLengthUnit one_length_unit(const std::array<std::string, 3>& units) {
-    OneLengthUnit one;
-    std::array<std::string, 3> tidy;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        tidy[axis] = tidy_length_unit(units[axis]);
-        if (one.unit.empty())
-            one.unit = tidy[axis];
-    }
-    const auto meters = meters_in(one.unit);
-    bool convertible = true, differ = false;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::string& unit = tidy[static_cast<std::size_t>(axis)];
-        if (const std::string& stated = units[static_cast<std::size_t>(axis)];
-            counts_vertices(stated) && !one.unit.empty())
-            unit = stated;
-        if (unit.empty() || unit == one.unit)
-            continue;
-        differ = true;
-        const auto of_axis = meters_in(unit);
-        if (meters && of_axis)
-            one.factor[axis] = *of_axis / *meters;
-        else
-            convertible = false;
-    }
-    if (differ)
-        one.notes.push_back(
-            convertible
-                ? fmt::format("lengths along x, y and z are in {}, {} and {}: all are given "
-                              "in {}",
-                              tidy[0], tidy[1], tidy[2], one.unit)
-                : fmt::format("lengths along x, y and z are in {}, {} and {}, which have no "
-                              "known proportion: their numbers are kept; --spacing sets "
-                              "others",
-                              tidy[0], tidy[1], tidy[2]));
-    return one;
 }
 
 } // namespace isochron::index

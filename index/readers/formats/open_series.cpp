@@ -69,7 +69,7 @@ std::vector<SeriesFile> timed_by_name(const std::vector<KnownFile>& files, ReadO
     for (const KnownFile& file : files)
         names.push_back(file.given);
     std::vector<std::optional<double>> times;
-    if (const auto dates = dates_in_names(names)) {
+    if (const auto dates = dates_in_names(names, options.dates)) {
         if (!options.time_unit)
             options.time_unit = dates->unit;
         const auto wanted = times_in(*options.time_unit, dates->unit, dates->times);
@@ -171,7 +171,7 @@ std::vector<SeriesFile> series_of(const std::vector<KnownFile>& files, ReadOptio
         names.push_back(file.path.string());
     }
     const Format* joining = joining_format(files, options);
-    const ReadNames read = read_names(names);
+    const ReadNames read = read_names(names, options.dates);
     if (read.note && (!joining || joining->joins_by_names))
         notes.push_back(*read.note);
     if (joining)

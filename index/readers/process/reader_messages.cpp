@@ -44,7 +44,7 @@ void each_field(auto& bytes, Of<ReadOptions> auto& options) {
           options.header_bytes, options.spacing, options.origin, options.time_step,
           options.length_unit, options.time_unit, options.value_unit, options.slices,
           options.any_array, options.resample, options.keep_first, options.crop, options.stride,
-          options.steps, options.member);
+          options.steps, options.member, options.dates);
 }
 
 void each_field(auto& bytes, Of<OpenFile> auto& open) {

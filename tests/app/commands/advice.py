@@ -261,8 +261,11 @@ text = ('<?xml version="1.0"?><OME xmlns="http://www.openmicroscopy.org/Schemas/
         'PhysicalSizeY="1" PhysicalSizeZ="1" PhysicalSizeZUnit="pixel"><Channel ID="Channel:0:0"/><TiffData/></Pixels></Image>'
         "</OME>")
 tifffile.imwrite("pixels.ome.tif", values.astype("u2"), photometric="minisblack", metadata=None, description=text)
-follow("pixels.ome.tif", "which have no known proportion: their numbers are kept; --spacing sets others", ("--spacing", "1 1 2"),
+follow("pixels.ome.tif", "units differ: x um, y um, z pixel; --spacing sets other proportions", ("--spacing", "1 1 2"),
        gives="1 x 1 x 2")
+hdf5("views.h5", {f"s{setup:02}/{name}": np.ones((1, 3)) for setup in (0, 1) for name in ("resolutions", "subdivisions")} |
+     {f"t{time:05}/s{setup:02}/0/cells": values.astype("i2") for time in (0, 1) for setup in (0, 1)})
+follow("views.h5", "several setups of BigDataViewer, choose one with --array", ("--array", "/t*/s01/0/cells"), gives="steps         2")
 hdf5("five.h5", {"v": np.zeros((5, 6, 7, 8, 3), "f4")})
 status, out, err = run("build", "five.h5", "-o", "five.isochron", "--quiet")
 if "expected three axes, time, and components with --component" not in err or \
@@ -276,6 +279,13 @@ for advice, gives in [("--component 0", ".0"), ("--component magnitude", "magnit
            "them as steps", (advice,), gives=gives, build=True)
 
 # ---- times
+for i, name in enumerate(("02-01-2020", "01-02-2020")):
+    nrrd(f"either_{name}.nrrd", values + i)
+follow("'either_*.nrrd'", "--dates dmy or --dates mdy makes dates of them", ("--dates dmy",), gives="read as day-month-year", gone=True)
+follow("'either_*.nrrd'", "--dates dmy or --dates mdy makes dates of them", ("--dates mdy",), gives="names have dates", gone=True)
+netcdf("since.nc", times=[0, 1], time_units="days since 02-01-2000")
+for advice, date in (("--dates dmy", "2000-01-02"), ("--dates mdy", "2000-02-01")):
+    follow("since.nc", "(--dates dmy, --dates mdy)", (advice,), gives=date, gone=True)
 vti("time_1.vti", 0)
 vti("time_2.vti")
 follow("'time_*.vti'", "; --time-step sets them all", ("--time-step", "2"), gives="times 0 to 2")
@@ -358,7 +368,7 @@ NO_ADVICE = [
     "--help", "--version", "expected magnitude", "--component {} of {}", "DX {:g}", "another fence",
     "name it .cgns",  # needs a whole CGNS file: with_foreign.py has its line
     # with_bytes.py, with_tifffile.py, with_h5py.py and with_dicom_frames.py follow these
-    "a film, {} frames", "are the phases of one scan", "several setups of BigDataViewer", "images: {} is read", "the field of view",
+    "a film, {} frames", "are the phases of one scan", "images: {} is read", "the field of view",
     "(--origin)", "CZ_LSMINFO", "originator",  # names of options behind what a file states
     "times-from-names cannot", "spaces the steps evenly",
     "--array {}; the groups", "-expected", "given with", "--steps {}:{}:{}", "h4toh5"]

@@ -1,11 +1,14 @@
 // Building, appending and referring: the files that the commands leave, and changes between
 // queries.
+#include "index/volume/volume_series.h"
 #include "tests/app/commands/command_line.h"
+#include "tests/support/index_repair.h"
 #include "tests/support/paths.h"
 
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <span>
 
 namespace isochron::app {
 namespace {
@@ -21,6 +24,25 @@ TEST_F(CommandLine, APatternAndAListOfFilesGiveTheSameBytes) {
                   .status,
               0);
     EXPECT_EQ(folder.read("a.isochron"), by_pattern);
+}
+
+TEST_F(CommandLine, AppendingSaysThatFilesWereReadOtherwise) {
+    ASSERT_EQ(isochron(build_of("t[0-2].raw")).status, 0);
+    std::string index = folder.read("a.isochron");
+    const std::string key = "\"reading_number\":";
+    char& number = index[index.rfind(key) + key.size()];
+    ASSERT_EQ(number--, static_cast<char>('0' + index::kReading));
+    index::repair_checksums(std::as_writable_bytes(std::span(index)));
+    folder.write("a.isochron", index);
+    const ChildResult first = isochron(build_of("t*.raw", {"--append"}));
+    ASSERT_EQ(first.status, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr(fmt::format(
+                               "built with reading {} of the files, this program has {}: the "
+                               "sources of its 3 steps were read again, and are the same",
+                               index::kReading - 1, index::kReading)));
+    const ChildResult again = isochron(build_of("t*.raw", {"--append"}));
+    EXPECT_EQ(again.status, 0);
+    EXPECT_THAT(again.err, testing::Not(HasSubstr("read again")));
 }
 
 TEST_F(CommandLine, QuietPrintsNothing) {

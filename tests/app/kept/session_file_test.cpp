@@ -57,7 +57,10 @@ TEST(SessionFile, AnyStateComesBackAsItWas) {
         state.apply(interaction::random_commands(random), kSteps);
         state.leaving = false; // nobody is asked again
         state.exporting = {};  // and nothing is exported again
-        save_session(path, kept_of(state));
+        SavedSession saved = kept_of(state);
+        saved.reading = static_cast<std::uint32_t>(round);
+        save_session(path, saved);
+        EXPECT_EQ(read_session(path).reading, saved.reading);
         EXPECT_EQ(back_from(path), state);
         EXPECT_EQ(read_session(path).head, kept_of(state).head);
     }

@@ -37,8 +37,9 @@ HDF5 element_size_um | time told, order, names, time axis, extra axis, component
 HDF5 element_size_um | origin, interval, first time, times uneven, time unit, time dates, uneven, descending, direction, frame, unit by axis, unit words, unit other, values, arrays | ilastik, Fiji: element_size_um is three numbers
 Zarr resolution, HDF5 resolution | uneven, descending, times uneven, direction, frame, names by attributes, names of variables, unit other, time dates, values | funlib.persistence: resolution, offset, units and axis_names alone
 OME-Zarr 0.4, OME-Zarr 0.5 | uneven, times uneven, direction, frame, unit other pressure | NGFF 0.5, coordinateTransformations: scale and translation alone
+OME-Zarr 0.4, OME-Zarr 0.5 | member | NGFF 0.5, axes: time, channel and space
 OME-Zarr 0.4, OME-Zarr 0.5 | time axis, components last | NGFF 0.5, axes: time comes first, then channels, then space
-OME-Zarr 0.4, OME-Zarr 0.5 | unit words, names by attributes, names of variables, unit other degrees, time dates | NGFF 0.5, axes: name, type, unit of a list
+OME-Zarr 0.4, OME-Zarr 0.5 | unit words, unit any, names by attributes, names of variables, unit other degrees, time dates | NGFF 0.5, axes: name, type, unit of a list
 OME-Zarr 0.4, OME-Zarr 0.5 | values, arrays | NGFF 0.5, multiscales: one image of numbers as they are
 XDMF | order, names, time axis, extra axis | XDMF 3, Topology: Dimensions are z, y, x
 XDMF | unit, direction, frame | XDMF 3, Geometry: no units, of no body
@@ -76,7 +77,7 @@ ImageJ TIFF | unit other | ImageJ, TiffDecoder: units are lengths
 ImageJ TIFF | arrays, values gaps | ImageJ, TiffDecoder: one array, no value for none
 OME-TIFF | uneven, descending, direction, frame | OME-XML 2016-06, Pixels: PhysicalSize is a positive number an axis
 OME-TIFF | order, names, time axis last, components last, extra axis | OME-XML 2016-06, Pixels: DimensionOrder begins with XY
-OME-TIFF | unit words, unit other | OME-XML 2016-06, Pixels: PhysicalSizeUnit is one of UnitsLength
+OME-TIFF | unit words, unit other, unit any | OME-XML 2016-06, Pixels: PhysicalSizeUnit is one of UnitsLength
 OME-TIFF | origin, time dates | OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time
 OME-TIFF | values, arrays, remark | OME-XML 2016-06, Pixels: numbers as they are
 BOV | order, uneven, descending, direction, frame, unit, names, extra axis | VisIt, BOV: BRICK_ORIGIN and BRICK_SIZE along x, y, z
@@ -146,7 +147,8 @@ def arrays_of(record):
 def asked(record, path, array=None):
     """The arguments that open it."""
     more = ["--array", array or record.name] if record.others or array else []
-    return [path, *more, *(["--component", record.component] if record.axis("c") else [])]
+    return [path, *more, *(["--component", record.component] if record.axis("c") else []),
+            *(["--member", record.member] if record.axis("m") else [])]
 
 
 # ---- CF: names of dimensions, coordinates as arrays, attributes

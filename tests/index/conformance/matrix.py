@@ -68,6 +68,13 @@ def an_axis_of_one(record):
     record.values = record.values[:, None]
 
 
+@statement("member", "member", "extra axis", "names")
+def member(record):
+    """Runs of an ensemble, of which one is read."""
+    record.axes.insert(0, Axis("m", "member", np.arange(3.0)))
+    record.values, record.member = np.stack([record.values + 40, record.values, record.values - 40]), 1
+
+
 @statement("origin", "spacing", "origin")
 def origin(record):
     for axis, more in zip(record.axes[1:], (-40, 7, 0.25)):
@@ -92,6 +99,13 @@ def units_by_axis(record):
         axis = record.axis(role)
         axis.at, axis.unit = axis.at * METERS["mm"] / METERS[unit], unit
     record.may = ["all are given in"]
+
+
+@statement("units without proportion", "spacing", "unit", "unit by axis", "unit any")
+def units_without_proportion(record):
+    axis = record.axis("z")
+    axis.at, axis.unit = axis.at * 100, "V"
+    record.notes = ["units differ"]
 
 
 @statement("uneven", "spacing", "uneven all")

@@ -13,7 +13,7 @@ SECONDS = {"s": 1, "ms": 1e-3, "h": 3600, "hours": 3600, "second": 1, "sec": 1, 
 class Axis:
     """A dimension. `at`: the coordinate of each of its vertices, or its times."""
 
-    role: str  # x, y, z, t, or c: components
+    role: str  # x, y, z, t, c: components, or m: runs of an ensemble
     name: str
     at: np.ndarray
     unit: str = ""
@@ -48,6 +48,7 @@ class Record:
     others: dict = field(default_factory=dict)  # further arrays of the same shape
     curved: dict = field(default_factory=dict)  # coordinates along two axes, [y][x]
     component: int = 0
+    member: int = 0
     turn: np.ndarray = field(default_factory=lambda: np.eye(3))  # of coordinates into space
     frame: str = ""  # of coordinates: ras, lps
     notes: list = field(default_factory=list)  # patterns, one for each note that there must be
@@ -140,7 +141,11 @@ def drawn(record):
 
 def meaning(record):
     roles = [axis.role for axis in record.axes]
-    values = np.moveaxis(record.values, [roles.index(role) for role in "tzyx"], range(4))
+    values = record.values
+    if "m" in roles:
+        values = values.take(record.member, roles.index("m"))
+        roles.remove("m")
+    values = np.moveaxis(values, [roles.index(role) for role in "tzyx"], range(4))
     if "c" in roles:
         values = values[..., record.component]
     values = values.reshape(values.shape[:4])

@@ -235,6 +235,41 @@ for vector in ("AngularViewVector", "FramePrimaryAngleVector"):
 refuse(save(blank(flat, new_series(), Modality="SM", TotalPixelMatrixColumns=24, TotalPixelMatrixRows=15), "tiles.dcm"),
        "12 tiles of one picture")
 
+# ---- Directions of diffusion: volumes, whatever their clocks say.
+def private(data, group, element, creator, kind, value):
+    data.private_block(group, creator, create=True).add_new(element, kind, value)
+
+
+def gradient_of(turn):
+    inner, outer = Dataset(), Dataset()
+    inner.DiffusionGradientOrientation = list(map(float, turn))
+    outer.DiffusionGradientDirectionSequence = Sequence([inner])
+    return Sequence([outer])
+
+
+turns = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+makers = {
+    "standard": lambda data, turn: data.__setattr__("DiffusionGradientOrientation", list(map(float, turn))),
+    "group": lambda data, turn: data.__setattr__("MRDiffusionSequence", gradient_of(turn)),
+    "Siemens": lambda data, turn: private(data, 0x19, 0x0e, "SIEMENS MR HEADER", "FD", list(map(float, turn))),
+    "GE": lambda data, turn: [private(data, 0x19, 0xbb + i, "GEMS_ACQU_01", "DS", str(part)) for i, part in enumerate(turn)],
+    "Philips": lambda data, turn: [private(data, 0x2005, 0xb0 + i, "Philips MR Imaging DD 001", "FL", float(part))
+                                   for i, part in enumerate(turn)],
+}
+
+
+for maker, say in makers.items():
+    series, names = new_series(), []
+    for t in steps:
+        for z in layers:
+            data = blank(moving[t, z][None], series, Modality="MR", AcquisitionNumber=t + 1, AcquisitionTime=f"1000{t:02d}",
+                         PixelSpacing=[0.75, 0.5], ImageOrientationPatient=[1, 0, 0, 0, 1, 0],
+                         ImagePositionPatient=[-10, 20, 5 + 2 * z], DiffusionBValue=1000.0)
+            say(data, turns[t])
+            names.append(save(data, named("dwi")))
+    refuse(names, "gradient 0 1 0")
+    expect(names, moving[1], array="gradient 0 1 0", **grid)
+
 # ---- Films: frames in time, of one slice each.
 times = [Tag("FrameTime")]
 for name, tags, said in [
@@ -250,6 +285,12 @@ for name, tags, said in [
     expect(data, flat, spacing=(0.5, 0.75, 3), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
 expect(save(blank(flat, new_series(), **{**nuclear, "Modality": "US"}, FrameTime=33), named("solid")), flat,
        spacing=(0.5, 0.75, 2), note="they are taken for slices")
+series, cine = new_series(), []
+for t in range(12):  # a file for each frame, at one place
+    cine.append(save(blank(flat[t], series, PixelSpacing=[0.75, 0.5], TriggerTime=30 * t, ImageOrientationPatient=[1, 0, 0, 0, 1, 0],
+                           ImagePositionPatient=[-10, 20, 5]), named("cine")))
+refuse(cine, "a film, 12 frames of one slice (steps by TriggerTime")
+expect(cine, flat, spacing=(0.5, 0.75, 3), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
 offsets = blank(flat, new_series(), Modality="RTDOSE", PixelSpacing=[0.75, 0.5], ImagePositionPatient=[-10, 20, 5],
                 ImageOrientationPatient=[1, 0, 0, 0, 1, 0], GridFrameOffsetVector=[-2 * i for i in range(12)],
                 FrameIncrementPointer=[Tag("GridFrameOffsetVector")])

@@ -151,6 +151,35 @@ expect("bdv.h5", views[1], spacing=(.25, .5, 1.5), array="/t00001/s00/0/cells")
 refuse("bdv_setups.h5", "choose one with --array: '/t*/s00/0/cells', '/t*/s01/0/cells'")
 expect("bdv_setups.h5", views // 2, spacing=(1.25, .5, 1.5), array="/t*/s01/0/cells")
 expect("bdv_alone.h5", views)
+# Athena++: blocks of a mesh, which are cells, in any order.
+def athena(name, values, levels=0, leave_out=0, **attributes):
+    """values: [variable][z][y][x], in blocks of half of their sizes."""
+    half = np.array(values.shape[:0:-1]) // 2
+    blocks = [(i, j, k) for k in (0, 1) for j in (1, 0) for i in (0, 1)][leave_out:]
+    faces = [np.linspace(0, 2 * n * step, 2 * n + 1) for n, step in zip(half, (.5, .25, 2))]
+    with h5py.File(path(name), "w") as file:
+        file.attrs.update(dict(NumMeshBlocks=len(blocks), MeshBlockSize=half, Time=2.5, DatasetNames=np.array([b"prim"]),
+                               VariableNames=np.array([b"rho", b"press"]), NumVariables=np.array([2]),
+                               Coordinates=np.bytes_("cartesian")) | attributes)
+        file["LogicalLocations"], file["Levels"] = np.array(blocks, "i8"), np.array([levels] + [0] * (len(blocks) - 1))
+        for axis, at in enumerate(faces):
+            centers = (at[1:] + at[:-1]) / 2
+            file[f"x{axis + 1}v"] = [centers[half[axis] * block[axis]:half[axis] * (block[axis] + 1)] for block in blocks]
+        cut = [tuple(slice(n * b, n * (b + 1)) for n, b in zip(half[::-1], block[::-1])) for block in blocks]
+        file["prim"] = np.array([[one[each] for each in cut] for one in values])
+
+
+meshes = field(2, 6, 8, 10)
+athena("blocks.athdf", meshes)
+for number, name in enumerate(("rho", "press")):
+    expect("blocks.athdf", meshes[number], array=name, spacing=(.5, .25, 2), origin=(.25, .125, 1), note="put together from 8 blocks")
+athena("round.athdf", meshes, Coordinates=np.bytes_("spherical_polar"))
+expect("round.athdf", meshes[0], array="rho", spacing=(.5, .25, 2), origin=(.25, .125, 1), note="spherical_polar")
+athena("levels.athdf", meshes, levels=1)
+refuse("levels.athdf", "blocks of 2 levels of refinement, expected one; yt's covering_grid", array="rho")
+athena("missing.athdf", meshes, leave_out=1)
+refuse("missing.athdf", "7 blocks, expected 2 x 2 x 2", array="rho")
+
 with h5py.File(path("cgns.h5"), "w") as file:
     file.attrs["label"] = np.bytes_("Root Node of HDF5 File")
     file["Base/Density/ data"] = values

@@ -77,6 +77,16 @@ expect("four.h5", planes[2], array="planes", component="2")
 expect("four.h5", planes, array="planes", extra_axis_is_time=True)
 expect("four.h5", both[..., 0], array="both", component="0")
 
+# Dates as text, of fixed and of varying length, and as rows of characters.
+for name, texts, steps_apart in [
+        ("fixed", np.array([b"2020-01-31_00:00:00", b"2020-01-31_06:00:00", b"2020-02-01_00:00:00"]), [0, 21600, 86400]),
+        ("varying", ["2020-01-31T00:00:00", "2020-01-31T06:00:00", "2020-02-01T00:00:00"], [0, 21600, 86400]),
+        ("rows", np.array([list(day) for day in ("30/01/2020", "31/01/2020", "01/02/2020")], "S1"), [0, 86400, 172800])]:
+    with h5py.File(path(name + ".h5"), "w") as f:
+        f["v"] = series[:3]
+        f["time"] = texts
+    expect(name + ".h5", series[:3], array="v", times=steps_apart, extra_axis_is_time=True)
+
 # A group for each step, in natural order, with times.
 with h5py.File(path("steps.h5"), "w") as f:
     steps = field(3, 2, 3, 4)

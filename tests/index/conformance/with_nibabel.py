@@ -53,6 +53,16 @@ image = nibabel.Nifti1Image(field(4, 5, 6, 1, 1, 2), affine)
 nibabel.save(image, path("six.nii"))
 refuse("six.nii", "6 dimensions, the 6th with 2 values")
 
+# Directions of diffusion, as a file beside it says, are no times.
+directions = field(7, 3, 4, 5)
+for name, beside in [("dwi.nii.gz", "dwi.bval"), ("bvec.nii", "bvec.bvec")]:
+    nibabel.save(nibabel.Nifti1Image(directions.transpose(3, 2, 1, 0), affine), path(name))
+    with open(path(beside), "w") as out:
+        out.write("0 1000 1000 1000 1000 1000 1000\n")
+    refuse(name, "diffusion has 7 components, choose one with --component 0 to 6")
+    expect(name, directions[3], component="3", note=f"{beside} is beside it", **where)
+    expect(name, directions, extra_axis_is_time=True, **where)
+
 # What an intent says of the fourth axis, in both versions: components, or still time.
 for kind in (nibabel.Nifti1Image, nibabel.Nifti2Image):
     for code, count, what in [(1004, 9, "matrices"), (1005, 6, "symmetric matrices"), (1006, 3, "displacement vectors"),

@@ -9,6 +9,7 @@
 #include "index/search/index_search.h"
 #include "index/system/growing_file.h"
 #include "tests/support/files_in_memory.h"
+#include "tests/support/index_repair.h"
 #include "tests/support/memory_series.h"
 #include "tests/support/reader_fixtures.h"
 
@@ -240,6 +241,46 @@ TEST_F(IndexAppendTest, AnyPrefixOfWhatItWritesLeavesTheOldIndexOrTheNewOne) {
         EXPECT_GT(olds, 20);
         EXPECT_GT(news, 0);
         before = after;
+    }
+}
+
+/// Its files are as they were, whatever they are read as.
+class UnchangedSeries final : public MemorySeries {
+  public:
+    using MemorySeries::MemorySeries;
+    std::uint64_t state(std::size_t /*step*/) const override { return 7; }
+};
+
+TEST_F(IndexAppendTest, WhereFilesWereReadOtherwiseTheirStepsAreReadAgain) {
+    const TestField field({20, 19, 18}, 5, ValueType::u8, moving_sphere);
+    const TestField other({20, 19, 18}, 5, ValueType::u8,
+                          [](double x, double, double, double) { return x; });
+    UnchangedSeries series(first_steps(field.view(), 3));
+    build_index(series, path, {});
+    const std::string now = read_file(path);
+    const std::string key = "\"reading_number\":";
+    const std::size_t at = now.rfind(key) + key.size();
+    ASSERT_EQ(now[at], static_cast<char>('0' + kReading));
+    std::string before = now;
+    before[at] = static_cast<char>('0' + kReading - 1);
+    repair_checksums(std::as_writable_bytes(std::span(before)));
+    ASSERT_EQ(opened(before)->metadata().reading_number, kReading - 1);
+    const auto steps_read = [](const StepValues& values, const std::string& index) {
+        auto given = std::make_unique<UnchangedSeries>(values);
+        std::set<std::size_t> steps;
+        given->before_read = [&](std::size_t step) { steps.insert(step); };
+        append_to(opened(index), "a", std::move(given));
+        return steps;
+    };
+    EXPECT_THAT(steps_read(field.view(), now), testing::IsEmpty());
+    EXPECT_THAT(steps_read(field.view(), before), testing::ElementsAre(0, 1, 2));
+    EXPECT_NO_THROW(steps_read(other.view(), now));
+    try {
+        steps_read(other.view(), before);
+        ADD_FAILURE() << "other values are taken for those of the index";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), HasSubstr("read otherwise than by the version that built it: "
+                                            "build it again without --append"));
     }
 }
 

@@ -83,8 +83,8 @@ Recording random_recording(unsigned seed, int frames) {
     Random random(seed);
     Recording recording;
     recording.header = {
-        2,     "isochron 0.1.0",       "[a]\nb = \"c\"\n", "data/ä b.isochron", "00ff", {640, 480},
-        0.025, random_commands(random)};
+        2,     "isochron 0.1.0",        "[a]\nb = \"c\"\n", "data/ä b.isochron", "00ff", {640, 480},
+        0.025, random_commands(random), random() % 3};
     RecordedFrame frame;
     for (int i = 0; i < frames; ++i) {
         frame.input.time += Seconds(random() % 3 ? uniform(random, 0, 0.5) : 0.0);

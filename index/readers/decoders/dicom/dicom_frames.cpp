@@ -12,9 +12,13 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace isochron::index {
 namespace {
@@ -24,15 +28,18 @@ using gdcm::Tag;
 const Tag kFrameGroups(0x5200, 0x9230), kContent(0x0020, 0x9111), kDetector(0x0054, 0x0022),
     kTransformation(0x0028, 0x9145), kMeasures(0x0028, 0x9110);
 
+const Tag kGradient(0x0018, 0x9089); // DiffusionGradientOrientation
+
 /// What tells volumes apart in one series, in a group of a frame or else at the root.
 struct KindSource {
     const char *name, *unit; ///< unit of its numbers; null: it is text
     Tag group, tag, root;
 };
-const std::array<KindSource, 9> kKindSources{{
+const std::array<KindSource, 10> kKindSources{{
     {"echo time", " ms", {0x0018, 0x9114}, {0x0018, 0x9082}, {0x0018, 0x0081}},
     {"inversion time", " ms", {0x0018, 0x9115}, {0x0018, 0x9079}, {0x0018, 0x0082}},
     {"b-value", " s/mm2", {0x0018, 0x9117}, {0x0018, 0x9087}, {0x0018, 0x9087}},
+    {"gradient", "", kNoTag, kGradient, kGradient},
     {"image type", nullptr, {0x0018, 0x9226}, {0x0008, 0x9007}, {0x0008, 0x0008}},
     {"component", nullptr, {0x0018, 0x9226}, {0x0008, 0x9208}, {0x0008, 0x9208}},
     {"voltage", " kV", {0x0018, 0x9325}, {0x0018, 0x0060}, {0x0018, 0x0060}},
@@ -40,6 +47,59 @@ const std::array<KindSource, 9> kKindSources{{
     {"segment", "", {0x0062, 0x000a}, {0x0062, 0x000b}, {0x0062, 0x000b}},
     {"velocity direction", "", {0x0018, 0x9197}, {0x0018, 0x9090}, {0x0018, 0x9090}},
 }};
+
+/// Diffusion as the headers of makers have it, from before the standard's attributes of it.
+///
+/// Li et al., "The first step for neuroimaging data analysis: DICOM to NIfTI conversion",
+/// J. Neurosci. Methods 264, 2016, doi:10.1016/j.jneumeth.2016.03.001
+struct PrivateKind {
+    std::string_view name;
+    gdcm::PrivateTag tag;
+    char form;         ///< t: text, f: f32, d: f64
+    std::size_t count; ///< of its numbers, those that count
+};
+const std::array<PrivateKind, 12> kPrivateKinds{{
+    {"b-value", {0x0019, 0x0c, "SIEMENS MR HEADER"}, 't', 1},
+    {"gradient", {0x0019, 0x0e, "SIEMENS MR HEADER"}, 'd', 3},
+    {"b-value", {0x0043, 0x39, "GEMS_PARM_01"}, 't', 1},
+    {"gradient", {0x0019, 0xbb, "GEMS_ACQU_01"}, 't', 1},
+    {"gradient", {0x0019, 0xbc, "GEMS_ACQU_01"}, 't', 1},
+    {"gradient", {0x0019, 0xbd, "GEMS_ACQU_01"}, 't', 1},
+    {"b-value", {0x2001, 0x03, "Philips Imaging DD 001"}, 'f', 1},
+    {"gradient", {0x2005, 0xb0, "Philips MR Imaging DD 001"}, 'f', 1},
+    {"gradient", {0x2005, 0xb1, "Philips MR Imaging DD 001"}, 'f', 1},
+    {"gradient", {0x2005, 0xb2, "Philips MR Imaging DD 001"}, 'f', 1},
+    {"b-value", {0x0065, 0x09, "Image Private Header"}, 'd', 1},
+    {"gradient", {0x0065, 0x37, "Image Private Header"}, 'd', 3},
+}};
+
+/// The numbers of a private attribute; of text, those between backslashes.
+std::vector<double> numbers_in(std::string bytes, char form) {
+    std::vector<double> numbers;
+    const std::size_t size = form == 'f' ? sizeof(float) : sizeof(double);
+    for (std::size_t at = 0; form != 't' && at + size <= bytes.size(); at += size) {
+        float single = 0;
+        double number = 0;
+        std::memcpy(form == 'f' ? static_cast<void*>(&single) : &number, &bytes[at], size);
+        numbers.push_back(form == 'f' ? static_cast<double>(single) : number);
+    }
+    std::ranges::replace(bytes, '\\', ' ');
+    if (form == 't')
+        for (const std::string& word : words_of(bytes))
+            numbers.push_back(std::strtod(word.c_str(), nullptr));
+    return numbers;
+}
+
+std::string private_kind(const DicomTags& root, const KindSource& source) {
+    std::vector<double> all;
+    for (const PrivateKind& kind : kPrivateKinds)
+        if (kind.name == source.name)
+            if (auto numbers = numbers_in(root.bytes(kind.tag), kind.form);
+                numbers.size() >= kind.count)
+                all.insert(all.end(), numbers.begin(),
+                           numbers.begin() + static_cast<std::ptrdiff_t>(kind.count));
+    return all.empty() ? "" : fmt::format("{:g}{}", fmt::join(all, " "), source.unit);
+}
 
 glm::dvec3 vec3_at(const std::vector<double>& numbers, std::size_t first) {
     return {numbers[first], numbers[first + 1], numbers[first + 2]};
@@ -127,7 +187,8 @@ class OtherDimensions {
         for (const Tag& tag : tags_of_clocks())
             known.insert(tag);
         for (const KindSource& source : kKindSources)
-            known.insert({source.tag, source.root});
+            if (source.tag != kGradient) // which may be counted without being said
+                known.insert({source.tag, source.root});
         for (std::size_t i = 0; i < root.items(kIndices); ++i) {
             const auto pointer = root.within(kIndices, i).numbers({0x0020, 0x9165});
             const Tag tag = pointer.size() == 2 ? Tag(static_cast<std::uint16_t>(pointer[0]),
@@ -173,6 +234,8 @@ void tell_apart(const DicomTags& root, const FrameTags& tags, const DicomFile& f
                 value = tags.text(source.group, tag);
             else if (const auto numbers = tags.numbers(source.group, tag); !numbers.empty())
                 value = fmt::format("{:g}{}", fmt::join(numbers, " "), source.unit);
+        if (value.empty())
+            value = private_kind(root, source);
         add(source.name, value);
     }
     for (const std::string& what : counted_volumes()) {

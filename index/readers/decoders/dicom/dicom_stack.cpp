@@ -203,7 +203,7 @@ DicomStack dicom_stack(const std::vector<DicomImage>& images, const DicomFile& f
     const std::string by = found.notes.empty() ? "" : found.notes.back();
     stack.grid.spacing.z = distance;
     if (slices.size() == 1 && slices.front().size() > 1) {
-        if (!stack.in_space && !spaced)
+        if (!spaced)
             throw Error(fmt::format("{}: a film, {} frames of one slice ({}), expected slices; "
                                     "--spacing X Y Z takes the frames for slices, Z apart",
                                     names[slices.front().front().file], slices.front().size(), by));

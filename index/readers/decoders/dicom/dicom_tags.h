@@ -50,10 +50,15 @@ class FrameTags {
   public:
     /// @param groups the sequence with an item for each frame
     FrameTags(const DicomTags& root, const gdcm::Tag& groups, std::uint32_t frame) {
+        const gdcm::Tag kDiffusion(0x0018, 0x9117), kDirection(0x0018, 0x9076);
         for (const DicomTags& place :
-             {root.within(groups, frame), root.within(gdcm::Tag(0x5200, 0x9229), 0), root})
+             {root.within(groups, frame), root.within(gdcm::Tag(0x5200, 0x9229), 0), root}) {
             if (!place.empty())
                 places_.push_back(place);
+            if (const DicomTags inner = place.within(kDiffusion, 0).within(kDirection, 0);
+                !inner.empty())
+                places_.push_back(inner);
+        }
     }
 
     /// Numbers of an attribute that stands at the root, or, in files of many frames, in a group.

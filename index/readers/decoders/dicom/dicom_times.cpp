@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/readers/decoders/dicom/dicom_clocks.h"
+#include "index/readers/formats/unread_fields.h"
 
 #include <fmt/format.h>
 
@@ -150,6 +151,15 @@ void give_dicom_times(const std::vector<DicomSlice>& slices, DicomClock clock,
         note += " alone: images at the same place are taken for steps in time";
     else if (times_by != by)
         note += ", times by " + times_by;
+    std::vector<std::string> unread;
+    const bool lasting = std::ranges::any_of(
+        slices.front(), [](const DicomImage& image) { return image.duration > 0; });
+    for (const auto& [stated, name] : {std::pair(lasting, "ActualFrameDuration"),
+                                       std::pair(file.repetition_time > 0, "RepetitionTime")})
+        if (stated && times_by != name)
+            unread.emplace_back(name);
+    if (auto unused = note_on_unread(unread))
+        found.notes.push_back(std::move(*unused));
     found.notes.push_back(std::move(note));
 }
 

@@ -1,6 +1,7 @@
 // Opens HDF5 datasets by their path.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/hdf5/athena.h"
 #include "index/readers/decoders/hdf5/bigdataviewer.h"
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
 #include "index/readers/decoders/hdf5/hdf5_times.h"
@@ -31,8 +32,6 @@ void expect_no_other_format(const Hdf5File& file) {
     if (file.holds("/bounding box") && file.holds("/refine level"))
         refuse("FLASH's blocks of a refined grid",
                "yt's covering_grid makes a regular grid of them");
-    if (!file.numbers("/", "NumMeshBlocks").empty() && file.holds("/LogicalLocations"))
-        refuse("Athena++'s blocks of a mesh", "yt's covering_grid makes a regular grid of them");
     if (file.holds("/Grid00000001"))
         refuse("Enzo's boxes of a refined grid", "yt's covering_grid makes a regular grid of them");
     if (file.holds("/_silolibinfo"))
@@ -56,9 +55,11 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
         expect_no_other_format(*file);
     if (is_vtkhdf(*file) && !(options.array && options.array->starts_with('/')))
         return decode_vtkhdf(std::move(file), options);
+    if (is_athena(*file) && !(options.array && options.array->starts_with('/')))
+        return decode_athena(std::move(file), options);
     const bool of_views = is_bigdataviewer(*file);
     ReadOptions asked = options;
-    if (of_views && !options.array)
+    if (of_views && !options.array && !options.any_array)
         asked.array = view_of_bigdataviewer(*file);
     const Hdf5Array array = choose_array(*file, asked);
     const Hdf5Dataset& first = array.steps.front();
@@ -87,7 +88,7 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     place_axes(record, layout, options, volume.info);
     if (of_views)
         place_bigdataviewer(*file, first, volume.info);
-    time_hdf5(*file, array, record, layout, steps, volume.info);
+    time_hdf5(*file, array, record, layout, steps, options, volume.info);
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }
 

@@ -275,6 +275,39 @@ std::vector<double> Hdf5File::values(const Hdf5Dataset& dataset) const {
     return values;
 }
 
+std::vector<std::string> Hdf5File::texts_in(const std::string& path) const {
+    const auto shape = dataset(path);
+    const Hdf5Handle open(shape ? H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT) : -1, H5Dclose);
+    const Hdf5Handle type(open ? H5Dget_type(open.id()) : -1, H5Tclose);
+    const Hdf5Handle space(open ? H5Dget_space(open.id()) : -1, H5Sclose);
+    const hssize_t count = space ? H5Sget_simple_extent_npoints(space.id()) : 0;
+    if (!type || H5Tget_class(type.id()) != H5T_STRING || count < 1 || count > kMostNumbers ||
+        shape->dimensions.empty())
+        return {};
+    const auto all = static_cast<std::size_t>(count), rows = std::size_t{shape->dimensions.front()};
+    std::vector<std::string> texts(rows);
+    const std::string what = fmt::format("{} cannot be read", path);
+    if (H5Tis_variable_str(type.id()) > 0) {
+        std::vector<char*> read(all);
+        expect(H5Dread(open.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                       static_cast<void*>(read.data())) >= 0,
+               what);
+        for (std::size_t i = 0; i < all && all == rows; ++i)
+            texts[i] = read[i] ? tidy_text(read[i]) : "";
+        H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, static_cast<void*>(read.data()));
+        return texts;
+    }
+    const std::size_t length = H5Tget_size(type.id());
+    constexpr std::size_t kLongest = 4096;
+    if (length < 1 || length > kLongest)
+        return {};
+    std::string bytes(length * all, '\0');
+    expect(H5Dread(open.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0, what);
+    for (std::size_t i = 0; i < rows; ++i)
+        texts[i] = tidy_text(bytes.substr(i * (bytes.size() / rows), bytes.size() / rows));
+    return texts;
+}
+
 // After the HDF5 Dimension Scale Specification: DIMENSION_LIST holds references to scales.
 std::vector<std::string> Hdf5File::scales(const Hdf5Dataset& dataset) const {
     std::vector<std::string> paths(dataset.dimensions.size());

@@ -79,6 +79,9 @@ class Hdf5File {
 
     /// All values of a short dataset. @throws Error: more than 2^24 values, or damaged
     std::vector<double> values(const Hdf5Dataset& dataset) const;
+    /// The texts of a short dataset along its first dimension, characters along a second one put
+    /// together; empty: it holds none. @throws Error: damaged
+    std::vector<std::string> texts_in(const std::string& path) const;
     /// The path of the first dimension scale along each dimension; empty if there is none.
     std::vector<std::string> scales(const Hdf5Dataset& dataset) const;
 

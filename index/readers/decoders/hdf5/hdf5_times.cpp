@@ -2,6 +2,7 @@
 #include "index/readers/decoders/hdf5/hdf5_times.h"
 
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
+#include "index/readers/formats/stated/stated_times.h"
 
 #include <initializer_list>
 #include <string>
@@ -24,16 +25,25 @@ std::vector<double> numbers_at(const Hdf5File& file, const std::vector<std::stri
 } // namespace
 
 void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& stated,
-               const ArrayLayout& layout, std::size_t steps, SeriesInfo& info) {
+               const ArrayLayout& layout, std::size_t steps, const ReadOptions& options,
+               SeriesInfo& info) {
     if (layout.time) {
-        place_steps(stated.axes[*layout.time], info);
+        place_steps(stated.axes[*layout.time], options, info);
         const std::vector<std::string> around = with_groups_around(array.steps.front().path);
         for (std::size_t i = 1; i < around.size(); ++i)
             for (const char* name : {"time", "Time", "times", "t"})
                 if (info.times.empty())
                     if (const auto axis =
                             coordinates_in(file, inside(around[i], name), steps, true))
-                        place_steps(*axis, info);
+                        place_steps(*axis, options, info);
+        for (std::size_t i = 1; i < around.size(); ++i)
+            for (const std::string& name :
+                 {stated.axes[*layout.time].name, std::string("time"), std::string("Times")})
+                if (const auto dates = name.empty() || !info.times.empty()
+                                           ? std::vector<std::string>()
+                                           : file.texts_in(inside(around[i], name));
+                    dates.size() == steps)
+                    place_dates(dates, name, info, options.dates);
         return;
     }
     if (array.times) { // unless attributes say more

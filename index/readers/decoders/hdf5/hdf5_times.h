@@ -13,6 +13,7 @@ namespace isochron::index {
 /// the steps, or from the axis of time, or a dataset `time` with one value for each step.
 /// @param steps number of steps
 void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& stated,
-               const ArrayLayout& layout, std::size_t steps, SeriesInfo& info);
+               const ArrayLayout& layout, std::size_t steps, const ReadOptions& options,
+               SeriesInfo& info);
 
 } // namespace isochron::index

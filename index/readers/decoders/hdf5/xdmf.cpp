@@ -7,6 +7,7 @@
 #include "index/readers/decoders/hdf5/xdmf_paths.h"
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/named_file.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -65,9 +66,14 @@ class XdmfFile final : public DecodedFile {
         for (std::string& note : chosen_.notes())
             info_.notes.push_back(std::move(note));
         note_other_type(part);
-        if (std::ranges::all_of(steps_, [](const XdmfGrid& step) { return step.time.has_value(); }))
-            for (const XdmfGrid& step : steps_)
-                info_.times.push_back(*step.time);
+        StatedTimes times{.name = "Time"};
+        for (const XdmfGrid& step : steps_)
+            if (step.time)
+                times.values.push_back(*step.time);
+        if (times.values.size() == steps_.size())
+            place_times(std::move(times), info_, options.dates);
+        if (!info_.times.empty()) // the last ones may have none
+            steps_.resize(info_.times.size());
     }
 
     const SeriesInfo& info() const override { return info_; }

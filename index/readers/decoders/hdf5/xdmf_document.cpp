@@ -6,8 +6,8 @@
 #include "index/readers/decoders/hdf5/hdf5_file.h"
 #include "index/readers/decoders/hdf5/xdmf_fields.h"
 #include "index/readers/decoders/hdf5/xdmf_paths.h"
-#include "index/readers/formats/axis_positions.h"
 #include "index/readers/formats/named_file.h"
+#include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -264,34 +264,25 @@ class XdmfParser {
         if (sizes.size() != 3)
             fail(fmt::format("a topology of {} dimensions, expected 3", sizes.size()));
         step.grid.vertices = checked_vertices({sizes[2], sizes[1], sizes[0]}, name_);
-        glm::dmat3 steps(1.0);
-        std::array<std::vector<double>, 3> at;
-        std::array<bool, 3> uneven{};
+        StatedArray stated{
+            .file = name_, .name = {}, .axes = std::vector<StatedAxis>(3)}; // z, y, x
         for (std::size_t i = 0; i < items.size(); ++i) {
-            at[i] = numbers_of_item(items[i]);
+            const std::vector<double> at = numbers_of_item(items[i]);
             const std::size_t expected = stretched ? step.grid.vertices[i] : 3;
-            if (at[i].size() != expected)
-                fail(
-                    fmt::format("{} numbers in its geometry, expected {}", at[i].size(), expected));
-        }
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto i = static_cast<std::size_t>(axis);
-            if (!stretched) { // z, y, x
-                step.grid.origin[axis] = at[0][2 - i];
-                steps[axis][axis] = at[1][2 - i];
-                continue;
+            if (at.size() != expected)
+                fail(fmt::format("{} numbers in its geometry, expected {}", at.size(), expected));
+            if (stretched)
+                stated.axes[2 - i].at = at;
+            for (std::size_t axis = 0; axis < 3 && !stretched; ++axis) {
+                (i == 0 ? stated.axes[axis].first : stated.axes[axis].step) = at[axis];
+                stated.axes[axis].regular = true;
             }
-            const AxisSpread spread = spread_of(at[i], std::string(1, "xyz"[i]), "", name_);
-            step.grid.origin[axis] = spread.first;
-            steps[axis][axis] = spread.step;
-            uneven[i] = spread.uneven;
-            if (spread.note)
-                step.notes.push_back(*spread.note);
         }
-        set_axes(step.grid, steps, name_);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (uneven[axis])
-                set_positions(step.grid, axis, at[axis]);
+        SeriesInfo placed;
+        placed.grid = step.grid;
+        place_axes(stated, layout_of_zyx(), {}, placed);
+        step.grid = placed.grid;
+        std::ranges::move(placed.notes, std::back_inserter(step.notes));
     }
 
     XdmfItem item_of(const XMLElement& element) const {

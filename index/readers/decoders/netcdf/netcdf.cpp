@@ -197,7 +197,7 @@ class NetcdfVolume final : public DecodedFile {
         place_axes(array, layout_, options, info_);
         if (!options.spacing)
             offer_cell_sizes(objects, array, layout_, info_);
-        place_times(array);
+        place_times(array, options);
         if (layout_.time && !info_.times.empty())
             steps_ = info_.times.size();
         if (variables_.size() > 1)
@@ -299,17 +299,17 @@ class NetcdfVolume final : public DecodedFile {
             info_.notes.push_back(std::move(note));
     }
 
-    void place_times(const StatedArray& array) {
+    void place_times(const StatedArray& array, const ReadOptions& options) {
         if (!layout_.time) {
             if (const auto time = time_alone(file_))
-                place_steps(*time, info_);
+                place_steps(*time, options, info_);
             return;
         }
-        place_steps(array.axes[*layout_.time], info_);
+        place_steps(array.axes[*layout_.time], options, info_);
         if (!info_.times.empty())
             return;
         const NetcdfDates found = dates_along(file_, variable_.dimensions[*layout_.time]);
-        place_dates(found.dates, found.name, info_);
+        place_dates(found.dates, found.name, info_, options.dates);
     }
 
     /// Times of steps that have a group each: as the groups state them, or their names.

@@ -7,6 +7,7 @@
 #include "index/readers/decoders/tiff/tiff_microscopes.h"
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/named_file.h"
+#include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/system/input_file.h"
 
@@ -101,28 +102,24 @@ class TiffVolume final : public DecodedFile {
         info_.arrays = chosen_.offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();
-        info_.length_unit = stack_.length_unit;
         if (stack_.field_of_view.x > 0 && stack_.field_of_view.y > 0) {
-            stack_.spacing.x = stack_.field_of_view.x / shape.width;
-            stack_.spacing.y = stack_.field_of_view.y / shape.height;
+            set_spacing(stack_.axes[0], stack_.field_of_view.x / shape.width, "um");
+            set_spacing(stack_.axes[1], stack_.field_of_view.y / shape.height, "um");
         }
-        info_.grid.spacing = stack_.spacing;
-        info_.grid.origin = stack_.origin;
+        const auto& [x, y, z] = stack_.axes;
+        place_axes({.file = name, .name = info_.array, .axes = {z, y, x}}, layout_of_zyx(), options,
+                   info_);
         calibrate();
         for (const auto& notes : {chosen_.notes(), stack_.notes, first_.notes()})
             info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
         if (shape.half)
             info_.notes.push_back("float16 values converted to f32");
         note_resolution();
-        if (stack_.times.size() == stack_.frames && !frames_are_slices_) {
-            info_.times = stack_.times;
-            info_.time_unit = stack_.time_unit;
-        }
-        if (stack_.time_step > 0 && std::isfinite(stack_.time_step) && !frames_are_slices_) {
-            info_.time_unit = stack_.time_unit;
-            for (std::size_t i = 0; i < stack_.frames; ++i)
-                info_.times.push_back(static_cast<double>(i) * stack_.time_step);
-        }
+        stack_.time.length = stack_.frames;
+        if (!frames_are_slices_)
+            place_steps(stack_.time, options, info_);
+        if (!info_.times.empty()) // the last ones may have none
+            stack_.frames = info_.times.size();
     }
 
     const SeriesInfo& info() const override { return info_; }
@@ -239,9 +236,7 @@ class TiffVolume final : public DecodedFile {
         if (is_in_first(plane))
             return first_;
         const fs::path path =
-            slices_.empty()
-                ? path_.parent_path() / name_of_file(plane)
-                : fs::path(plane.file);
+            slices_.empty() ? path_.parent_path() / name_of_file(plane) : fs::path(plane.file);
         if (!other_ || other_path_ != path) {
             other_.reset();
             other_ = std::make_unique<TiffFile>(path);

@@ -184,14 +184,15 @@ void take_planes_of_ome(const tinyxml2::XMLElement& pixels, const tinyxml2::XMLE
         unread.emplace_back("positions of the planes on the stage (--origin)");
     if (child(&image, "StageLabel"))
         unread.emplace_back("StageLabel (--origin)");
-    if (stack.time_step == 0 && times.size() == stack.frames && stack.frames > 1) {
+    if (!(stack.time.step > 0 && stack.time.regular) && times.size() == stack.frames &&
+        stack.frames > 1) {
         for (const auto& [frame, time] : times)
-            stack.times.push_back(time);
+            stack.time.at.push_back(time);
         const bool increasing =
-            std::ranges::adjacent_find(stack.times, std::greater_equal()) == stack.times.end();
-        stack.time_unit = unit;
+            std::ranges::adjacent_find(stack.time.at, std::greater_equal()) == stack.time.at.end();
+        stack.time.unit = unit;
         if (!increasing) {
-            stack.times.clear();
+            stack.time.at.clear();
             unread.emplace_back("DeltaT of the planes, which does not increase");
         }
     }
@@ -281,27 +282,13 @@ TiffStack ome_stack(const std::string& description, std::uint32_t samples, const
     stack.frames = size("SizeT");
     if (product_of(stack) > kMostPlanes)
         throw Error(fmt::format("{}: more than {} planes", file, kMostPlanes));
-    const OneLengthUnit unit =
-        one_length_unit({text_of_ome(*pixels, "PhysicalSizeXUnit", "\u00b5m"),
-                         text_of_ome(*pixels, "PhysicalSizeYUnit", "\u00b5m"),
-                         text_of_ome(*pixels, "PhysicalSizeZUnit", "\u00b5m")});
-    stack.length_unit = unit.unit;
-    bool sized = false;
-    const std::array<const char*, 3> names{"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double spacing = attribute_of_ome(*pixels, names[static_cast<std::size_t>(axis)], 0);
-        sized = sized || spacing > 0;
-        stack.spacing[axis] =
-            (spacing > 0 && std::isfinite(spacing) ? spacing : 1) * unit.factor[axis];
-    }
-    if (sized) {
-        stack.notes = unit.notes;
-    } else {
-        stack.length_unit.clear();
-        stack.spacing = glm::dvec3(1.0);
-    }
-    stack.time_step = attribute_of_ome(*pixels, "TimeIncrement", 0);
-    stack.time_unit = text_of_ome(*pixels, "TimeIncrementUnit", "s");
+    const std::array<std::string, 3> names{"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        set_spacing(stack.axes[axis], attribute_of_ome(*pixels, names[axis].c_str(), 0),
+                    text_of_ome(*pixels, (names[axis] + "Unit").c_str(), "\u00b5m"));
+    stack.time.regular = pixels->FindAttribute("TimeIncrement") != nullptr;
+    stack.time.step = attribute_of_ome(*pixels, "TimeIncrement", 0);
+    stack.time.unit = text_of_ome(*pixels, "TimeIncrementUnit", "s");
     for (const auto* channel = child(pixels, "Channel"); channel; channel = next(channel))
         stack.channel_names.push_back(text_of_ome(*channel, "Name", ""));
     take_planes_of_ome(*pixels, *image, stack);
@@ -406,31 +393,24 @@ TiffStack imagej_stack(const std::string& description, std::size_t pages, double
         return found == values.end() || found->second.empty() ? otherwise : found->second;
     };
     const std::string x_unit = text("unit", "");
-    const OneLengthUnit unit =
-        one_length_unit({x_unit, text("yunit", x_unit), text("zunit", x_unit)});
-    stack.length_unit = unit.unit;
-    stack.notes = unit.notes;
-    if (x_resolution > 0 && y_resolution > 0 && !stack.length_unit.empty()) {
-        stack.spacing.x = 1 / x_resolution;
-        stack.spacing.y = 1 / y_resolution;
-    }
-    const double spacing = std::abs(number("spacing", 1));
-    if (spacing > 0 && std::isfinite(spacing))
-        stack.spacing.z = spacing;
+    const std::array<std::string, 3> units{x_unit, text("yunit", x_unit), text("zunit", x_unit)};
+    const bool sized = std::ranges::any_of(
+        units, [](const std::string& unit) { return !tidy_length_unit(unit).empty(); });
+    const bool resolved = x_resolution > 0 && y_resolution > 0 && sized;
+    set_spacing(stack.axes[0], resolved ? 1 / x_resolution : 1, units[0]);
+    set_spacing(stack.axes[1], resolved ? 1 / y_resolution : 1, units[1]);
+    set_spacing(stack.axes[2], std::abs(number("spacing", 1)), units[2]);
     // The origin is the pixel that lies at zero.
     const std::array<const char*, 3> origins{"xorigin", "yorigin", "zorigin"};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double pixel = number(origins[static_cast<std::size_t>(axis)], 0);
-        stack.spacing[axis] *= unit.factor[axis];
-        if (std::isfinite(pixel) && pixel != 0)
-            stack.origin[axis] = -pixel * stack.spacing[axis];
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const double pixel = number(origins[axis], 0); std::isfinite(pixel) && pixel != 0)
+            stack.axes[axis].first = -pixel * stack.axes[axis].step;
     take_calibration(values, number, stack);
-    if (const double interval = number("finterval", 0); std::isfinite(interval))
-        stack.time_step = interval;
-    const auto time_unit = values.find("tunit");
-    stack.time_unit =
-        time_unit == values.end() || time_unit->second == "sec" ? "s" : time_unit->second;
+    stack.time.regular = values.contains("finterval");
+    stack.time.step = number("finterval", 0);
+    stack.time.unit = text("tunit", "s");
+    if (stack.time.unit == "sec")
+        stack.time.unit = "s";
     return stack;
 }
 
@@ -462,10 +442,11 @@ void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlan
     const auto missing = static_cast<std::size_t>(std::ranges::count_if(stack.planes, lacks));
     if (missing == 0)
         return;
-    const bool timed = stack.times.size() == stack.frames;
+    const bool timed = stack.time.at.size() == stack.frames;
+    const bool stepped = stack.time.regular && stack.time.step > 0;
     TiffStack whole = stack;
     whole.planes.clear();
-    whole.times.clear();
+    whole.time.at.clear();
     whole.frames = 0;
     bool gap = false;
     for (std::size_t frame = 0; frame < stack.frames; ++frame) {
@@ -475,8 +456,9 @@ void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlan
             continue;
         gap = gap || frame != whole.frames;
         whole.planes.insert(whole.planes.end(), begin, end);
-        whole.times.push_back(timed ? stack.times[frame]
-                                    : static_cast<double>(frame) * stack.time_step);
+        if (timed || stepped)
+            whole.time.at.push_back(timed ? stack.time.at[frame]
+                                          : static_cast<double>(frame) * stack.time.step);
         ++whole.frames;
     }
     const std::string lacking =
@@ -484,10 +466,8 @@ void keep_whole_frames(TiffStack& stack, const std::function<bool(const TiffPlan
     if (whole.frames == 0)
         throw Error(fmt::format("{}: {}: none of its {} step{} is whole", file, lacking,
                                 stack.frames, stack.frames == 1 ? "" : "s"));
-    if (!timed && !(gap && stack.time_step > 0))
-        whole.times.clear();
-    else
-        whole.time_step = 0;
+    if (!timed && !gap) // they begin at 0, and are equally far apart
+        whole.time.at.clear();
     whole.notes.push_back(fmt::format("{}: the {} whole step{} of {} {} read", lacking,
                                       whole.frames, whole.frames == 1 ? "" : "s", stack.frames,
                                       whole.frames == 1 ? "is" : "are"));

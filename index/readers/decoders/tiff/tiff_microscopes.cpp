@@ -106,18 +106,13 @@ void place_scanimage(const ScanImageLines& lines, double slice_step, TiffStack& 
         }
         stack.field_of_view = {high[0] - low[0], high[1] - low[1]};
     }
-    if (slice_step != 0)
-        stack.spacing.z = std::abs(slice_step);
     if (slice_step != 0 && stack.field_of_view.x > 0 && stack.field_of_view.y > 0)
-        stack.length_unit = "um";
-    else if (slice_step != 0 || stack.field_of_view.x > 0)
+        return set_spacing(stack.axes[2], std::abs(slice_step), "um");
+    if (slice_step != 0 || stack.field_of_view.x > 0)
         stack.notes.push_back(fmt::format("stated and not used: the step of slices, {} um, or the "
                                           "field of view, as the other is not stated (--spacing)",
                                           std::abs(slice_step)));
-    if (stack.length_unit.empty()) {
-        stack.spacing.z = 1;
-        stack.field_of_view = {};
-    }
+    stack.field_of_view = {};
 }
 
 } // namespace
@@ -189,10 +184,8 @@ std::optional<TiffStack> scanimage_stack(const std::string& text, std::size_t pa
                       "SI4.stackZStepSize", "SI5.stackZStepSize", "state.acq.zStepSize"},
                      0),
         stack);
-    if (const double rate = lines.number({"SI.hRoiManager.scanVolumeRate"}, 0); fast && rate > 0) {
-        stack.time_step = 1 / rate;
-        stack.time_unit = "s";
-    }
+    if (const double rate = lines.number({"SI.hRoiManager.scanVolumeRate"}, 0); fast && rate > 0)
+        set_spacing(stack.time, 1 / rate, "s");
     return stack;
 }
 
@@ -234,36 +227,28 @@ std::optional<TiffStack> lsm_stack(const std::string& record, std::size_t pages,
             for (std::size_t slice = 0; slice < stack.slices; ++slice)
                 stack.planes.push_back({"", slice * stack.frames + frame, true});
     constexpr double kMicrometers = 1e6;
-    const glm::dvec3 size(h.at<double>(40), h.at<double>(48), h.at<double>(56));
-    if (size.x > 0 && size.y > 0 && std::isfinite(size.x) && std::isfinite(size.y)) {
-        const bool deep = size.z > 0 && std::isfinite(size.z);
-        stack.spacing = {size.x * kMicrometers, size.y * kMicrometers,
-                         deep ? size.z * kMicrometers : 1};
-        stack.length_unit = "um";
-        const glm::dvec3 origin(h.at<double>(64), h.at<double>(72), h.at<double>(80));
-        for (int axis = 0; axis < 3; ++axis)
-            if (std::isfinite(origin[axis]))
-                stack.origin[axis] = origin[axis] * kMicrometers;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        set_spacing(stack.axes[axis], h.at<double>(40 + 8 * axis) * kMicrometers, "um");
+        if (const double first = h.at<double>(64 + 8 * axis);
+            stack.axes[axis].regular && std::isfinite(first))
+            stack.axes[axis].first = first * kMicrometers;
     }
     if (stack.frames < 2)
         return stack;
-    stack.time_unit = "s";
-    if (const double interval = h.at<double>(112); interval > 0 && std::isfinite(interval))
-        stack.time_step = interval;
+    set_spacing(stack.time, h.at<double>(112), "s");
     const std::uint64_t times_at = h.at<std::uint32_t>(132);
     const std::string times = times_at == 0 ? "" : bytes_at(times_at, 8 + 8 * stack.frames);
     if (times.size() != 8 + 8 * stack.frames)
         return stack;
+    std::vector<double> at;
     for (std::size_t frame = 0; frame < stack.frames; ++frame)
-        stack.times.push_back(BinaryHeader(times, false).at<double>(8 + 8 * frame) -
-                              BinaryHeader(times, false).at<double>(8));
-    const bool rise =
-        std::ranges::all_of(stack.times, [](double t) { return std::isfinite(t); }) &&
-        std::ranges::adjacent_find(stack.times, std::greater_equal<>()) == stack.times.end();
-    if (rise)
-        stack.time_step = 0;
-    else
-        stack.times.clear();
+        at.push_back(BinaryHeader(times, false).at<double>(8 + 8 * frame) -
+                     BinaryHeader(times, false).at<double>(8));
+    if (std::ranges::all_of(at, [](double t) { return std::isfinite(t); }) &&
+        std::ranges::adjacent_find(at, std::greater_equal<>()) == at.end()) {
+        stack.time.at = std::move(at);
+        stack.time.unit = "s";
+    }
     return stack;
 }
 
@@ -304,8 +289,8 @@ std::optional<TiffStack> metamorph_stack(const BytesAt& bytes_at) {
     for (std::size_t i = 0; kPlane * (i + 1) <= each.size(); ++i)
         distances.insert(fraction(each, kPlane * i));
     const double step = distances.empty() ? 0 : *distances.rbegin();
-    if (step > 0 && std::isfinite(step))
-        stack.spacing.z = step;
+    std::array<double, 3> spacing{0, 0, step};
+    std::string unit;
     constexpr std::size_t kMostProperties = 1000;
     const std::string pairs =
         bytes_at(properties.offset, 8 * std::min(properties.count, kMostProperties));
@@ -316,21 +301,18 @@ std::optional<TiffStack> metamorph_stack(const BytesAt& bytes_at) {
         const std::uint64_t at = h.at<std::uint32_t>(8 * i + 4);
         if (id == kX || id == kY) {
             const std::string size = bytes_at(at, 8);
-            const double length = size.size() == 8 ? fraction(size, 0) : 0;
-            if (length > 0 && std::isfinite(length))
-                stack.spacing[id == kX ? 0 : 1] = length;
+            spacing[id == kX ? 0 : 1] = size.size() == 8 ? fraction(size, 0) : 0;
         } else if (id == kUnit) {
             constexpr std::size_t kLongest = 64;
             const std::string text = bytes_at(at, 4 + kLongest);
             if (text.size() >= 4)
-                stack.length_unit = tidy_length_unit(
-                    BinaryHeader(text, false)
-                        .text(4, std::min<std::size_t>(
-                                     BinaryHeader(text, false).at<std::uint32_t>(0), kLongest)));
+                unit = BinaryHeader(text, false)
+                           .text(4, std::min<std::size_t>(
+                                        BinaryHeader(text, false).at<std::uint32_t>(0), kLongest));
         }
     }
-    if (stack.length_unit.empty())
-        stack.spacing = glm::dvec3(1.0);
+    for (std::size_t axis = 0; axis < 3 && !tidy_length_unit(unit).empty(); ++axis)
+        set_spacing(stack.axes[axis], spacing[axis], unit);
     if (distances.size() > 1)
         stack.notes.push_back(fmt::format("distances of the planes of {} to {}: the last is taken "
                                           "for all",

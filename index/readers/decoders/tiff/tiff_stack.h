@@ -1,11 +1,13 @@
 // The hyperstack that pages of TIFF files make, whoever describes it.
 #pragma once
 
+#include "index/readers/formats/stated/stated_array.h"
 #include "index/volume/value_type.h"
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -23,13 +25,11 @@ struct TiffPlane {
 struct TiffStack {
     std::size_t channels = 1, slices = 1, frames = 1;
     std::vector<std::string> channel_names = {};
-    glm::dvec3 spacing{1.0}, origin{0.0};
-    glm::dvec2 field_of_view{0.0}; ///< extent of all pixels along x and y; 0: not said
+    std::array<StatedAxis, 3> axes{}; ///< x, y and z: spacing, origin and unit
+    StatedAxis time{.name = "time"};  ///< of the frames
+    glm::dvec2 field_of_view{0.0};    ///< extent of all pixels along x and y; 0: not said
     Scaling scaling = {};
     std::string value_unit = {};
-    std::vector<double> times = {}; ///< times of frames, where they are said one by one
-    std::string length_unit = {}, time_unit = {};
-    double time_step = 0; ///< 0: not said
     /// Channel fastest, then slice, then frame; empty: in this order.
     std::vector<TiffPlane> planes = {};
     bool appended = false; ///< pages may follow the first without directories
@@ -38,5 +38,14 @@ struct TiffStack {
     std::size_t image = 0;
     std::vector<std::string> notes = {};
 };
+
+/// States the distance between neighbors along an axis, if it is one.
+inline void set_spacing(StatedAxis& axis, double spacing, const std::string& unit) {
+    if (!(spacing > 0) || !std::isfinite(spacing))
+        return;
+    axis.step = spacing;
+    axis.unit = unit;
+    axis.regular = true;
+}
 
 } // namespace isochron::index

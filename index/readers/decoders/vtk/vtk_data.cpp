@@ -9,8 +9,8 @@
 #include "index/readers/decoders/vtk/vtk_resample.h"
 #include "index/readers/decoders/vtk/vtk_session.h"
 #include "index/readers/decoders/vtk/xml_markup.h"
-#include "index/readers/formats/axis_positions.h"
 #include "index/readers/formats/data_stream.h"
+#include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 
@@ -132,31 +132,14 @@ class VtkData {
                                                     coordinates_of(grid.GetZCoordinates())};
         const int* sizes = grid.GetDimensions();
         info_.grid.vertices = checked_vertices({sizes[0], sizes[1], sizes[2]}, name);
-        glm::dmat3 steps(0.0);
-        std::array<bool, 3> uneven{};
+        StatedArray stated{.file = name, .name = {}, .axes = std::vector<StatedAxis>(3)}; // z, y, x
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int i = static_cast<int>(axis);
             if (at[axis].size() != info_.grid.vertices[axis])
                 throw Error(fmt::format("{}: {} coordinates along {}, expected {}", name,
                                         at[axis].size(), "xyz"[axis], info_.grid.vertices[axis]));
-            steps[i][i] = 1;
-            try {
-                const AxisSpread spread =
-                    spread_of(at[axis], std::string(1, "xyz"[axis]), "", name);
-                steps[i][i] = spread.step;
-                info_.grid.origin[i] = spread.first;
-                uneven[axis] = spread.uneven;
-                if (spread.note)
-                    info_.notes.push_back(*spread.note);
-            } catch (const Error&) {
-                if (!options.spacing)
-                    throw;
-            }
+            stated.axes[2 - axis].at = at[axis];
         }
-        set_axes(info_.grid, steps, name);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (uneven[axis])
-                set_positions(info_.grid, axis, at[axis]);
+        place_axes(stated, layout_of_zyx(), options, info_);
     }
 
     fs::path path_;

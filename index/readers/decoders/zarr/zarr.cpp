@@ -262,9 +262,9 @@ class ZarrVolume final : public DecodedFile {
         if (auto note = note_on_attributes(of_array, curved_coordinates(of_array, long_dimensions)))
             info_.notes.push_back(std::move(*note));
         if (layout_.time)
-            place_steps(stated_.axes[*layout_.time], info_);
+            place_steps(stated_.axes[*layout_.time], options, info_);
         else if (const auto time = time_alone(*store_, *array_))
-            place_steps(*time, info_);
+            place_steps(*time, options, info_);
     }
 
     std::vector<std::string> labels_in(const json& attributes, std::uint64_t channels) const {

@@ -6,6 +6,7 @@
 // is LPS, whatever AnatomicalOrientation says.
 #include "index/error.h"
 #include "index/lower_case.h"
+#include "index/readers/formats/length_units.h"
 #include "index/readers/formats/named_file.h"
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/stored_file.h"
@@ -217,7 +218,7 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     info.grid.vertices = checked_vertices({sizes[0], sizes[1], sizes[2]}, name);
     StoredLayout layout;
     orient(header, sizes.size(), name, info, layout.time_step, layout.first_time);
-    info.length_unit = header.find({"DistanceUnits"}).value_or("");
+    info.length_unit = tidy_length_unit(header.find({"DistanceUnits"}).value_or(""));
     static const std::set<std::string_view> kRead{
         "ObjectType",
         "NDims",

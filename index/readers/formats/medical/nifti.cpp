@@ -4,6 +4,7 @@
 // Cox et al., "A (sort of) new image data format standard: NIfTI-1", NeuroImage 22, 2004;
 // field meanings after the comments of nifti1.h, https://nifti.nimh.nih.gov/nifti-1.
 #include "index/error.h"
+#include "index/lower_case.h"
 #include "index/readers/formats/binary_header.h"
 #include "index/readers/formats/medical/nifti_codes.h"
 #include "index/readers/formats/own_formats.h"
@@ -273,6 +274,25 @@ bool has_nifti_header_beside(const fs::path& path) {
     return !header.empty() && header != path;
 }
 
+namespace {
+
+/// The file of b-values beside an image, by its name; empty: there is none.
+std::string directions_beside(const fs::path& path) {
+    fs::path stem = path;
+    if (lower_case(stem.extension().string()) == ".gz")
+        stem.replace_extension();
+    std::error_code ignored;
+    for (const char* end : {".bval", ".bvals", ".bvec", ".bvecs"})
+        if (fs::exists(stem.replace_extension(end), ignored))
+            return stem.filename().string();
+    for (const char* name : {"bvals", "bvecs"}) // as FSL names them
+        if (fs::exists(path.parent_path() / name, ignored))
+            return name;
+    return {};
+}
+
+} // namespace
+
 std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions& options) {
     fs::path path = header_of_pair(given);
     if (path.empty()) { // one file for all, or no pair
@@ -302,8 +322,14 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
     const std::string stated = fmt::format(
         "intent_code {}{}", h.intent, intent.name.empty() ? "" : fmt::format(" ({})", intent.name));
     // Components are to be on the fifth axis, but many programs write them on the fourth.
-    const bool fourth = intent.components && dimensions == 4 && h.dim[4] > 1;
-    if (fourth)
+    const std::string directions = directions_beside(path);
+    const bool diffusion = !directions.empty() && dimensions == 4 && h.dim[4] > 1;
+    const bool fourth = (intent.components || diffusion) && dimensions == 4 && h.dim[4] > 1;
+    if (diffusion)
+        info.notes.push_back(
+            fmt::format("{} is beside it: its fourth axis is not time but directions of diffusion",
+                        directions));
+    else if (fourth)
         info.notes.push_back(stated + ": its fourth axis is not time but components");
     else if (h.intent != 0 && !(intent.components && dimensions > 4) && h.intent != 2001)
         unread.push_back(stated);
@@ -320,7 +346,7 @@ std::unique_ptr<VolumeFile> open_nifti(const fs::path& given, const ReadOptions&
         info.scaling = {h.scl_slope, h.scl_inter};
 
     StoredLayout layout;
-    layout.array = {"values", nifti_type(h.datatype, name)};
+    layout.array = {diffusion ? "diffusion" : "values", nifti_type(h.datatype, name)};
     layout.big_endian = h.big_endian;
     layout.data = h.pair ? image_beside(path) : path;
     layout.compression = is_gzip(layout.data) ? Compression::deflate : Compression::none;

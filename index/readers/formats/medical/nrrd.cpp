@@ -4,12 +4,12 @@
 // Fields after "Definition of NRRD File Format", https://teem.sourceforge.net/nrrd/format.html.
 #include "index/error.h"
 #include "index/lower_case.h"
-#include "index/readers/formats/length_units.h"
 #include "index/readers/formats/medical/nrrd_axes.h"
 #include "index/readers/formats/medical/nrrd_header.h"
 #include "index/readers/formats/named_file.h"
 #include "index/readers/formats/own_formats.h"
 #include "index/readers/formats/reordered_file.h"
+#include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -68,41 +68,29 @@ std::string unquoted(std::string text) {
 }
 
 /// Units of space, one for all axes or one for each: of the axes of space, or of those of the file.
-void take_units(const NrrdAxes& axes, const std::vector<std::string>& space_units, SeriesInfo& info,
-                const std::string& file) {
+std::array<std::string, 3> units_of_space(const NrrdAxes& axes,
+                                          const std::vector<std::string>& space_units) {
     std::array<std::string, 3> units;
     for (std::size_t i = 0; i < 3; ++i)
         if (!space_units.empty())
             units[i] = space_units[std::min(i, space_units.size() - 1)];
         else if (!axes.units.empty())
             units[i] = axes.units[axes.space[i]];
-    const OneLengthUnit one = one_length_unit(units);
-    info.length_unit = one.unit;
-    info.notes.insert(info.notes.end(), one.notes.begin(), one.notes.end());
-    if (one.factor == glm::dvec3(1.0))
-        return;
-    // Units are of the axes of physical space, along which directions have their components.
-    glm::dmat3 steps(0.0);
-    for (int axis = 0; axis < 3; ++axis)
-        steps[axis] = info.grid.direction[axis] * info.grid.spacing[axis] * one.factor;
-    set_axes(info.grid, steps, file);
-    info.grid.origin *= one.factor;
+    return units;
 }
 
-/// Labels are of the axes of the file, which are those of space where these are in order.
-void name_axes(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info) {
-    const auto labels = quoted_in(header.find("labels").value_or(""));
-    if (labels.size() != axes.sizes.size())
-        return;
-    for (int axis = 0; axis < 3; ++axis)
-        for (int along = 0; along < 3; ++along)
-            if (std::abs(std::abs(info.grid.direction[axis][along]) - 1) < 1e-6)
-                info.axis_names[static_cast<std::size_t>(along)] =
-                    labels[axes.space[static_cast<std::size_t>(axis)]];
+/// The record of the axes of space, z, y and x.
+StatedArray stated_axes(const NrrdHeader& header, const NrrdAxes& axes) {
+    StatedArray stated{.file = header.file(), .name = "values", .axes = std::vector<StatedAxis>(3)};
+    if (const auto labels = quoted_in(header.find("labels").value_or(""));
+        labels.size() == axes.sizes.size())
+        for (std::size_t i = 0; i < 3; ++i)
+            stated.axes[2 - i].name = labels[axes.space[i]];
+    return stated;
 }
 
-void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
-            StoredLayout& layout) {
+void orient(const NrrdHeader& header, const NrrdAxes& axes, const ReadOptions& options,
+            SeriesInfo& info, StoredLayout& layout) {
     const std::string& file = header.file();
     const std::size_t count = axes.sizes.size();
     const auto spacings = per_axis(header, "spacings", count);
@@ -127,11 +115,11 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
         info.anatomy = known->anatomy;
         signs = known->signs;
     }
-    glm::dmat3 steps(0.0);
+    StatedDirections directions{.steps = glm::dmat3(0.0)};
     for (int i = 0; i < 3; ++i) {
         const std::size_t axis = axes.space[i];
         if (!axes.directions.empty()) {
-            steps[i] = *axes.directions[axis] * signs;
+            directions.steps[i] = *axes.directions[axis] * signs;
         } else {
             const bool said = !spacings.empty() && std::isfinite(spacings[axis]);
             const bool begins = !minima.empty() && std::isfinite(minima[axis]);
@@ -145,60 +133,69 @@ void orient(const NrrdHeader& header, const NrrdAxes& axes, SeriesInfo& info,
             if (!said && ends && maxima[axis] != minima[axis])
                 step = (maxima[axis] - minima[axis]) / (cell ? size : size - 1);
             centers_guessed = centers_guessed || (ends && !told);
-            steps[i] = glm::dvec3(0);
-            steps[i][i] = step * signs[i];
+            directions.steps[i][i] = step * signs[i];
             if (begins)
-                info.grid.origin[i] = (minima[axis] + (cell ? step / 2 : 0)) * signs[i];
+                directions.origin[i] = (minima[axis] + (cell ? step / 2 : 0)) * signs[i];
         }
     }
     if (centers_guessed)
         info.notes.push_back(
             "axis mins and maxs are taken for the outer faces of cells: centers are "
             "not said");
-    set_axes(info.grid, steps, file);
     std::optional<std::vector<double>> first;
     if (const auto origin = header.find("spaceorigin"))
         first = nrrd_vector(*origin, "space origin", file, space_dimensions(header));
     if (first)
-        info.grid.origin = glm::dvec3((*first)[0], (*first)[1], (*first)[2]) * signs;
+        directions.origin = glm::dvec3((*first)[0], (*first)[1], (*first)[2]) * signs;
     const auto space_units = quoted_in(header.find("spaceunits").value_or(""));
-    take_units(axes, space_units, info, file);
-    name_axes(header, axes, info);
+    directions.units = units_of_space(axes, space_units);
+    StatedArray stated = stated_axes(header, axes);
+    stated.directions = directions;
+    place_axes(stated, layout_of_zyx(), options, info);
     info.value_unit = unquoted(header.find("sampleunits").value_or(""));
     if (!axes.time)
         return;
-    if (axes.sizes[*axes.time] < 1)
-        throw Error(fmt::format("{}: {} steps, expected at least 1", file, axes.sizes[*axes.time]));
+    const std::int64_t steps = axes.sizes[*axes.time];
+    if (steps < 1)
+        throw Error(fmt::format("{}: {} steps, expected at least 1", file, steps));
+    expect_few_steps(static_cast<std::size_t>(steps), file);
+    layout.steps = static_cast<std::size_t>(steps);
+    StatedAxis time{.name = "time", .length = layout.steps};
+    const auto take_step = [&](double step) {
+        time.step = step;
+        time.regular = std::isfinite(step);
+    };
+    if (!axes.units.empty())
+        time.unit = axes.units[*axes.time];
+    else if (axes.time_step && space_units.size() == 4)
+        time.unit = space_units[3];
     if (axes.time_step) {
-        layout.time_step = *axes.time_step;
+        take_step(*axes.time_step);
         if (first && first->size() == 4)
-            layout.first_time = (*first)[3];
-        if (space_units.size() == 4)
-            info.time_unit = space_units[3];
+            time.first = (*first)[3];
     }
-    layout.steps = static_cast<std::size_t>(axes.sizes[*axes.time]);
     if (!spacings.empty())
-        layout.time_step = spacings[*axes.time];
-    if (!minima.empty() && std::isfinite(minima[*axes.time]))
-        layout.first_time = minima[*axes.time];
+        take_step(spacings[*axes.time]);
+    if (!minima.empty() && std::isfinite(minima[*axes.time])) {
+        time.first = minima[*axes.time];
+        if (const double last = maxima.empty() ? NAN : maxima[*axes.time];
+            !time.regular && steps > 1) {
+            const bool cells = *axes.time < centers.size() && centers[*axes.time] == "cell";
+            take_step((last - time.first) / static_cast<double>(cells ? steps : steps - 1));
+        }
+    }
     if (axes.listed) {
         info.notes.push_back("steps by " + axes.listed->by);
-        info.times = axes.listed->times;
-        info.time_unit = axes.listed->unit;
-        if (!info.times.empty())
-            return;
-    }
-    if (axes.time_is_guessed)
+        if (!axes.listed->times.empty()) {
+            time.at = axes.listed->times;
+            time.unit = axes.listed->unit;
+        }
+    } else if (axes.time_is_guessed) {
         info.notes.push_back("its slowest axis is taken for time: it gives no kinds");
-    if (!axes.units.empty())
-        info.time_unit = axes.units[*axes.time];
-    const auto steps_of_time = static_cast<double>(layout.steps);
-    if (layout.time_step == 0 && layout.steps > 1 && !minima.empty() && !maxima.empty() &&
-        std::isfinite(minima[*axes.time]) && std::isfinite(maxima[*axes.time]))
-        layout.time_step =
-            (maxima[*axes.time] - minima[*axes.time]) /
-            (*axes.time < centers.size() && centers[*axes.time] == "cell" ? steps_of_time
-                                                                          : steps_of_time - 1);
+    }
+    place_steps(time, options, info);
+    if (info.times.size() != layout.steps)
+        info.times.clear(); // the values of all steps are there
 }
 
 /// What is not said elsewhere: fields of the format that nothing is done with.
@@ -302,7 +299,7 @@ std::unique_ptr<VolumeFile> open_nrrd(const fs::path& path, const ReadOptions& o
     info.grid.vertices = checked_vertices(
         {axes.sizes[axes.space[0]], axes.sizes[axes.space[1]], axes.sizes[axes.space[2]]}, file);
     StoredLayout layout;
-    orient(header, axes, info, layout);
+    orient(header, axes, options, info, layout);
     note_unread(header, axes, info);
 
     const std::string type = lower_case(header.need("type"));

@@ -57,9 +57,6 @@ class NameReader {
     std::size_t at_ = 0;
 };
 
-/// In which order day and month stand before a year.
-enum class Order : std::uint8_t { day_first, month_first };
-
 struct NameDate {
     std::int64_t seconds = 0; ///< since 1970-01-01
     bool has_hour = false;
@@ -125,10 +122,10 @@ std::optional<Date> year_month_day(NameReader& reader) {
 }
 
 /// 31-01-2020, 31jan2020, jan-31-2020, jan2020.
-std::optional<Date> year_last(NameReader& reader, Order order) {
+std::optional<Date> year_last(NameReader& reader, DayMonth order) {
     Date date{0, 0, 1};
     const bool word_first = reader.at_month();
-    const bool day_first = order == Order::day_first && !word_first;
+    const bool day_first = order == DayMonth::day_first && !word_first;
     NameReader behind = reader; // the first number
     behind.number(behind.digits());
     behind.take("-_./");
@@ -154,7 +151,7 @@ std::optional<Date> year_last(NameReader& reader, Order order) {
 }
 
 /// The date that begins at a place of a name.
-std::optional<NameDate> date_at(std::string_view name, std::size_t begin, Order order) {
+std::optional<NameDate> date_at(std::string_view name, std::size_t begin, DayMonth order) {
     NameReader reader(name, begin);
     std::optional<Date> date;
     const std::size_t row = reader.digits();
@@ -182,7 +179,7 @@ std::optional<NameDate> date_at(std::string_view name, std::size_t begin, Order 
     return found;
 }
 
-std::vector<NameDate> dates_in(const std::string& name, Order order) {
+std::vector<NameDate> dates_in(const std::string& name, DayMonth order) {
     std::vector<NameDate> dates;
     for (std::size_t i = 0; i < name.size();) {
         const auto word = month_word_at(name, i);
@@ -202,7 +199,7 @@ std::vector<NameDate> dates_in(const std::string& name, Order order) {
 }
 
 /// The dates of each name that differ first; empty: a name has none, or none differs among several.
-std::vector<NameDate> dates_that_differ(const std::vector<std::string>& names, Order order) {
+std::vector<NameDate> dates_that_differ(const std::vector<std::string>& names, DayMonth order) {
     std::vector<std::vector<NameDate>> dates;
     for (const std::string& name : names) {
         dates.push_back(dates_in(name, order));
@@ -226,18 +223,20 @@ std::vector<NameDate> dates_that_differ(const std::vector<std::string>& names, O
 /// What both orders of day and month make of names.
 struct BothReadings {
     std::vector<NameDate> dates; ///< empty: none
-    Order order = Order::day_first;
+    DayMonth order = DayMonth::day_first;
     std::vector<NameDate> other = {}; ///< by month first, where both are possible and differ
 };
 
-BothReadings read_both(const std::vector<std::string>& names) {
-    std::vector<NameDate> day_first = dates_that_differ(names, Order::day_first),
-                          month_first = dates_that_differ(names, Order::month_first);
+BothReadings read_both(const std::vector<std::string>& names, std::optional<DayMonth> said) {
+    if (said)
+        return {dates_that_differ(names, *said), *said};
+    std::vector<NameDate> day_first = dates_that_differ(names, DayMonth::day_first),
+                          month_first = dates_that_differ(names, DayMonth::month_first);
     if (day_first.empty())
-        return {std::move(month_first), Order::month_first};
+        return {std::move(month_first), DayMonth::month_first};
     if (std::ranges::equal(day_first, month_first, {}, &NameDate::seconds, &NameDate::seconds))
         month_first.clear();
-    return {std::move(day_first), Order::day_first, std::move(month_first)};
+    return {std::move(day_first), DayMonth::day_first, std::move(month_first)};
 }
 
 std::string file_name(const std::string& path) {
@@ -267,13 +266,15 @@ std::optional<MonthWord> month_word_at(std::string_view name, std::size_t at) {
         ++end;
     const std::string word = lower_case(std::string(name.substr(at, end - at)));
     for (std::size_t month = 0; month < kMonths.size(); ++month)
-        if (word == kMonths[month] || word == kMonths[month].substr(0, 3))
+        if (word == kMonths[month] || word == kMonths[month].substr(0, 3) ||
+            (word == "sept" && kMonths[month] == "september"))
             return MonthWord{static_cast<int>(month) + 1, word.size()};
     return std::nullopt;
 }
 
-std::optional<NameDates> dates_in_names(std::span<const std::filesystem::path> files) {
-    const auto [dates, order, other] = read_both(texts_of(files));
+std::optional<NameDates> dates_in_names(std::span<const std::filesystem::path> files,
+                                        std::optional<DayMonth> said) {
+    const auto [dates, order, other] = read_both(texts_of(files), said);
     if (dates.empty() || !other.empty())
         return std::nullopt;
     const bool days = std::ranges::none_of(dates, &NameDate::has_hour);
@@ -283,35 +284,51 @@ std::optional<NameDates> dates_in_names(std::span<const std::filesystem::path> f
     return found;
 }
 
-DateOrder order_of_dates(const std::vector<std::string>& names) {
+TextDates dates_of_texts(const std::vector<std::string>& texts, std::optional<DayMonth> said) {
+    const BothReadings read = read_both(texts, said);
+    TextDates found{.order = read.order, .open = !read.other.empty()};
+    if (found.open)
+        return found;
+    for (const NameDate& date : read.dates) {
+        found.seconds.push_back(static_cast<double>(date.seconds));
+        found.year_last = found.year_last || !date.year_first;
+    }
+    return found;
+}
+
+DateOrder order_of_dates(const std::vector<std::string>& names, std::optional<DayMonth> said) {
     const auto order_of = [&](const std::vector<NameDate>& dates) {
         std::vector<std::size_t> order(names.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::ranges::stable_sort(order, {}, [&](std::size_t name) { return dates[name].seconds; });
         return order;
     };
-    const BothReadings read = read_both(names);
+    const BothReadings read = read_both(names, said);
     if (!read.other.empty())
         return {{},
                 order_of(read.dates) == order_of(read.other)
                     ? ""
                     : fmt::format("the dates in the names may be day-month-year or month-day-year: "
-                                  "their numbers order them as they stand ({}); written as "
-                                  "YYYY-MM-DD they would be dates",
+                                  "their numbers order them as they stand ({}); --dates dmy or "
+                                  "--dates mdy makes dates of them",
                                   file_name(names.front()))};
     if (read.dates.empty() || std::ranges::all_of(read.dates, &NameDate::year_first))
         return {};
     DateOrder found{order_of(read.dates), {}};
     if (names.size() > 1)
-        found.note =
-            fmt::format("the dates in the names order the steps, read as {}: {} before {}",
-                        read.order == Order::day_first ? "day-month-year" : "month-day-year",
-                        file_name(names[found.order[0]]), file_name(names[found.order[1]]));
+        found.note = fmt::format("the dates in the names order the steps, read as {}: {} before {}",
+                                 name_of(read.order), file_name(names[found.order[0]]),
+                                 file_name(names[found.order[1]]));
     return found;
 }
 
-std::optional<std::string> note_on_dates(std::span<const std::filesystem::path> files) {
-    if (files.size() < 2 || !dates_in_names(files))
+std::string_view name_of(DayMonth order) {
+    return order == DayMonth::day_first ? "day-month-year" : "month-day-year";
+}
+
+std::optional<std::string> note_on_dates(std::span<const std::filesystem::path> files,
+                                         std::optional<DayMonth> said) {
+    if (files.size() < 2 || !dates_in_names(files, said))
         return std::nullopt;
     return "the files' names have dates; --times-from-names takes them as times";
 }

@@ -1,6 +1,8 @@
 // Names with dates: `wrfout_2020-01-02_06:00:00`, `T20200102T0600.nc`, `scan_31-01-2020`.
 #pragma once
 
+#include "index/volume/calendar.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -22,8 +24,22 @@ struct NameDates {
 /// for the month: 31Jan2020, jan-2020. The hour, the minute and the second may follow. Of several dates
 /// in a name, the first that differs among the names counts. They are of the Gregorian calendar
 /// (proleptic), as ISO 8601 has it.
+/// @param said the order of day and month, where a user says it
 /// @return none where a name has no date, none differs among several names, or two readings differ
-std::optional<NameDates> dates_in_names(std::span<const std::filesystem::path> files);
+std::optional<NameDates> dates_in_names(std::span<const std::filesystem::path> files,
+                                        std::optional<DayMonth> said = {});
+
+/// Texts of a file that are dates, written as in names.
+struct TextDates {
+    std::vector<double> seconds = {}; ///< since 1970-01-01; empty: one is no date, or they are open
+    DayMonth order = DayMonth::day_first; ///< in which they were read
+    bool year_last = false;               ///< in one of them
+    bool open = false; ///< either order of day and month is possible, and they differ
+};
+TextDates dates_of_texts(const std::vector<std::string>& texts, std::optional<DayMonth> said);
+
+/// `day-month-year`
+std::string_view name_of(DayMonth order);
 
 /// The place of the month, from 1, whose English name or first three letters begin there as a word of
 /// its own: 2 of `clim_Feb.nc` at 5; and the length of the word. None: there is no month.
@@ -39,9 +55,10 @@ struct DateOrder {
     std::vector<std::size_t> order; ///< empty: that of the numbers
     std::string note;               ///< one sentence for the user; may be empty
 };
-DateOrder order_of_dates(const std::vector<std::string>& names);
+DateOrder order_of_dates(const std::vector<std::string>& names, std::optional<DayMonth> said = {});
 
 /// A note for the user, one sentence, if the names of files without times have dates that differ.
-std::optional<std::string> note_on_dates(std::span<const std::filesystem::path> files);
+std::optional<std::string> note_on_dates(std::span<const std::filesystem::path> files,
+                                         std::optional<DayMonth> said = {});
 
 } // namespace isochron::index

@@ -244,7 +244,7 @@ class FileSeries final : public VolumeSeries {
     void note_missing_numbers() {
         if (timed_ || options_.time_step || places_.size() != files_.size())
             return;
-        if (const auto note = note_on_names(paths()))
+        if (const auto note = note_on_names(paths(), options_.dates))
             info_.notes.push_back(*note);
     }
 
@@ -252,7 +252,7 @@ class FileSeries final : public VolumeSeries {
     void find_gaps() {
         const auto one = [](const Found& found) { return found.steps == 1; };
         if ((!timed_ || options_.time_step) && std::ranges::all_of(found_, one))
-            info_.missing_after = missing_after(paths());
+            info_.missing_after = missing_after(paths(), options_.dates);
     }
 
     void open_file(std::size_t index) {

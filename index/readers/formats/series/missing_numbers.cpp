@@ -50,8 +50,8 @@ std::optional<std::string> note_on_numbers(std::span<const fs::path> files) {
 }
 
 /// What orders the names: their dates, or the last number that differs. May be empty.
-std::vector<double> order_of_names(std::span<const fs::path> files) {
-    if (const auto dates = dates_in_names(files))
+std::vector<double> order_of_names(std::span<const fs::path> files, std::optional<DayMonth> said) {
+    if (const auto dates = dates_in_names(files, said))
         return dates->times;
     const std::vector<NumberedName> names = names_of(files);
     const auto varying = varying_numbers(names);
@@ -64,16 +64,18 @@ std::vector<double> order_of_names(std::span<const fs::path> files) {
 
 } // namespace
 
-std::optional<std::string> note_on_names(std::span<const fs::path> files) {
-    auto note = note_on_dates(files);
+std::optional<std::string> note_on_names(std::span<const fs::path> files,
+                                         std::optional<DayMonth> dates) {
+    auto note = note_on_dates(files, dates);
     return note ? note : note_on_numbers(files);
 }
 
-std::vector<std::uint32_t> missing_after(std::span<const fs::path> files) {
+std::vector<std::uint32_t> missing_after(std::span<const fs::path> files,
+                                         std::optional<DayMonth> dates) {
     std::vector<std::uint32_t> steps;
     if (files.size() < 3)
         return steps;
-    const std::vector<double> numbers = order_of_names(files);
+    const std::vector<double> numbers = order_of_names(files, dates);
     std::vector<double> apart;
     for (std::size_t i = 1; i < numbers.size(); ++i)
         apart.push_back(numbers[i] - numbers[i - 1]);

@@ -286,7 +286,7 @@ bool natural_less(const NumberedName& a, const NumberedName& b) {
     return a.name < b.name; // equal, or different in the writing of numbers only
 }
 
-ReadNames read_names(const std::vector<std::string>& names) {
+ReadNames read_names(const std::vector<std::string>& names, std::optional<DayMonth> said) {
     NameStyle style;
     std::vector<NumberedName> apart = all_apart(names, style);
     for (const auto more : {&NameStyle::signs_behind_letters, &NameStyle::months}) {
@@ -322,7 +322,7 @@ ReadNames read_names(const std::vector<std::string>& names) {
     if (style.months)
         read.note = fmt::format("words in the names are read as months: {} before {}",
                                 last_part(names[read.order[0]]), last_part(names[read.order[1]]));
-    if (DateOrder dates = order_of_dates(names);
+    if (DateOrder dates = order_of_dates(names, said);
         !dates.order.empty() && dates.order != read.order) {
         read.order = std::move(dates.order);
         read.note = std::move(dates.note);

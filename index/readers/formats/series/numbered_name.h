@@ -1,6 +1,8 @@
 // Names with numbers that give files, folders, groups and slices an order: one reading for all.
 #pragma once
 
+#include "index/volume/calendar.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -65,7 +67,8 @@ struct ReadNames {
 /// Numbers with a point are decimals, unless that cannot be: beside `1.9`, `1.10` counts. Names that
 /// differ in the words for months are in the order of the year, and dates with the year behind the month
 /// in their order, where both are told from the names (see `order_of_dates`).
-ReadNames read_names(const std::vector<std::string>& names);
+/// @param dates order of day and month, where a user says it
+ReadNames read_names(const std::vector<std::string>& names, std::optional<DayMonth> dates = {});
 
 /// Which numbers differ among names with the same texts; empty if texts differ.
 std::vector<std::size_t> varying_numbers(std::span<const NumberedName> names);

@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,9 +26,9 @@ namespace {
 struct Positions {
     std::string name, label;    ///< `lev`, `z (lev)`
     double first = 0, step = 1; ///< the step may be negative
-    std::string unit;           ///< tidy; empty: none
-    bool downwards = false;
-    bool stated = false;
+    std::string unit, written;  ///< tidy, empty: none; and as it is stated
+    bool downwards = false, stated = false;
+    bool shares_unit = false;    ///< if none is stated
     std::vector<double> at = {}; ///< positions of all vertices, where they are not even
 };
 
@@ -98,6 +100,8 @@ Positions positions_along(const StatedArray& array, const StatedAxis& axis, int 
         return positions;
     positions.stated = true;
     positions.unit = tidy_unit(axis.unit);
+    positions.written = axis.unit;
+    positions.shares_unit = axis.at.empty() && axis.unit.empty();
     positions.downwards = physical == 2 && counts_downwards(axis);
     if (axis.at.empty()) {
         positions.first = axis.first;
@@ -125,6 +129,32 @@ Positions positions_along(const StatedArray& array, const StatedAxis& axis, int 
     return positions;
 }
 
+/// Along x, y and z, of axes that have directions: each has the name of the axis that runs along it.
+std::array<Positions, 3> positions_by(const StatedArray& array, const ArrayLayout& layout) {
+    constexpr double kAligned = 1e-6; // of the length
+    const StatedDirections& stated = *array.directions;
+    std::array<Positions, 3> axes;
+    for (int physical = 0; physical < 3; ++physical) {
+        const auto p = static_cast<std::size_t>(physical);
+        Positions& axis = axes[p];
+        double step = 0;
+        for (int a = 0; a < 3; ++a) {
+            const double along = std::abs(stated.steps[a][physical]);
+            step = std::max(step, along);
+            if (std::abs(along / glm::length(stated.steps[a]) - 1) < kAligned)
+                axis.name = array.axes[layout.space[static_cast<std::size_t>(a)]].name;
+        }
+        axis.label = std::string(1, "xyz"[physical]);
+        axis.first = stated.origin[physical];
+        axis.step = step > 0 ? step : 1;
+        axis.written = stated.units[p];
+        axis.unit = tidy_unit(axis.written);
+        axis.stated = true;
+        axis.shares_unit = axis.written.empty();
+    }
+    return axes;
+}
+
 /// The factor that brings coordinates along an axis into the unit of others, or at least into
 /// proportion with them.
 double to_go_with(const Positions& one, const Positions& other) {
@@ -143,19 +173,17 @@ std::string scaled_by(double factor) {
                         : fmt::format(" * {:g}", factor);
 }
 
-/// A distance that is stated without a unit is in that of the others.
-void share_units(const StatedArray& array, const ArrayLayout& layout,
-                 std::array<Positions, 3>& axes) {
+/// A distance that is stated without a unit is in that of the others; one in pixels is not.
+void share_units(std::array<Positions, 3>& axes) {
     const auto with_unit = std::ranges::find_if(
         axes, [](const Positions& axis) { return meters_in(axis.unit).has_value(); });
     if (with_unit == axes.end())
         return;
-    for (std::size_t a = 0; a < 3; ++a) {
-        const StatedAxis& stated = array.axes[layout.space[a]];
-        Positions& axis = axes[static_cast<std::size_t>(layout.physical[a])];
-        if (stated.regular && stated.at.empty() && stated.unit.empty())
+    for (Positions& axis : axes)
+        if (axis.shares_unit)
             axis.unit = with_unit->unit;
-    }
+        else if (axis.unit.empty() && axis.written != "1")
+            axis.unit = axis.written;
 }
 
 bool in_one_unit(const std::array<Positions, 3>& axes) {
@@ -173,9 +201,11 @@ void name_axes(const std::array<Positions, 3>& axes, const ReadOptions& options,
         const std::string factor = scaled_by(to_go_with(axes[0], axis));
         std::string unit = axis.unit + factor;
         unit.erase(0, unit.find_first_not_of(' ')); // the space before a unit without a factor
-        if (!axis.name.empty())
-            info.axis_names[a] = with_own_unit((axis.downwards ? "-" : "") + axis.name,
-                                               one_unit || options.spacing ? "" : unit);
+        const bool own_unit = !one_unit && !options.spacing;
+        if (!axis.name.empty() || own_unit)
+            info.axis_names[a] = with_own_unit((axis.downwards ? "-" : "") +
+                                                   (axis.name.empty() ? axis.label : axis.name),
+                                               own_unit ? unit : "");
         units.push_back(axis.label + with_blank(axis.unit) + factor);
     }
     if (one_unit)
@@ -295,13 +325,21 @@ void place_axes(const StatedArray& array, const ArrayLayout& layout, const ReadO
         axes[static_cast<std::size_t>(physical)] =
             positions_along(array, array.axes[layout.space[a]], physical, options, info.notes);
     }
-    share_units(array, layout, axes);
     glm::dmat3 steps(0.0);
-    for (std::size_t a = 0; a < 3; ++a) {
-        const int physical = layout.physical[a];
+    if (array.directions) {
+        steps = array.directions->steps;
+        axes = positions_by(array, layout);
+    } else {
+        for (std::size_t a = 0; a < 3; ++a)
+            steps[static_cast<int>(a)][layout.physical[a]] =
+                axes[static_cast<std::size_t>(layout.physical[a])].step;
+    }
+    share_units(axes);
+    for (int physical = 0; physical < 3; ++physical) {
         const Positions& axis = axes[static_cast<std::size_t>(physical)];
         const double factor = to_go_with(axes[0], axis) * (axis.downwards ? -1 : 1);
-        steps[static_cast<int>(a)][physical] = axis.step * factor;
+        for (int a = 0; a < 3; ++a)
+            steps[a][physical] *= factor;
         info.grid.origin[physical] = axis.first * factor + 0.0; // no -0
     }
     set_axes(info.grid, steps, array.file);
@@ -315,26 +353,25 @@ void place_axes(const StatedArray& array, const ArrayLayout& layout, const ReadO
         info.anatomy = Anatomy::enu;
 }
 
-void place_steps(const StatedAxis& time, SeriesInfo& info) {
-    const std::string unit = time.unit == "1" ? "" : time.unit;
-    if (!time.at.empty())
-        return place_times({.name = time.coordinate.empty() ? time.name : time.coordinate,
-                            .values = time.at,
-                            .unit = unit,
-                            .calendar = time.calendar,
-                            .missing = time.missing},
-                           info);
-    if (!time.regular || (time.length == 1 && time.first == 0))
-        return;
-    if (!std::isfinite(time.first) || !(time.step > 0)) {
-        info.notes.push_back(fmt::format("steps are {} apart by the file: their times are not "
-                                         "used (--time-step)",
-                                         time.step));
-        return;
+void place_steps(const StatedAxis& time, const ReadOptions& options, SeriesInfo& info) {
+    StatedTimes stated{.name = time.coordinate.empty() ? time.name : time.coordinate,
+                       .values = time.at,
+                       .unit = time.unit == "1" ? "" : time.unit,
+                       .calendar = time.calendar,
+                       .missing = time.missing};
+    if (time.at.empty()) {
+        if (!time.regular || (time.length == 1 && time.first == 0))
+            return;
+        if (!std::isfinite(time.first) || !(time.step > 0)) {
+            info.notes.push_back(fmt::format("steps are {} apart by the file: their times are not "
+                                             "used (--time-step)",
+                                             time.step));
+            return;
+        }
+        for (std::uint64_t i = 0; i < time.length; ++i)
+            stated.values.push_back(time.first + static_cast<double>(i) * time.step);
     }
-    for (std::uint64_t i = 0; i < time.length; ++i)
-        info.times.push_back(time.first + static_cast<double>(i) * time.step);
-    info.time_unit = unit;
+    place_times(std::move(stated), info, options.dates);
 }
 
 std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,

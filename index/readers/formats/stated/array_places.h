@@ -14,14 +14,19 @@ namespace isochron::index {
 
 /// The roles of an array's dimensions, counted from the slowest.
 struct ArrayLayout {
-    std::array<std::size_t, 3> space{};   ///< the dimensions of the index axes, fastest first
-    std::array<int, 3> physical{0, 1, 2}; ///< the physical axis along which each of them runs
-    bool upright = false;                 ///< physical z is known to point upwards
-    std::optional<std::size_t> time;      ///< dimension of the steps
-    std::optional<std::size_t> component; ///< dimension of components or channels
-    std::optional<std::size_t> member;    ///< dimension of an ensemble's runs; one is read
-    bool time_is_guessed = false;         ///< nothing says that this dimension is time
+    std::array<std::size_t, 3> space{};        ///< the dimensions of the index axes, fastest first
+    std::array<int, 3> physical{0, 1, 2};      ///< the physical axis along which each of them runs
+    bool upright = false;                      ///< physical z is known to point upwards
+    std::optional<std::size_t> time = {};      ///< dimension of the steps
+    std::optional<std::size_t> component = {}; ///< dimension of components or channels
+    std::optional<std::size_t> member = {};    ///< dimension of an ensemble's runs; one is read
+    bool time_is_guessed = false;              ///< nothing says that this dimension is time
 };
+
+/// The roles of the axes z, y and x, which the format names.
+inline ArrayLayout layout_of_zyx() {
+    return {.space = {2, 1, 0}};
+}
 
 /// Finds the roles of dimensions by attributes (`role_by_attributes`), else by their names, else by
 /// their order: time slowest, x fastest. Dimensions of length 1 that are not time are ignored. If
@@ -50,7 +55,7 @@ void place_axes(const StatedArray& array, const ArrayLayout& layout, const ReadO
 
 /// Sets times and their unit, if the axis states them. The unit includes its reference date and,
 /// if it is not the usual one, its calendar.
-void place_steps(const StatedAxis& time, SeriesInfo& info);
+void place_steps(const StatedAxis& time, const ReadOptions& options, SeriesInfo& info);
 
 /// The run of an ensemble that is read. @throws Error naming the file: no such member
 std::size_t member_of(const StatedArray& array, const ArrayLayout& layout,

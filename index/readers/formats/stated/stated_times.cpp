@@ -2,6 +2,7 @@
 #include "index/readers/formats/stated/stated_times.h"
 
 #include "index/lower_case.h"
+#include "index/readers/formats/series/dated_name.h"
 #include "index/volume/calendar.h"
 #include "index/volume/time_unit.h"
 
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace isochron::index {
@@ -139,12 +141,47 @@ void drop_missing(StatedTimes& stated, SeriesInfo& info) {
                         stated.name));
 }
 
+/// `2005-08-28 12:00:00` of seconds since 1970.
+std::string written(double seconds) {
+    constexpr std::int64_t kDay = 86400;
+    const auto all = static_cast<std::int64_t>(seconds);
+    const std::int64_t of_day = (all % kDay + kDay) % kDay;
+    const auto date = date_of((all - of_day) / kDay, Calendar::gregorian);
+    return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}", date->year, date->month, date->day,
+                       of_day / 3600, of_day / 60 % 60, of_day % 60);
+}
+
+std::string open_dates(const std::string& name, const std::string& date) {
+    return fmt::format("{} {} may be day-month-year or month-day-year (--dates dmy, --dates mdy)",
+                       name, date);
+}
+
+/// Writes a reference date whose year is last as ISO 8601 has it, if it is told what is its day.
+void write_reference_anew(StatedTimes& stated, SeriesInfo& info, std::optional<DayMonth> said) {
+    constexpr std::string_view kSince = " since ";
+    const std::size_t since = lower_case(stated.unit).find(kSince);
+    if (since == stated.unit.npos)
+        return;
+    const std::string reference = stated.unit.substr(since + kSince.size());
+    if (reference.find_first_not_of("0123456789") > 2) // the year, or a word
+        return;
+    const TextDates read = dates_of_texts({reference}, said);
+    if (read.open)
+        info.notes.push_back(open_dates("the reference date", reference));
+    if (read.seconds.empty())
+        return;
+    info.notes.push_back(
+        fmt::format("the reference date {} is read as {}", reference, name_of(read.order)));
+    stated.unit.replace(since + kSince.size(), reference.size(), written(read.seconds.front()));
+}
+
 } // namespace
 
-void place_times(StatedTimes stated, SeriesInfo& info) {
+void place_times(StatedTimes stated, SeriesInfo& info, std::optional<DayMonth> dates) {
     drop_missing(stated, info);
     if (stated.values.empty())
         return;
+    write_reference_anew(stated, info, dates);
     const AbsoluteUnit* const absolute = absolute_unit(stated.unit);
     const auto days = absolute ? days_of(stated, *absolute) : std::nullopt;
     if (days)
@@ -165,27 +202,36 @@ void place_times(StatedTimes stated, SeriesInfo& info) {
                                          stated.unit));
 }
 
-void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info) {
+void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info,
+                 std::optional<DayMonth> said) {
+    if (dates.empty())
+        return;
     std::vector<double> times;
-    for (const std::string& date : dates) {
-        const auto seconds = seconds_of(date);
-        if (!seconds) {
-            info.notes.push_back(
-                fmt::format("{} of step {} is no date: steps have no times", name, times.size()));
+    for (const std::string& date : dates)
+        if (const auto seconds = seconds_of(date))
+            times.push_back(*seconds);
+    if (times.size() != dates.size()) {
+        const auto none = std::ranges::find_if(
+            dates, [](const std::string& date) { return !seconds_of(date).has_value(); });
+        TextDates read = dates_of_texts({dates.begin(), dates.end()}, said);
+        if (read.seconds.empty()) {
+            info.notes.push_back(read.open
+                                     ? open_dates(name, dates.front()) + ": steps have no times"
+                                     : fmt::format("{} of step {} is no date: steps have no "
+                                                   "times",
+                                                   name, none - dates.begin()));
             return;
         }
-        times.push_back(*seconds);
+        if (read.year_last)
+            info.notes.push_back(
+                fmt::format("{}: dates are read as {}", name, name_of(read.order)));
+        times = std::move(read.seconds);
     }
-    if (times.empty())
-        return;
-    std::string first = dates.front().substr(0, 19);
-    const double begin = *seconds_of(first);
+    const double begin = std::floor(times.front());
+    info.time_unit = "seconds since " + written(begin);
     for (double& at : times)
         at -= begin;
-    std::ranges::replace(first, '_', ' ');
-    std::ranges::replace(first, 'T', ' ');
     info.times = std::move(times);
-    info.time_unit = "seconds since " + first;
 }
 
 } // namespace isochron::index

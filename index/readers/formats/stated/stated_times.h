@@ -2,8 +2,10 @@
 // unit, a calendar and fill values, in whatever container.
 #pragma once
 
+#include "index/volume/calendar.h"
 #include "index/volume/volume_series.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,8 +15,8 @@ namespace isochron::index {
 /// A time for each step, in their order.
 struct StatedTimes {
     std::string name; ///< by which notes call them: `time`
-    std::vector<double> values;
-    std::string unit;          ///< `days since 2000-01-01`; `day as %Y%m%d.%f` where they are dates
+    std::vector<double> values = {};
+    std::string unit = {};     ///< `days since 2000-01-01`; `day as %Y%m%d.%f` where they are dates
     std::string calendar = {}; ///< its name in CF or FMS, in any case; empty: the usual one
     std::vector<double> missing = {}; ///< values that stand for missing ones
 };
@@ -22,11 +24,13 @@ struct StatedTimes {
 /// Sets times and their unit. The unit includes its reference date and, if it is not the usual one,
 /// its calendar. Steps at the end whose times are missing are left out, so that there are fewer times
 /// than there were; a missing one before them is NaN. Notes say so, and where dates are no dates.
-void place_times(StatedTimes stated, SeriesInfo& info);
+/// @param dates order of day and month in a reference date whose year is last, where a user says it
+void place_times(StatedTimes stated, SeriesInfo& info, std::optional<DayMonth> dates = {});
 
-/// Sets times to the seconds since the first of such dates: `2005-08-28_12:00:00`. Where a text is
-/// none, a note says so, and there are no times.
-/// @param name by which the note calls them
-void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info);
+/// Sets times to the seconds since the first of such dates: `2005-08-28_12:00:00`, `28/08/2005`. Where a
+/// text is none, a note says so, and there are no times.
+/// @param name by which the note calls them @param said order of day and month, where a user says it
+void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info,
+                 std::optional<DayMonth> said = {});
 
 } // namespace isochron::index

@@ -96,7 +96,11 @@ TEST(DatesOfNames, OrderThemWhereTheYearStandsLast) {
                 ElementsAre(2, 1, 0));
     EXPECT_THAT(order_among({"01jan2021", "31dec2020"}), ElementsAre(1, 0));
     EXPECT_THAT(order_among({"v_2020-01-02", "v_2020-01-01"}), ElementsAre()) << "as their numbers";
-    const DateOrder open = order_of_dates({"v_02-01-2020", "v_01-02-2020"});
+    const std::vector<std::string> either{"v_02-01-2020", "v_01-02-2020"};
+    EXPECT_THAT(order_of_dates(either, DayMonth::day_first).order, ElementsAre(0, 1));
+    EXPECT_THAT(order_of_dates(either, DayMonth::month_first).order, ElementsAre(1, 0));
+    const DateOrder open = order_of_dates(either);
+    EXPECT_THAT(open.note, testing::HasSubstr("--dates dmy or --dates mdy"));
     EXPECT_THAT(open.order, ElementsAre());
     EXPECT_THAT(open.note, testing::HasSubstr("day-month-year or month-day-year"));
     EXPECT_THAT(order_of_dates({"v_02-02-2020", "v_03-03-2020"}).order, ElementsAre(0, 1))

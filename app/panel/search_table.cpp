@@ -108,6 +108,8 @@ constexpr OtherNames kOtherNames[] = {
     {"background=dark", "black background, dark mode, dark theme, night mode, black"},
     {"background=gradient", "gradient background, sky, two colors"},
     {"background=gray", "grey background, neutral background, too dark, brighter"},
+    {"lift_background", "dark colors, dark surface, too dark, cannot see dark colors, black on black, "
+                        "brighter background, contrast, original background"},
     {"material", "shading, shininess, specular, highlights, reflection, gloss, roughness, surface "
                  "representation, smooth shading, flat shading, normals, phong, lighting model"},
     {"material=matte", "no specular, diffuse, dull, flat, rough"},

@@ -51,6 +51,7 @@ class PictureMaker {
     bool on_desktop(const Audience& audience) const;
     bool on_screens_of_desk() const;
     float text_share(const ExplorerState& state) const;
+    bool lifts_background(const Frame& frame, const Audience& audience) const;
     Aids aids(const interaction::InputState& input, const ExplorerState& state) const;
     bool aids_lie_over(const ExplorerState& state) const;
 

@@ -351,6 +351,8 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
+    if (now.audience.lifted && !std::exchange(told_of_lifting_, true))
+        show_messages({"the background is lifted, so that dark colors are seen: Ctrl + G"});
     StopWatch stages;
     contents_.begin_frame();
     draw_eyes(frame, now, input, facts);

@@ -209,6 +209,7 @@ class Session {
     CaptureWait captures_;
     std::function<interaction::Seconds()> clock_;
     PictureNote note_; ///< note on the last frame: the data's names and the devices
+    bool told_of_lifting_ = false; ///< the user knows that the background is lifted
 };
 
 } // namespace isochron::app

@@ -6,6 +6,7 @@
 #include "app/explore/explore_start.h"
 #include "app/explore/explored_data.h"
 #include "app/explore/kept_session.h"
+#include "app/explore/later_advice.h"
 #include "app/explore/live_setup.h"
 #include "app/explore/loading.h"
 #include "app/explore/pattern_exploration.h"
@@ -337,6 +338,8 @@ void Exploration::lead(LiveLoop& live) {
     const stereo::DisplayLoss loss([&] { save(live); });
     live.run(*session_);
 }
+    if (indexing_ && !earlier_ && !options_.between && !config_.between)
+        live.join(CompanionPlace::advice, std::make_shared<LaterAdvice>(is_whole(*indexing_)));
 
 /// Saves the session as it goes on, or says why it does not.
 void Exploration::keep(LiveLoop& live) {

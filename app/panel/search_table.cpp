@@ -369,6 +369,18 @@ class Lines {
     std::vector<SearchLine> lines_;
 };
 
+/// The way out of an empty picture.
+void add_way_out(Lines& lines) {
+    const auto& empty = lines.model().notes.empty;
+    if (empty && !empty->way.empty())
+        lines.add({.name = "way_out",
+                   .words = empty->sentence + " " + empty->way,
+                   .others = "way out, nothing shown, no surface, empty picture, blank, black, where "
+                             "is my data, data gone, lost, invisible, why is it empty",
+                   .key = "Enter",
+                   .commands = empty->commands});
+}
+
 void add_keys(Lines& lines) {
     for (const KeyCommand& each : key_commands())
         lines.add({.name = std::string(each.action ? name_of(*each.action) : each.found_as),
@@ -838,6 +850,7 @@ std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command) {
 
 std::vector<SearchLine> search_lines(const PanelModel& model) {
     Lines lines(model);
+    add_way_out(lines);
     add_keys(lines);
     add_surfaces(lines);
     add_coloring(lines);

@@ -50,7 +50,6 @@ bool PictureMaker::in_windows(const FrameReport& report) {
     return !in_headset_ || report.time - *in_headset_ > kMoment;
 }
 
-/// Whether the windows are on a desktop rather than walls: there users need help with orientation.
 bool PictureMaker::on_desktop(const Audience& audience) const {
     return outputs_.windows().first().has_window() && outputs_.shows_windows(audience) &&
            on_screens_of_desk();
@@ -60,6 +59,7 @@ bool PictureMaker::on_screens_of_desk() const {
     const auto& screens = config_.installation.windows.front().viewports;
     return !outputs_.room() && screens.front().screen.fit_aspect;
 }
+
 /// Whether a window shows a lighter background than the one that was asked for, as the dark end of the
 /// color map would vanish on that.
 bool PictureMaker::lifts_background(const Frame& frame, const Audience& audience) const {
@@ -70,7 +70,6 @@ bool PictureMaker::lifts_background(const Frame& frame, const Audience& audience
     const auto colors = scale(frame.state);
     return colors && wants_lifting(colors_of(*colors), config_.rendering.background);
 }
-
 
 /// At a desk the words of the picture are as high as those of the panel.
 float PictureMaker::text_share(const ExplorerState& state) const {
@@ -139,10 +138,10 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                                 ? SessionPanel::kShare
                                 : 0.0f,
                    .text = text_share(state)}};
+    picture.orientation = on_desktop(picture.audience) && !state.room_panel.shown;
     picture.audience.lifted = lifts_background(frame, picture.audience);
     if (picture.audience.lifted)
         picture.look.background = interaction::Background::gray;
-    picture.orientation = on_desktop(picture.audience) && !state.room_panel.shown;
     return picture;
 }
 
@@ -174,10 +173,10 @@ std::string PictureMaker::words_under_pointer(const interaction::InputState& inp
 Picture PictureMaker::kept(const Picture& picture,
                            const interaction::WrittenPictures& parts) const {
     Picture kept = picture;
+    kept.moved = false;
     if (picture.audience.lifted)
         kept.look.background = interaction::Background::dark;
     kept.audience.lifted = false;
-    kept.moved = false;
     if (!config_.pictures.ray) {
         kept.pointed.reset();
         kept.audience.wand.reset();

@@ -1,8 +1,6 @@
 // Watches whether the picture shows a surface.
 #include "app/session/nothing_seen.h"
 
-#include "app/scene/data_sight.h"
-
 #include <cstdint>
 #include <vector>
 
@@ -25,7 +23,18 @@ std::vector<std::uint64_t> cells_of(const index::Extraction& cells) {
 
 } // namespace
 
-Sight NothingSeen::sight(const Frame& frame, const Seen& seen, std::uint32_t visible) const {
+/// Looks at the cells, unless it has done so.
+void NothingSeen::know(const index::Extraction& cells, const index::Grid& grid,
+                       const ExplorerState& state) {
+    const std::uint32_t visible = visible_in(state);
+    if (known_ && known_->extraction == cells.number && known_->visible == visible &&
+        known_->clip == state.clip)
+        return;
+    known_ = {cells.number, visible, state.clip, corners_of(cells, grid, visible),
+              is_cut_away(cells, grid, visible, state.clip)};
+}
+
+Sight NothingSeen::sight(const Frame& frame, const Seen& seen) const {
     if (!seen.in_window)
         return Sight::in_view;
     const auto views = outputs_.display().views_in_window(seen.audience.viewers);
@@ -36,8 +45,8 @@ Sight NothingSeen::sight(const Frame& frame, const Seen& seen, std::uint32_t vis
     const Sight data = at(corners_of(grid));
     if (data != Sight::in_view)
         return data;
-    const auto surfaces = corners_of(*seen.cells, grid, visible);
-    return !surfaces || at(*surfaces) == Sight::in_view ? Sight::in_view : Sight::surface_aside;
+    return !known_->box || at(*known_->box) == Sight::in_view ? Sight::in_view
+                                                              : Sight::surface_aside;
 }
 
 void NothingSeen::update(const Frame& frame, const Seen& seen) {
@@ -47,6 +56,11 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
     const bool rests = frame.report.pace == interaction::Pace::settled && !state.playback.playing;
     surveyor_.update(arrays_.held(state), state.shown_instant().step,
                      alone && answered && rests && frame.is_live());
+    // The panel in the room, whose widgets a hand presses, is the same in every replay.
+    if (!frame.is_live() && state.room_panel.shown && alone && frame.report.cells == 0) {
+        surveyor_.update(arrays_.held(state), state.shown_instant().step, true);
+        surveyor_.finish();
+    }
     why_.reset();
     if (!alone || !answered || state.playback.playing)
         return;
@@ -70,9 +84,9 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
     }
     // What depends on the view is not said while the view changes.
     if (rests && !why_empty(facts)) {
-        const std::uint32_t visible = visible_in(state);
-        facts.sight = sight(frame, seen, visible);
-        facts.cut_away = is_cut_away(*seen.cells, frame.file.info().grid, visible, state.clip);
+        know(*seen.cells, frame.file.info().grid, state);
+        facts.sight = sight(frame, seen);
+        facts.cut_away = known_->cut_away;
     }
     why_ = why_empty(facts);
 }

@@ -5,11 +5,13 @@
 #include "app/choice/frame.h"
 #include "app/frame/empty_picture.h"
 #include "app/output/outputs.h"
+#include "app/scene/data_sight.h"
 #include "app/session/shown_arrays.h"
 #include "app/session/step_surveyor.h"
 #include "index/extraction/extraction.h"
 #include "interaction/pose.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -40,11 +42,22 @@ class NothingSeen {
     const StepSurvey* survey() const { return surveyor_.survey(); }
 
   private:
-    Sight sight(const Frame& frame, const Seen& seen, std::uint32_t visible) const;
+    /// What all cells had to be looked at for.
+    struct Known {
+        std::uint64_t extraction = 0; ///< number of it
+        std::uint32_t visible = 0;    ///< a bit for each surface
+        interaction::ClipPlane clip;
+        std::optional<BoxCorners> box;
+        bool cut_away = false;
+    };
+
+    void know(const index::Extraction& cells, const index::Grid& grid, const ExplorerState& state);
+    Sight sight(const Frame& frame, const Seen& seen) const;
 
     const ShownArrays& arrays_;
     const Outputs& outputs_;
     StepSurveyor surveyor_;
+    std::optional<Known> known_;
     std::optional<EmptyPicture> why_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 using index::IndexFile;
 
 /// Vertices that are surveyed: a step of more is surveyed at a coarser level of detail.
-constexpr std::uint64_t kMostVertices = 3'000'000;
+constexpr std::uint64_t kMostSurveyed = 3'000'000;
 /// Steps on either side that are looked at for other values.
 constexpr std::uint32_t kFarthestStep = 256;
 
@@ -53,7 +53,7 @@ StepSurveyor::Found StepSurveyor::survey_one(const What& what, const Asking& ask
     const IndexFile& array = *what.array;
     std::size_t level = 0;
     while (level + 1 < array.detail_levels() &&
-           array.chunks(level).info().grid.vertex_count() > kMostVertices)
+           array.chunks(level).info().grid.vertex_count() > kMostSurveyed)
         ++level;
     Found found{what, survey_at(array, what.step, level, asking.stop)};
     if (!found.survey->has_values() || found.survey->is_constant())

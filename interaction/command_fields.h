@@ -82,6 +82,7 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{"occlusion", 0, 1}, r.occlusion...);
     visit(Field{.key = "light", .low = -180, .high = 180, .may_lack = true, .any_order = true},
           r.light...);
+    visit(Field{.key = "lifts", .may_lack = true}, r.lifts...);
 }
 
 template <class Visit, Of<SurfaceExport>... Records>

@@ -159,6 +159,9 @@ struct Look {
     /// Where the key light comes from in the room: the angle to the right of the way from the data
     /// to the viewer, and the height above the floor, degrees. Empty: as the program has it.
     std::optional<std::array<double, 2>> light = {};
+    /// A window shows a dark background a little lighter while colors carry values, so that the dark
+    /// end of their map is seen. Pictures that are written, and replays, never do.
+    bool lifts = true;
     bool operator==(const Look&) const = default;
 };
 

@@ -333,7 +333,7 @@ index::DetailQuery CellSupply::detail_for_live(const Frame& frame, const FrameQu
                           std::max(moving.most_cells, held->query.detail.most_cells));
 }
 
-/// The first resting set has as many cells as quads can draw in the pause that a picture at rest
+/// Where all cells are there, they stay. Else the first resting set has as many cells as quads can draw in the pause that a picture at rest
 /// may take; its size grows in steps, so that the picture soon gets better. The last resting set,
 /// where it can be drawn in parts, has all cells: they are searched for meanwhile.
 /// @param moving cells of moving pictures
@@ -354,8 +354,11 @@ index::DetailQuery CellSupply::detail_at_rest(const Frame& frame, const FrameQua
                                std::bit_floor(std::max(moving, static_cast<std::uint64_t>(most))));
     index::DetailQuery last = details_.at_rest();
     const bool kept = frame.is_kept;
+    const bool is_whole = is_there && (resting->query.detail == last || !resting->coarse());
+    // All cells that are there already stay: a smaller set would only take their place for a moment.
+    frame.plan.all_at_rest |= is_whole && may_be_partial(frame);
     const bool serves = is_there && (kept || frame.plan.all_at_rest || !comes_late(resting));
-    if (serves && (resting->query.detail == last || !resting->coarse()))
+    if (serves && is_whole)
         return resting->query.detail;
     if (kept)
         return last;

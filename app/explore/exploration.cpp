@@ -7,6 +7,7 @@
 #include "app/explore/explore_start.h"
 #include "app/explore/explored_data.h"
 #include "app/explore/kept_session.h"
+#include "app/explore/later_advice.h"
 #include "app/explore/live_setup.h"
 #include "app/explore/loading.h"
 #include "app/explore/pattern_exploration.h"
@@ -256,8 +257,12 @@ void Exploration::open_session() {
 
 void Exploration::set_start() {
     const std::size_t steps = file_->info().steps();
-    if (job_.size() == 1)
-        session_->set_home(filling_window(*session_, config_, file_->info()));
+    if (job_.size() == 1) {
+        ExplorerState home = filling_window(*session_, config_, file_->info());
+        if (!passed_over(options_, *file_).empty())
+            home.apply(session_->way_to_array(first_array(options_, *file_)), steps);
+        session_->set_home(home);
+    }
     if (earlier_) {
         session_->set_state(state_of(*earlier_, session_->state(),
                                      held_hash(*file_, earlier_->data_hash), steps, "--resume"));
@@ -327,9 +332,10 @@ void Exploration::lead(LiveLoop& live) {
         session_->set_recording(true);
     }
     live.join(CompanionPlace::recording, recording);
-    if (indexing_ && file_->arrays() > 1)
-        session_->show_messages(
-            {fmt::format("{} arrays: Ctrl + A shows the next one", file_->arrays())});
+    const std::string passed = earlier_ ? std::string() : passed_over(options_, *file_);
+    if ((indexing_ || !passed.empty()) && file_->arrays() > 1)
+        session_->show_messages({fmt::format("{}{}{} arrays: Ctrl + A shows the next one", passed,
+                                             passed.empty() ? "" : "\n", file_->arrays())});
     if (job_.size() == 1)
         live.join(CompanionPlace::movies,
                   std::make_shared<PanelMovies>(movie_orders(options_, header), recording));
@@ -339,6 +345,8 @@ void Exploration::lead(LiveLoop& live) {
               std::make_shared<SurfaceMaker>(file_, options_.screenshots));
     live.join(CompanionPlace::watch,
               std::make_shared<NewSteps>(*options_.data, file_, live.waker()));
+    if (indexing_ && !earlier_ && !options_.between && !config_.between)
+        live.join(CompanionPlace::advice, std::make_shared<LaterAdvice>(is_whole(*indexing_)));
     if (control_)
         live.join(CompanionPlace::control, control_);
     const stereo::DisplayLoss loss([&] { save(live); });

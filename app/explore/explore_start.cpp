@@ -6,12 +6,14 @@
 #include "app/config/shipped_configs.h"
 #include "app/config/tracker_setup.h"
 #include "app/explore/drawing_options.h"
+#include "app/frame/empty_picture.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
 #include "app/kept/recording_file.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/room_view.h"
 #include "app/safe_text.h"
+#include "app/session/shown_arrays.h"
 #include "app/session/start_state.h"
 #include "index/error.h"
 #include "index/file/blend_advice.h"
@@ -29,11 +31,8 @@
 namespace isochron::app {
 namespace {
 
-/// Number of the array to begin with. An index has the array that it was made for as its first.
-std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file) {
-    const auto& arrays = options.sources.arrays;
-    const bool made_before = options.data_name == *options.data;
-    return made_before && !arrays.empty() ? array_number(file, arrays.front()) : 0;
+bool names_array(const ExploreOptions& options) {
+    return options.array || !options.sources.arrays.empty();
 }
 
 /// The step that the options ask for.
@@ -51,6 +50,26 @@ void refuse_to_replace_part_of(const std::filesystem::path& recording) {
 }
 
 } // namespace
+
+std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file) {
+    if (!names_array(options) && !has_surfaces(file.array(0).stats()))
+        return next_with_surfaces(file, 0).value_or(0);
+    // An index has the array that it was made for as its first.
+    const auto& arrays = options.sources.arrays;
+    const bool made_before = options.data_name == *options.data;
+    return made_before && !arrays.empty() ? array_number(file, arrays.front()) : 0;
+}
+
+std::string passed_over(const ExploreOptions& options, const index::IndexFile& file) {
+    const std::size_t number = first_array(options, file);
+    if (names_array(options) || number == 0)
+        return {};
+    const index::IndexFile& first = file.array(0);
+    return fmt::format("{}: {} is shown instead",
+                       nothing_to_show(first.info().array, has_values(first.stats()),
+                                       first.stats().low, first.info().value_unit),
+                       file.array(number).info().array);
+}
 
 Config configure(const ExploreOptions& options) {
     Config config = read_config(options.config);

@@ -34,6 +34,12 @@ void check_outputs(const ExploreOptions& options, const ClusterJob& job,
 /// keyboard play the head and the configuration asks for that.
 ExplorerState filling_window(Session& session, const Config& config, const index::SeriesInfo& info);
 
+/// The number of the array to begin with: the one that the options name, else the first that has
+/// surfaces.
+std::size_t first_array(const ExploreOptions& options, const index::IndexFile& file);
+/// Why the first array is not the one to begin with; empty: it is, or the options name one.
+std::string passed_over(const ExploreOptions& options, const index::IndexFile& file);
+
 /// The session's state as the options ask for it: showing the array that they name, if any, with
 /// first surfaces that suit the step that they name.
 /// @throws index::Error when the index lacks the array

@@ -23,6 +23,7 @@ enum class CompanionPlace : std::uint8_t {
     recording, ///< has a frame before a movie is made of the recording
     surfaces,  ///< behind the control, whose clients may want another export
     watch,     ///< behind the control: new steps are followed whatever step its clients want
+    advice,    ///< behind the watch, which shows the last steps
     movies     ///< finishes first: a movie that is being made needs the recording
 };
 

@@ -249,7 +249,7 @@ render::Image Outputs::headset_picture(const PictureNote& frame) {
 
 bool Outputs::kept_differ(const PictureNote& frame) const {
     const auto parts = frame.state.pictures.value_or(interaction::WrittenPictures{});
-    if (!parts.legend || !parts.box || !parts.marks)
+    if (!parts.legend || !parts.box || !parts.marks || drawn_.audience.lifted)
         return true;
     return !config_.pictures.only_kept &&
            (config_.pictures.caption || (drawn_.audience.aids && !config_.pictures.ray));

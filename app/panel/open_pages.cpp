@@ -2,6 +2,7 @@
 #include "app/panel/open_pages.h"
 
 #include "app/panel/panel_help.h"
+#include "app/panel/parts/messages.h"
 #include "app/text.h"
 
 #include <imgui.h>
@@ -45,6 +46,10 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     }
     if (escapes && help_ && !io.WantTextInput) {
         help_ = false;
+        return true;
+    }
+    if (pressed && key->key == Key::enter && offers_way_out_ && !popup && !io.WantTextInput) {
+        takes_way_out_ = true;
         return true;
     }
     const bool chord =
@@ -148,8 +153,13 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         commands = run(*found, model.place == PanelPlace::in_room);
     if (lists_arrays_)
         interaction::merge(commands, lay_out_arrays(model, picture));
+    const bool took = std::exchange(takes_way_out_, false) && model.notes.empty;
+    offers_way_out_ = false;
+    if (took)
+        interaction::merge(commands, model.notes.empty->commands);
     if (any() || model.place != PanelPlace::over)
         return commands;
+    interaction::merge(commands, way_out(model, picture));
     if (model.ways.undo) // the session has changed: going on now would take that back
         earlier_.clear();
     if (!earlier_.empty()) {
@@ -162,10 +172,18 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
     }
     tour_.draw(model, picture);
     introduce(picture, time);
-    const std::size_t cards =
-        4 * tour_.step() + 2 * (earlier_.empty() ? 0 : 1) + (newcomer_ ? 1 : 0);
+    const std::size_t cards = 8 * tour_.step() + 4 * (earlier_.empty() ? 0 : 1) +
+                              (newcomer_ ? 2 : 0) + (model.notes.empty ? 1 : 0);
     turned_ = std::exchange(cards_, cards) != cards;
     return commands;
+}
+
+/// Says why nothing is seen, and offers the way out. @return the commands of the way out
+interaction::Commands OpenPages::way_out(const PanelModel& model, const PanelBox& picture) {
+    constexpr float kBelowEarlier = 190.0f; // below the card that offers earlier sessions
+    const bool chosen = empty_card(model, picture, earlier_.empty() ? 0.0f : kBelowEarlier);
+    offers_way_out_ = model.notes.empty && !model.notes.empty->way.empty() && !model.asked.leaving;
+    return chosen ? model.notes.empty->commands : interaction::Commands();
 }
 
 /// The hint for newcomers, who may ask for the tour there.

@@ -83,8 +83,8 @@ class OpenPages {
     /// A page lies over the picture, which Escape closes.
     bool any() const { return help_ || has_list(); }
 
-    /// Obeys F1, `?`, Ctrl + K, Ctrl + O and Ctrl + Shift + A, wherever the mouse is, and Escape,
-    /// which closes a page.
+    /// Obeys F1, `?`, Ctrl + K, Ctrl + O and Ctrl + Shift + A, wherever the mouse is, Escape, which
+    /// closes a page, and Enter, which takes the way out of an empty picture.
     /// @param popup a popup is open, which Escape closes before a page
     /// @return whether the event was one of them
     bool turn(const interaction::WindowEvent& event, bool popup);
@@ -101,6 +101,7 @@ class OpenPages {
 
   private:
     void introduce(const PanelBox& picture, interaction::Seconds time);
+    interaction::Commands way_out(const PanelModel& model, const PanelBox& picture);
     bool turn_with_control(interaction::Key key, bool shift);
     interaction::Commands run(const SearchLine& found, bool in_room);
     interaction::Commands lay_out_arrays(const PanelModel& model, const PanelBox& picture);
@@ -121,6 +122,7 @@ class OpenPages {
     std::optional<std::filesystem::path> chosen_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
     Tour tour_;
+    bool offers_way_out_ = false, takes_way_out_ = false;
     bool turned_ = false;
     std::size_t cards_ = 0;               ///< number of cards in the last layout
     std::vector<OfferedSession> earlier_; ///< the sessions before, while they are offered

@@ -140,6 +140,8 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
         section_column(model, pages, commands, view.pointed);
     if (model.place == PanelPlace::in_room && has_tool_strip(model))
         tool_strip(model, commands);
+    if (model.place != PanelPlace::over && empty_rows(model))
+        interaction::merge(commands, model.notes.empty->commands);
     end_part();
     ImGui::PopStyleVar();
     begin_part("###time", layout.time, Ink::bar);

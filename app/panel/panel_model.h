@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/config/color_map_file.h"
+#include "app/frame/empty_picture.h"
 #include "app/frame/explorer_state.h"
 #include "app/frame/frame_log.h"
 #include "index/file/read_use.h"
@@ -69,6 +70,7 @@ struct PanelWork {
     index::ReadUse reading{};                   ///< what was read of the index since it was opened
     std::vector<std::uint32_t> at_hand_steps{}; ///< steps that can be shown without a search
     bool searching = false;                     ///< the worker has not answered yet
+    const StepSurvey* survey = nullptr;         ///< survey of the shown step; null: none yet
 };
 
 /// What the user is told.
@@ -77,6 +79,7 @@ struct PanelNotes {
     std::string message{};    ///< newest note, such as a saved screenshot
     std::size_t messages = 0; ///< number of notes so far
     std::string standing{};   ///< note that stays in the picture as long as it is true
+    std::optional<EmptyPicture> empty{}; ///< why the picture shows no surface; empty: it does
 };
 
 /// What the panel shows in one frame. The panel changes none of it.

@@ -108,6 +108,8 @@ constexpr OtherNames kOtherNames[] = {
     {"background=dark", "black background, dark mode, dark theme, night mode, black"},
     {"background=gradient", "gradient background, sky, two colors"},
     {"background=gray", "grey background, neutral background, too dark, brighter"},
+    {"lift_background", "dark colors, dark surface, too dark, cannot see dark colors, black on black, "
+                        "brighter background, contrast, original background"},
     {"material", "shading, shininess, specular, highlights, reflection, gloss, roughness, surface "
                  "representation, smooth shading, flat shading, normals, phong, lighting model"},
     {"material=matte", "no specular, diffuse, dull, flat, rough"},
@@ -366,6 +368,18 @@ class Lines {
     const PanelModel& model_;
     std::vector<SearchLine> lines_;
 };
+
+/// The way out of an empty picture.
+void add_way_out(Lines& lines) {
+    const auto& empty = lines.model().notes.empty;
+    if (empty && !empty->way.empty())
+        lines.add({.name = "way_out",
+                   .words = empty->sentence + " " + empty->way,
+                   .others = "way out, nothing shown, no surface, empty picture, blank, black, where "
+                             "is my data, data gone, lost, invisible, why is it empty",
+                   .key = "Enter",
+                   .commands = empty->commands});
+}
 
 void add_keys(Lines& lines) {
     for (const KeyCommand& each : key_commands())
@@ -836,6 +850,7 @@ std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command) {
 
 std::vector<SearchLine> search_lines(const PanelModel& model) {
     Lines lines(model);
+    add_way_out(lines);
     add_keys(lines);
     add_surfaces(lines);
     add_coloring(lines);

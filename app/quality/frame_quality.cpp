@@ -148,12 +148,9 @@ FramePlan FrameQuality::choose(const ExplorerState& state, bool changed, Choosin
     if (input.by_pace)
         input.settled = input.settled.value_or(render::kBestFootprint);
     input.load = {static_cast<double>(report.cells) * charged_.cells, charged_.pixels};
-    // Splats are for the paper's pair, and for pictures at rest: of who asks for them, or of levels
-    // that have no surface.
-    const bool may_rest = settled_ || (!available.has(render::Footprint::surface) &&
-                                       input.mode != interaction::QualityMode::quality);
+    // Splats are for the paper's pair, and for pictures at rest of who asks for them.
     const bool splats = input.by_pace || input.mode == interaction::QualityMode::paper ||
-                        (may_rest && input.pace != interaction::Pace::moving);
+                        (settled_ && input.pace != interaction::Pace::moving);
     for (render::FootprintSet* set : {&available, &possible})
         if (!splats)
             set->remove(render::Footprint::gaussian);

@@ -22,6 +22,8 @@ struct Audience {
     stereo::StereoMode stereo{};             ///< chosen live
     /// A wand's ray, or the value under a cursor, is shown; pictures to keep leave these out.
     bool aids = false;
+    /// The window's background is lifted; pictures to keep have the one that was asked for.
+    bool lifted = false;
     bool in_windows = true; ///< false: a headset shows them, and the first window mirrors it
     bool operator==(const Audience&) const = default;
 };

@@ -11,16 +11,35 @@
 namespace isochron::app {
 namespace {
 
-float luminance(const glm::vec3& srgb) {
-    return glm::dot(render::linear_from_srgb(srgb), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+float luminance_of_linear(const glm::vec3& color) {
+    return glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-float contrast_of(const glm::vec3& a, const glm::vec3& b) {
-    const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
+float luminance(const glm::vec3& srgb) {
+    return luminance_of_linear(render::linear_from_srgb(srgb));
+}
+
+float contrast_of(float a, float b) {
+    const auto [dark, light] = std::minmax({a, b});
     return (light + 0.05f) / (dark + 0.05f);
 }
 
+float contrast_of(const glm::vec3& a, const glm::vec3& b) {
+    return contrast_of(luminance(a), luminance(b));
+}
+
 } // namespace
+
+bool wants_lifting(const std::vector<glm::vec3>& map, const glm::vec3& background) {
+    if (map.empty())
+        return false;
+    const float darkest = luminance_of_linear(
+        *std::ranges::min_element(map, {}, [](const glm::vec3& color) {
+            return luminance_of_linear(color);
+        }));
+    return contrast_of(darkest, luminance(background)) < kDarkEndContrast &&
+           contrast_of(darkest, luminance(kLifted)) >= kDarkEndContrast;
+}
 
 glm::vec3 legible_on(const glm::vec4& paper, const glm::vec3& color, const OverlayColors& overlay) {
     constexpr float kContrast = 4.5f;

@@ -7,6 +7,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <vector>
+
 namespace isochron::app {
 
 inline constexpr glm::vec3 kPaperWhite(0.94f, 0.945f, 0.95f); ///< the light background
@@ -32,6 +34,12 @@ inline OverlayColors overlay_colors_on(interaction::Background background) {
     }
     return overlay;
 }
+
+/// The contrast (WCAG 2.1) that the darkest color of a map has to have against the background.
+inline constexpr float kDarkEndContrast = 1.5f;
+/// Whether a map's darkest color vanishes on a background, and is seen on the gray one.
+/// @param map linear light @param background sRGB
+bool wants_lifting(const std::vector<glm::vec3>& map, const glm::vec3& background);
 
 /// The color itself, or mixed with as little of the text's color as gives words of it a contrast of
 /// at least 4.5 to 1 on this paper, whatever lies behind the paper.

@@ -3,6 +3,7 @@
 
 #include "app/scene/caption.h"
 #include "app/scene/mark.h"
+#include "app/scene/overlay_colors.h"
 #include "interaction/input/device_reading.h"
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/tool_table.h"
@@ -49,7 +50,6 @@ bool PictureMaker::in_windows(const FrameReport& report) {
     return !in_headset_ || report.time - *in_headset_ > kMoment;
 }
 
-/// Whether the windows are on a desktop rather than walls: there users need help with orientation.
 bool PictureMaker::on_desktop(const Audience& audience) const {
     return outputs_.windows().first().has_window() && outputs_.shows_windows(audience) &&
            on_screens_of_desk();
@@ -58,6 +58,17 @@ bool PictureMaker::on_desktop(const Audience& audience) const {
 bool PictureMaker::on_screens_of_desk() const {
     const auto& screens = config_.installation.windows.front().viewports;
     return !outputs_.room() && screens.front().screen.fit_aspect;
+}
+
+/// Whether a window shows a lighter background than the one that was asked for, as the dark end of the
+/// color map would vanish on that.
+bool PictureMaker::lifts_background(const Frame& frame, const Audience& audience) const {
+    const interaction::Look& look = frame.state.look;
+    if (!frame.is_live() || !look.lifts || look.background != interaction::Background::dark ||
+        !on_desktop(audience))
+        return false;
+    const auto colors = scale(frame.state);
+    return colors && wants_lifting(colors_of(*colors), config_.rendering.background);
 }
 
 /// At a desk the words of the picture are as high as those of the panel.
@@ -128,6 +139,9 @@ Picture PictureMaker::make(const Frame& frame, const interaction::InputState& se
                                 : 0.0f,
                    .text = text_share(state)}};
     picture.orientation = on_desktop(picture.audience) && !state.room_panel.shown;
+    picture.audience.lifted = lifts_background(frame, picture.audience);
+    if (picture.audience.lifted)
+        picture.look.background = interaction::Background::gray;
     return picture;
 }
 
@@ -160,6 +174,9 @@ Picture PictureMaker::kept(const Picture& picture,
                            const interaction::WrittenPictures& parts) const {
     Picture kept = picture;
     kept.moved = false;
+    if (picture.audience.lifted)
+        kept.look.background = interaction::Background::dark;
+    kept.audience.lifted = false;
     if (!config_.pictures.ray) {
         kept.pointed.reset();
         kept.audience.wand.reset();

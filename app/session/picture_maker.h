@@ -39,6 +39,8 @@ class PictureMaker {
     std::string words_under_pointer(const interaction::InputState& input,
                                     const ExplorerState& state) const;
 
+    /// Whether the windows are on a desktop rather than walls: there users need help with orientation.
+    bool on_desktop(const Audience& audience) const;
     std::optional<ColorScale> scale(const ExplorerState& state) const;
     /// Where the viewers' eyes are.
     std::vector<stereo::ViewerPose> viewers(const interaction::InputState& input,
@@ -48,8 +50,8 @@ class PictureMaker {
     std::optional<ColorScale> shown_scale(const ExplorerState& state) const;
     bool colored_as_asked(const ExplorerState& state) const;
     bool in_windows(const FrameReport& report);
-    bool on_desktop(const Audience& audience) const;
     bool on_screens_of_desk() const;
+    bool lifts_background(const Frame& frame, const Audience& audience) const;
     float text_share(const ExplorerState& state) const;
     Aids aids(const interaction::InputState& input, const ExplorerState& state) const;
     bool aids_lie_over(const ExplorerState& state) const;

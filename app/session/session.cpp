@@ -5,6 +5,7 @@
 #include "app/frame/stop_watch.h"
 #include "app/session/start_state.h"
 #include "index/file/index_watch.h"
+#include "interaction/navigation/navigation.h"
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
               render::CellBuffers::wanted_shading(outputs_.gl())),
       pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
       choice_(config_, outputs_, log_, scene_, supply_, pictures_),
-      partial_(scene_, outputs_, choice_.quality()) {
+      partial_(scene_, outputs_, choice_.quality()), nothing_(arrays_, outputs_) {
     for (std::size_t number = 1; number < file->arrays(); ++number)
         scene_.cells().prepare_for(file->array(number).info());
 }
@@ -132,6 +133,15 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
     return seen;
 }
 
+/// Where the data lie to the viewer as they did at the start.
+interaction::Similarity Session::all_in_view(const Audience& audience) const {
+    const interaction::Pose first{config_.installation.viewers.front().position, {1, 0, 0, 0}};
+    return audience.viewers.empty()
+               ? home_.room_from_physical
+               : interaction::carried(home_.room_from_physical, first,
+                                      audience.viewers.front().head);
+}
+
 PanelModel Session::panel_model(const FrameReport& report) const {
     static const std::vector<interaction::ControlGroup> controls =
         interaction::Controls::documentation();
@@ -149,8 +159,9 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .work = {.frames = log_.speed(),
                      .reading = reading(),
                      .at_hand_steps = supply_.extractor().at_hand(),
-                     .searching = supply_.extractor().busy()},
-            .notes = {.failure = failure()},
+                     .searching = supply_.extractor().busy(),
+                     .survey = nothing_.survey()},
+            .notes = {.failure = failure(), .empty = nothing_.why()},
             .controls = controls,
             .at_hand = kinds_at_hand(!config_.devices.empty() || outputs_.headset(), note_.input),
             .ways = {.undo = history_.undo(), .redo = history_.redo()},
@@ -306,6 +317,7 @@ void Session::obey(const Commands& commands, const interaction::InputState& inpu
 void Session::set_wake(const std::function<void()>& wake) {
     supply_.set_wake(wake);
     picker_.set_wake(wake);
+    nothing_.set_wake(wake);
     outputs_.pictures().set_wake(wake);
 }
 
@@ -352,6 +364,12 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     panel_.lay_out_room(state_, facts, report.time);
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
+    nothing_.update(frame, {.cells = scene_.cells().shown(),
+                            .audience = now.audience,
+                            .in_window = pictures_.on_desktop(now.audience),
+                            .all_in_view = all_in_view(now.audience)});
+    if (now.audience.lifted && !std::exchange(told_of_lifting_, true))
+        show_messages({"the background is lifted, so that dark colors are seen: Ctrl + G"});
     StopWatch stages;
     const DrawsOnly draws;
     contents_.begin_frame();

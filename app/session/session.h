@@ -21,6 +21,7 @@
 #include "app/quality/capture_wait.h"
 #include "app/quality/frame_plan.h"
 #include "app/scene/scene.h"
+#include "app/session/nothing_seen.h"
 #include "app/session/picker.h"
 #include "app/session/picture_choice.h"
 #include "app/session/picture_maker.h"
@@ -180,6 +181,7 @@ class Session {
     void show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
                     const SessionPanel::Facts& facts);
     void draw_aids();
+    interaction::Similarity all_in_view(const Audience& audience) const;
     PanelModel panel_model(const FrameReport& report) const;
     FrameAnswer answer() const;
 
@@ -201,11 +203,13 @@ class Session {
     PictureMaker pictures_;
     PictureChoice choice_;
     PartialPictures partial_;
+    NothingSeen nothing_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< plan of the last frame
     std::optional<Picture> drawn_; ///< last picture
     WindowContents contents_;
     bool waited_ = false; ///< see `has_waited`
+    bool told_of_lifting_ = false; ///< the user knows that the background is lifted
     CaptureWait captures_;
     std::function<interaction::Seconds()> clock_;
     PictureNote note_; ///< note on the last frame: the data's names and the devices

@@ -10,9 +10,25 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace isochron::app {
+
+bool has_values(const index::IndexStats& stats) {
+    return has_surfaces(stats) || std::ranges::any_of(stats.histogram, [](std::uint64_t count) {
+               return count > 0;
+           });
+}
+
+std::optional<std::size_t> next_with_surfaces(const index::IndexFile& file, std::size_t number) {
+    for (std::size_t i = 1; i < file.arrays(); ++i)
+        if (const std::size_t other = (number + i) % file.arrays();
+            has_surfaces(file.array(other).stats()))
+            return other;
+    return std::nullopt;
+}
 
 ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::IndexFile> file,
                          const ExplorerState& home)

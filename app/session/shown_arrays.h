@@ -9,11 +9,21 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace isochron::app {
+
+/// Whether an array has finite values at any step; else its range is 0 to 0.
+bool has_values(const index::IndexStats& stats);
+/// Whether an array has different values, and so surfaces.
+inline bool has_surfaces(const index::IndexStats& stats) {
+    return stats.low < stats.high;
+}
+/// The next array of the file, after this one and around, that has surfaces; empty: no other has.
+std::optional<std::size_t> next_with_surfaces(const index::IndexFile& file, std::size_t number);
 
 class ShownArrays {
   public:

@@ -255,6 +255,16 @@ std::vector<KeyLine> all_lines() {
         choose<QualityMode::quality>);
     add(quality_paper, "quality_paper", 58, {{'1', kCtrl}}, kQuiet, "quality: as in the paper",
         choose<QualityMode::paper>);
+    line("Ctrl + G", "lift a dark background where colors show values: on, off");
+    add(lift_background, "lift_background", kNoOldBit, {{'G', kCtrl}}, kQuiet,
+        "background: lift it where colors show values", [](const Press& p) {
+            Look look = p.context.settings.look;
+            look.lifts = !look.lifts;
+            p.commands.look = look;
+            p.notes.emplace_back(look.lifts
+                                     ? "a dark background is lifted where colors show values"
+                                     : "the background stays as dark as it is chosen");
+        });
     line("] [", "eyes 1 mm further apart, closer together");
     add(eyes_apart, "eyes_apart", 27, {Key::right_bracket}, 0, "eyes 1 mm further apart");
     add(eyes_together, "eyes_together", 28, {Key::left_bracket}, 0, "eyes 1 mm closer together");

@@ -95,6 +95,7 @@ enum class Action : std::uint8_t {
     flip_clip,
     between_steps,
     export_surfaces,
+    lift_background,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

@@ -46,6 +46,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Icon::count)> kPaths{
     "M 12 3 L 12 21 M 9 7 L 3 12 L 9 17 F M 15 7 L 21 12 L 15 17 Z",             // flip
     "M 5 7 L 19 7 M 9 7 L 9 4 L 15 4 L 15 7 M 7 7 L 8 20 L 16 20 L 17 7",        // remove
     "M 3 12 L 21 12 M 7 8 L 3 12 L 7 16 M 17 8 L 21 12 L 17 16",                 // to_and_fro
+    "O 9 12 6 O 15 12 6",                                                        // blend
     "M 7 21 L 7 4 M 7 4 L 18 7 L 7 11",                                          // bookmark
     "M 14 21 L 14 4 M 14 4 L 22 7 L 14 11 M 9 10 L 3 15 L 9 20",                 // bookmark_back
     "M 4 21 L 4 4 M 4 4 L 12 7 L 4 11 M 15 10 L 21 15 L 15 20",                  // bookmark_forward

@@ -36,6 +36,7 @@ enum class Icon : std::uint8_t {
     flip,
     remove,
     to_and_fro,
+    blend,
     bookmark,
     bookmark_back,
     bookmark_forward,

@@ -39,6 +39,8 @@ void statistics_window(const PanelModel& model, const PanelBox& picture, float t
 StateWords state_words(const FrameReport& frame, interaction::QualityMode mode) {
     if (!frame.shown)
         return {"searching", false};
+    if (frame.cells == 0 && frame.shown == frame.asked)
+        return {"no surface", false};
     const bool fast = mode == interaction::QualityMode::fast;
     const bool whole = frame.coarsest == 0;
     const bool best = frame.footprint == render::kBestFootprint;
@@ -68,7 +70,9 @@ std::string quality_line(const FrameReport& frame) {
 }
 
 float state_chip(const PanelModel& model, const PanelBox& picture, bool& open) {
-    const StateWords state = state_words(model.frame, model.asked.quality);
+    const StateWords state = model.notes.empty
+                                 ? StateWords{short_words(model.notes.empty->why), false}
+                                 : state_words(model.frame, model.asked.quality);
     ImGui::SetNextWindowPos({picture.low.x + kMargin, picture.low.y + kMargin});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::Begin("###chip", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
@@ -132,6 +136,39 @@ bool message_window(const Said& said, const PanelBox& picture, float top) {
     ImGui::EndGroup();
     ImGui::End();
     return closed;
+}
+
+namespace {
+
+bool way_out_button(const EmptyPicture& empty, const char* key) {
+    return !empty.way.empty() && ImGui::Button((empty.way + key + "###way out").c_str());
+}
+
+} // namespace
+
+bool empty_card(const PanelModel& model, const PanelBox& picture, float least) {
+    constexpr float kWidest = 420.0f, kHeight = 0.36f; // share, above the hint for newcomers
+    if (!model.notes.empty)
+        return false;
+    const EmptyPicture& empty = *model.notes.empty;
+    const float widest = std::min(kWidest, 0.9f * picture.size().x - 2 * kMargin);
+    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2,
+                             picture.low.y + std::max(least, kHeight * picture.size().y)},
+                            ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("###empty", nullptr, kFixed | ImGuiWindowFlags_NoNav);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
+    ImGui::TextUnformatted(empty.sentence.c_str());
+    ImGui::PopTextWrapPos();
+    const bool chosen = way_out_button(empty, " (Enter)");
+    ImGui::End();
+    return chosen;
+}
+
+bool empty_rows(const PanelModel& model) {
+    if (!model.notes.empty)
+        return false;
+    note(model.notes.empty->sentence, color_of(Ink::warning));
+    return way_out_button(*model.notes.empty, "");
 }
 
 void progress_window(const std::string& name, const std::string& line, float fraction) {

@@ -38,6 +38,13 @@ struct Said {
 /// @return whether the user has closed the failure
 bool message_window(const Said& said, const PanelBox& picture, float top);
 
+/// Why the picture shows no surface, in the middle of the picture, with its way out as a button; nothing
+/// where it shows one. @param least how far below the picture's upper edge its middle is, at least
+/// @return whether the way out was chosen
+bool empty_card(const PanelModel& model, const PanelBox& picture, float least);
+/// The sentence and the button as rows of a panel that has no picture. @return as `empty_card`
+bool empty_rows(const PanelModel& model);
+
 /// The progress of something that the user waits for, in the middle of the picture.
 /// @param fraction 0 to 1
 void progress_window(const std::string& name, const std::string& line, float fraction);

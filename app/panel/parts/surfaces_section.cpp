@@ -1,6 +1,7 @@
 // The panel's section on surfaces: their values, colors and opacities.
 #include "app/panel/parts/surfaces_section.h"
 
+#include "app/frame/step_survey.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/histogram.h"
 #include "app/panel/parts/icons.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -24,8 +26,8 @@ using interaction::Isosurface;
 
 constexpr float kSmallIcon = 22.0f, kOpacityField = 54.0f;
 
-/// A new surface: with a color that no other has, and an isovalue between the picked one's and the
-/// farther end of the range.
+/// A new surface: with a color that no other has, and an isovalue of this step's values, see
+/// `further_isovalue`, or else one between the picked one's and the farther end of the range.
 Isosurface another(const PanelModel& model) {
     const auto& surfaces = model.asked.isosurfaces;
     const auto& palette = render::surface_palette();
@@ -34,7 +36,14 @@ Isosurface another(const PanelModel& model) {
     });
     const double low = model.stats.low, high = model.stats.high, picked = model.asked.isovalue();
     const double end = high / 2 - picked / 2 > picked / 2 - low / 2 ? high : low;
-    return {picked / 2 + end / 2, free == palette.end() ? palette.front() : *free, 1.0f};
+    double isovalue = picked / 2 + end / 2;
+    if (model.work.survey) {
+        std::vector<double> there;
+        for (const Isosurface& each : surfaces)
+            there.push_back(each.isovalue);
+        isovalue = further_isovalue(*model.work.survey, there.front(), there).value_or(isovalue);
+    }
+    return {isovalue, free == palette.end() ? palette.front() : *free, 1.0f};
 }
 
 /// What the user did with the list, beside what a row changes in its surface.

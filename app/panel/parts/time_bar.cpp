@@ -147,6 +147,14 @@ void way_of_playing(const PanelModel& model, float width, interaction::PlaybackS
                         playback.ping_pong))
             playback.ping_pong = !playback.ping_pong;
         ImGui::SameLine(0.0f, 2.0f);
+        const bool blends = model.asked.between == interaction::BetweenSteps::blend;
+        if (icon_button("blend", Icon::blend,
+                        blends ? "steps blend into each other: a click lets time jump (Ctrl + T)"
+                               : "time jumps from step to step: a click blends them (Ctrl + T)",
+                        blends))
+            commands.between =
+                blends ? interaction::BetweenSteps::hold : interaction::BetweenSteps::blend;
+        ImGui::SameLine(0.0f, 2.0f);
     }
     menu_of_time(model, playback, commands);
     ImGui::SameLine();

@@ -32,6 +32,16 @@ vec3 written(vec3 light) {
     return linear_light ? light : srgb_from_linear(light);
 }
 
+#ifdef BLENDED
+// A layer of a translucent surface, pre-multiplied. At its rim the view goes a longer way through it,
+// so that it covers more there. Its highlights are as bright as those of an opaque surface.
+// @param lit the two shares of light @param turned see lighting.glsl
+vec4 layer_of(vec3 base, vec2 lit, float turned, float opacity) {
+    float covered = 1.0 - pow(1.0 - opacity, 1.0 + 6.0 * turned);
+    return vec4(written(base * lit.x + lit.y / max(covered, 1e-3)) * covered, covered);
+}
+#endif
+
 // Opaque quads fade by leaving out a share of the cells. A hash of the cell's place decides which
 // ones, so that both eyes miss the same.
 uint hash_of(uvec3 cell) {

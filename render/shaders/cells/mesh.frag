@@ -21,6 +21,9 @@ layout(location = 0) uniform vec3 base; // linear light
 
 #ifdef LIT_AT_VERTICES
 in vec2 lit;
+#ifdef BLENDED
+in float turned_away;
+#endif
 #else
 in vec4 normal;
 #ifdef NEAR
@@ -47,15 +50,16 @@ void main() {
     n = facing < 0.0 ? -n : n;
     vec2 lit = normal.w * light_of(n, abs(facing), halfway);
 #endif
-    vec3 shown = base * lit.x + lit.y;
 #ifdef BLENDED
-    shown = written(shown);
-    float alpha = surfaces[of_surface].a;
-#ifdef NEAR
-    alpha *= near_share(at_in_eye);
+#ifdef LIT_AT_VERTICES
+    float turned = turned_away;
 #endif
-    result = vec4(shown * alpha, alpha);
+    result = layer_of(base, lit, turned, surfaces[of_surface].a);
+#ifdef NEAR
+    result *= near_share(at_in_eye);
+#endif
 #else
+    vec3 shown = base * lit.x + lit.y;
 #if defined(NEAR)
     vec3 cell = floor(at_in_index);
     if (near_share(at_in_eye) <= grain(at_in_index - cell - 0.5, hash_of(uvec3(uint(cell.x) | uint(cell.y) << 16, uint(cell.z), 0))))

@@ -22,6 +22,9 @@ flat out uint of_surface;
 // See mesh.frag.
 #ifdef LIT_AT_VERTICES
 out vec2 lit;
+#ifdef BLENDED
+out float turned_away;
+#endif
 #else
 out vec4 normal; // in eye space; w: the share of light that arrives
 #ifdef NEAR
@@ -60,6 +63,9 @@ void main() {
     vec3 eye_at = (EYE(eye_from_index) * at).xyz, eye_normal = mat3(EYE(eye_from_physical)) * n;
 #if defined(LIT_AT_VERTICES)
     lit = share * light_in_eye(eye_at, eye_normal);
+#ifdef BLENDED
+    turned_away = turned;
+#endif
 #elif defined(NEAR)
     at_in_eye = eye_at;
     normal = vec4(eye_normal, share);

@@ -136,15 +136,23 @@ vec3 base_at(vec3 p) {
 #endif
 }
 
+#ifndef BLENDED
 vec3 light_at(vec3 p) {
     vec3 normal = gradient(p);
     vec3 toward_eye = toward_eye_in_index(center_place + voxel * p);
     float share = unshadowed(center_in_index + p, toward_eye, voxel, normal, surface);
     return written(share * shade(in_eye(p), normal, base_at(p)));
 }
-
+#else
 // Pre-multiplied.
-vec4 layer_at(vec3 p) { return vec4(light_at(p), 1.0) * (base.a * near_share(in_eye(p))); }
+vec4 layer_at(vec3 p) {
+    vec3 normal = gradient(p);
+    vec3 toward_eye = toward_eye_in_index(center_place + voxel * p);
+    float share = unshadowed(center_in_index + p, toward_eye, voxel, normal, surface);
+    vec2 lit = share * light_in_eye(in_eye(p), mat3(EYE(eye_from_physical)) * normal);
+    return layer_of(base_at(p), lit, turned, base.a) * near_share(in_eye(p));
+}
+#endif
 
 void main() {
     Ray ray = ray_in_cell();

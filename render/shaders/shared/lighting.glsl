@@ -50,6 +50,12 @@ float cue_left(vec3 at, float to_distance) {
     return 1.0 - cue.z * clamp((dot(at, at) * to_distance - cue.x) * cue.y, 0.0, 1.0);
 }
 
+#ifdef BLENDED
+// Of a translucent surface: 0 where it faces the viewer, to 1 at its rim. `light_of` sets it.
+float turned = 0.0;
+const float kRimLight = 0.5; // what the rim sends in addition
+#endif
+
 // What is sent before the depth cue, in the two shares.
 // @param n unit length, to the eye's side
 // @param facing its part along the way to the eye
@@ -60,6 +66,11 @@ vec2 light_of(vec3 n, float facing, vec4 halfway) {
     lit += falling * vec2(1.0 - halfway.w, halfway.w * highlight(max(dot(n, halfway.xyz), 0.0)));
     // The sky gives more than the floor: upper and lower sides differ where no light falls.
     lit.x += light.x * mix(material.z, 1.0, 0.5 + 0.5 * dot(n, EYE(up).xyz));
+#ifdef BLENDED
+    float away = 1.0 - facing;
+    turned = away * away * away;
+    return lit + vec2(kRimLight * turned, 0.0);
+#endif
     // Where the surface turns away, its outline.
     return lit * (1.0 - material.w * (1.0 - smoothstep(0.0, 0.5, facing)));
 }

@@ -37,6 +37,7 @@ class LayerTest : public testing::Test {
                                .frame = report_,
                                .gaps = gaps_,
                                .arrays = arrays_,
+                               .notes = notes_,
                                .movies = {.offered = true},
                                .controls = controls_},
                               time_);
@@ -102,6 +103,7 @@ class LayerTest : public testing::Test {
     FrameReport report_;
     std::vector<std::uint32_t> gaps_;
     PanelArrays arrays_;
+    PanelNotes notes_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

@@ -100,6 +100,39 @@ TEST(PictureState, IsNotFinalWhereABetterPictureComesHoweverLongTheSessionHasWai
     EXPECT_GT(come, 5);
 }
 
+TEST(PictureState, AutoDrawsCellsThatHaveNoSurfaceWithoutSplats) {
+    const render::Gl gl = gl_without_clock();
+    for (const auto mode : {interaction::QualityMode::automatic, interaction::QualityMode::paper}) {
+        FrameQuality quality(gl, Config(), 60);
+        ExplorerState state;
+        state.quality = mode;
+        int splats = 0, rests = 0;
+        for (int i = 0; i < 300; ++i) {
+            const bool moves = i % 100 < 20;
+            FrameReport report;
+            report.time = interaction::Seconds(i / 60.0);
+            report.pace = moves ? interaction::Pace::moving : interaction::Pace::settled;
+            report.cells = 50'000;
+            report.asked = {index::Instant(0), {1.0}};
+            report.shown = report.asked;
+            quality.charge({1, 2e5});
+            const auto coarse = render::FootprintSet::up_to(render::Footprint::gaussian);
+            const FramePlan plan =
+                quality.choose(state, moves, Choosing::with_parts, coarse, coarse, report);
+            std::vector<DrawSample> samples(1);
+            samples[0].footprint = plan.footprint;
+            samples[0].load = {5e4, 2e5};
+            samples[0].processor = Milliseconds(2);
+            quality.learn(samples);
+            splats += plan.footprint == render::Footprint::gaussian ||
+                      plan.state.in_parts() == render::Footprint::gaussian;
+            rests += plan.state.is_final();
+        }
+        EXPECT_GT(rests, 100);
+        EXPECT_EQ(splats > 0, mode == interaction::QualityMode::paper);
+    }
+}
+
 /// What the states of a session's frames have in common, whatever happens in it.
 TEST(PictureState, OfSimulatedSessionsFollowFromWhatTheEyesSee) {
     std::set<std::string> seen;

@@ -1,7 +1,15 @@
 // What materials and backgrounds come to.
 #include "app/scene/look.h"
 
+#include "app/config/config.h"
+#include "app/scene/overlay_colors.h"
+#include "render/gl/srgb.h"
+#include "render/passes/color_map.h"
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
 
 #include <set>
 #include <tuple>
@@ -39,6 +47,31 @@ TEST(Look, ADarkBackgroundIsThePicturesOwn) {
     ASSERT_TRUE(one && two);
     EXPECT_EQ(one->low, one->high);
     EXPECT_NE(two->low, two->high);
+}
+
+TEST(Look, TheDarkEndOfEveryMapIsSeenOnTheBackgroundThatAWindowHas) {
+    const auto luminance = [](const glm::vec3& linear) {
+        return 0.2126f * linear.x + 0.7152f * linear.y + 0.0722f * linear.z;
+    };
+    const glm::vec3 dark = Config().rendering.background;
+    const float of_dark = luminance(render::linear_from_srgb(dark)),
+                of_lifted = luminance(render::linear_from_srgb(kLifted));
+    int lifted = 0;
+    for (std::size_t i = 0; i < render::kColorMapNames.size(); ++i) {
+        const auto map = render::color_map(static_cast<render::ColorMap>(i));
+        float darkest = 1;
+        for (const glm::vec3& color : map)
+            darkest = std::min(darkest, luminance(color));
+        const bool lifts = wants_lifting(map, dark);
+        const float behind = lifts ? of_lifted : of_dark;
+        EXPECT_GE((std::max(darkest, behind) + 0.05f) / (std::min(darkest, behind) + 0.05f),
+                  kDarkEndContrast)
+            << render::kColorMapNames[i];
+        lifted += lifts;
+        EXPECT_FALSE(wants_lifting(map, glm::vec3(0.95f))) << "on paper all is seen";
+    }
+    EXPECT_EQ(lifted, 5) << "viridis, inferno, cividis, turbo and grayscale begin nearly black";
+    EXPECT_FALSE(wants_lifting({}, dark));
 }
 
 } // namespace

@@ -302,8 +302,7 @@ std::string mistaken(const std::string& word, const std::vector<std::string>& ty
     std::error_code error;
     if (std::filesystem::exists(word, error))
         return fmt::format("{}: a file, not a command; did you mean `{}`?", word,
-                           shell_line(fmt::format("isochron {}", command_for(word)),
-                                      {std::ranges::find(typed, word), typed.end()}));
+                           shell_line(fmt::format("isochron {}", command_for(word)), typed));
     return unknown_word(word, names);
 }
 
@@ -389,7 +388,9 @@ std::vector<std::string> arguments_from(const CLI::App& program, int argc,
     }
     if (arguments.empty())
         arguments.emplace_back("--help");
-    if (is_data(program, arguments.front()))
+    const auto first = std::ranges::find_if(
+        arguments, [](const std::string& word) { return !word.starts_with('-'); });
+    if (first != arguments.end() && is_data(program, *first))
         arguments.insert(arguments.begin(), "explore");
     return arguments;
 }
@@ -407,7 +408,7 @@ class TellsCost {
         rusage used{};
         getrusage(RUSAGE_SELF, &used);
         constexpr double kPage = 1024;
-        print_detail("took {}, at most {} of memory", human_time(took),
+        print_detail("took {:.2f} s, at most {} of memory", took.count(),
                      human_bytes(kPage * static_cast<double>(used.ru_maxrss)));
     }
 

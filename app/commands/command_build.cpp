@@ -195,7 +195,7 @@ void run_build(const BuildArguments& arguments, const Command& command) {
 void add_build(Command& program) {
     auto arguments = std::make_shared<BuildArguments>();
     Command command = program.subcommand(
-        "build", "Build an index, one file, of the volume files of all steps of a series.");
+        "build", "Build an index, which is one file, of the volume files of a series.");
     command.examples({"isochron build 'run42/*.vti' -o run42.isochron",
                       "isochron build 'run42/*.vti' -o run42.isochron --append"});
     command

@@ -59,7 +59,7 @@ Difference sorted(const index::CellChange& change) {
 void run_change(const ChangeArguments& arguments) {
     if (!arguments.to_step && !arguments.to_isovalue && !arguments.to_fraction)
         throw UsageError("--to-step or --to-isovalue is missing");
-    const auto file = array_called(open_index(arguments.file), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array);
     index::expect_narrow_ids(*file);
     std::vector<Output> outputs;
     for (const auto& out : {arguments.added, arguments.removed})

@@ -245,7 +245,7 @@ void run_export(const ExportArguments& arguments) {
     // Each value is looked at twice, soon after each other: to find cells and to place vertices.
     constexpr std::uint64_t kMostKept = std::uint64_t{128} << 20; // [byte]
     const std::uint64_t kept = std::min(kMostKept, index::memory_limit() / 4);
-    const auto file = array_called(open_index(arguments.file, kept), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array, kept, arguments.color_by);
     keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
     SimplifiedBy moved;

@@ -53,7 +53,7 @@ void run_info(const InfoArguments& given) {
         throw UsageError(fmt::format("--measure-time: {} is not an index", first));
     if (is_data)
         return describe_sources(arguments);
-    const auto file = array_called(open_index(first), arguments.read.array);
+    const auto file = open_array(first, arguments.read.array);
     const IndexReport report{first, *file, given.tree, given.measure_time};
     if (tells_json())
         tell_result(as_json(report));

@@ -177,7 +177,7 @@ SafeText as_text(const QueryArguments& arguments, const index::IndexFile& file,
 }
 
 void run_query(const QueryArguments& arguments) {
-    const auto file = array_called(open_index(arguments.file), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array);
     const index::Instant at = index::instant_named(*file, arguments.step, arguments.fraction);
     warn_beyond(arguments.isovalue, *file);
     if (arguments.level >= file->detail_levels())

@@ -10,6 +10,7 @@
 #include "app/telling.h"
 #include "app/version.h"
 #include "index/error.h"
+#include "index/shell_word.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "stereo/image_file.h"
@@ -212,9 +213,13 @@ void reproduce(const ReproduceOptions& options) {
     describe(options.picture, note);
     if (note.movie)
         throw interaction::Error(fmt::format(
-            "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE`, of the {}",
+            "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE{}{}`, of the {}",
             options.picture, note.movie->recording.empty() ? "INDEX" : "RECORDING",
             note.movie->rate,
+            options.data && !note.movie->recording.empty()
+                ? " --data " + index::shell_word(*options.data)
+                : "",
+            options.any_data ? " --any-data" : "",
             note.movie->recording.empty()
                 ? fmt::format("data with hash {}", note.data_hash)
                 : fmt::format("recording with hash {}", note.movie->recording)));

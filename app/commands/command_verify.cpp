@@ -20,7 +20,10 @@ namespace {
 
 void run_verify(const std::filesystem::path& path) {
     const CancelOnSignal signals;
-    tell_result({{"file", path.string()}, {"intact", false}}); // until it is known
+    std::error_code ignored;
+    using Json = nlohmann::ordered_json;
+    const bool there = std::filesystem::exists(path, ignored);
+    tell_result({{"file", path.string()}, {"intact", there ? Json(false) : Json()}}); // for now
     const auto file = open_index(path, 0, LostState::is_for_the_caller);
     {
         ProgressBar bar(stderr, static_cast<double>(file->stats().file_bytes));

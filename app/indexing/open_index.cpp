@@ -21,8 +21,9 @@ bool is_only_scanned(const index::IndexFile& file) {
 } // namespace
 
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
-                                                   std::uint64_t cache_bytes, LostState lost) {
-    auto file = index::open_named_index(path, cache_bytes);
+                                                   std::uint64_t cache_bytes, LostState lost,
+                                                   const std::vector<std::string>& arrays) {
+    auto file = index::open_named_index(path, cache_bytes, arrays);
     const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
     if (line)
         print_note("{}", *line);
@@ -52,8 +53,13 @@ void check_can_be_shown(const index::Grid& grid, const std::string& name) {
 }
 
 std::shared_ptr<const index::IndexFile>
-array_called(const std::shared_ptr<const index::IndexFile>& file,
-             const std::optional<std::string>& name) {
+open_array(const std::filesystem::path& path, const std::optional<std::string>& name,
+           std::uint64_t cache_bytes, const std::optional<std::string>& color_by) {
+    std::vector<std::string> named;
+    for (const auto& one : {name, color_by})
+        if (one)
+            named.push_back(*one);
+    const auto file = open_index(path, cache_bytes, LostState::is_said, named);
     return name ? index::array_of(file, array_number(*file, *name)) : file;
 }
 

@@ -139,7 +139,7 @@ TEST_F(CommandLine, AppendingSaysWhereItIsToldOtherwise) {
         more.push_back("--append");
         const ChildResult appended = isochron(build_of("t*.raw", more));
         EXPECT_EQ(appended.status, 0) << appended.err;
-        EXPECT_THAT(appended.out, HasSubstr("note: written anew: " + told));
+        EXPECT_THAT(appended.err, HasSubstr("isochron: note: written anew: " + told));
         EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
         std::filesystem::remove(folder.path() / "a.isochron");
     }

@@ -82,15 +82,14 @@ std::string listed(const std::vector<std::string>& words) {
             plain.push_back(word);
     std::string text = fmt::format("{}", fmt::join(plain, ", "));
     if (plain.size() < words.size())
-        text += fmt::format(", or one of them with {} behind it", ending);
+        text += fmt::format(", or one of these words with {} behind it", ending);
     return text;
 }
 
 /// Whether a help text says of each word what it does.
 bool explains(const std::string& help, const std::vector<std::string>& words) {
-    return std::ranges::all_of(words, [&](const std::string& word) {
-        return help.find(word) != std::string::npos;
-    });
+    return std::ranges::all_of(
+        words, [&](const std::string& word) { return help.find(word) != std::string::npos; });
 }
 
 OptionReference reference_of(const CLI::Option& option) {
@@ -109,9 +108,13 @@ OptionReference reference_of(const CLI::Option& option) {
     reference.heading = reference.names.empty() ? "Arguments" : option.get_group();
     reference.required = option.get_required();
 
+    if (!explains(reference.help, shown.words)) {
+        const std::size_t end =
+            std::min(reference.help.rfind(" (default: "), reference.help.size());
+        const bool one_sentence = reference.help.find(". ") == std::string::npos;
+        reference.help.insert(end, (one_sentence ? ": " : ". It is one of ") + listed(shown.words));
+    }
     std::vector<std::string> more;
-    if (!explains(reference.help, shown.words))
-        more.push_back(listed(shown.words));
     if (!shown.form.empty())
         more.push_back(shown.form);
     if (reference.value.empty() ? false : !option.get_default_str().empty())

@@ -27,20 +27,22 @@ struct Surroundings {
 constexpr std::string_view kWithWindows = " explore replay movie reproduce ";
 
 constexpr std::array kFiles{
-    Surroundings{"NAME.isochron", "An index: the values of all steps, and what finds cells in them.",
-                 ""},
+    Surroundings{"NAME.isochron",
+                 "An index: the values of all steps, and what finds cells in them.", ""},
     Surroundings{"~/.cache/isochron/",
                  "Indexes that `explore` made of files of values. The least recently used ones are "
                  "removed when they take too much space.",
                  " explore "},
-    Surroundings{"~/.local/state/isochron/",
-                 "Saved sessions (NAME.isochron-session), the list of recent data and the size of the "
-                 "window.",
-                 " explore "},
-    Surroundings{"~/.local/state/isochron/unfinished/",
-                 "Notes on files that are being written, so that leftovers of a killed process can be "
-                 "removed.",
-                 ""},
+    Surroundings{
+        "~/.local/state/isochron/",
+        "Saved sessions (NAME.isochron-session), the list of recent data and the size of the "
+        "window.",
+        " explore "},
+    Surroundings{
+        "~/.local/state/isochron/unfinished/",
+        "Notes on files that are being written, so that leftovers of a killed process can be "
+        "removed.",
+        ""},
     Surroundings{"$XDG_RUNTIME_DIR/isochron/control.sock",
                  "The socket that `explore --control` opens and `tell` uses.",
                  " explore replay tell "},
@@ -52,13 +54,16 @@ constexpr std::array kEnvironment{
     Surroundings{"XDG_RUNTIME_DIR", "Folder for the control socket; without it the state folder.",
                  " explore replay tell "},
     Surroundings{"DISPLAY", "X display on which windows are opened.", " explore replay "},
-    Surroundings{"XR_RUNTIME_JSON", "File that names the OpenXR runtime of a headset.", " explore "},
+    Surroundings{"XR_RUNTIME_JSON", "File that names the OpenXR runtime of a headset.",
+                 " explore "},
     Surroundings{"LP_NUM_THREADS", "Number of threads that draw where there is no GPU.",
                  kWithWindows},
-    Surroundings{"HDF5_PLUGIN_PATH", "Folder with further filters of HDF5.", " build explore info "},
+    Surroundings{"HDF5_PLUGIN_PATH", "Folder with further filters of HDF5.",
+                 " build explore info "},
 };
 
-std::vector<Surrounding> of_command(std::span<const Surroundings> rows, const CommandPath& command) {
+std::vector<Surrounding> of_command(std::span<const Surroundings> rows,
+                                    const CommandPath& command) {
     std::vector<Surrounding> found;
     const std::string word = command.words.size() > 1 ? " " + command.words[1] + " " : "";
     for (const Surroundings& row : rows)

@@ -85,8 +85,8 @@ std::string footer_lines(const std::string& footer, std::size_t width) {
         const std::size_t gap = line.find("  ", text_at);
         const std::size_t second = gap == line.npos ? gap : line.find_first_not_of(' ', gap);
         const std::size_t at = second == line.npos || second > width / 2 ? text_at : second;
-        result += wrapped(line.substr(0, at), line.substr(at),
-                          at == text_at ? text_at + 2 : at, width);
+        result +=
+            wrapped(line.substr(0, at), line.substr(at), at == text_at ? text_at + 2 : at, width);
     }
     end_paragraph();
     return result;
@@ -130,7 +130,8 @@ std::string help_text(const CommandPath& command, std::size_t width) {
         std::vector<std::string> exits;
         for (const auto& [status, meaning] : about.exits)
             exits.push_back(fmt::format("{} {}", status, meaning));
-        text += '\n' + wrapped("Exit status: ", fmt::format("{}.", fmt::join(exits, ", ")), 0, width);
+        text +=
+            '\n' + wrapped("Exit status: ", fmt::format("{}.", fmt::join(exits, ", ")), 0, width);
     }
     if (!about.examples.empty()) {
         text += "\nExamples:\n";

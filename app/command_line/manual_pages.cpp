@@ -98,15 +98,16 @@ std::string page(const CommandPath& path, const std::string& version,
         std::vector<OptionReference> options;
         std::ranges::copy_if(command.options, std::back_inserter(options),
                              [&](const auto& option) { return option.heading == heading; });
-        text += section(heading, options, option_line, [](const auto& option) { return option.help; });
+        text +=
+            section(heading, options, option_line, [](const auto& option) { return option.help; });
     }
     text += lines_section("NOTES", footer_lines(command.footer, kColumns));
     text += section(
         "Exit status", command.exits,
         [&](const auto& exit) { return bold(std::to_string(exit.first)); },
         [](const auto& exit) { return exit.second; });
-    for (const auto& [heading, rows] : {std::pair("Files", files_of(path)),
-                                        std::pair("Environment", environment_of(path))})
+    for (const auto& [heading, rows] :
+         {std::pair("Files", files_of(path)), std::pair("Environment", environment_of(path))})
         text += section(
             heading, rows, [&](const auto& row) { return bold(row.name); },
             [](const auto& row) { return row.help; });

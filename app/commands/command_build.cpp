@@ -199,25 +199,28 @@ void add_build(Command& program) {
     command.examples({"isochron build 'run42/*.vti' -o run42.isochron",
                       "isochron build 'run42/*.vti' -o run42.isochron --append"});
     command
-        .option("files", arguments->files,
-                "A .pvd file, or the files of all steps in any order; a quoted pattern ('t*.vti') "
-                "stands for all files that match. An index, also one of an earlier version, is read "
-                "like a file. A dataset within an HDF5 file is run.h5:/fields/rho")
+        .option(
+            "files", arguments->files,
+            "A .pvd file, or the files of all steps in any order; a quoted pattern ('t*.vti') "
+            "stands for all files that match. An index, also one of an earlier version, is read "
+            "like a file. A dataset within an HDF5 file is run.h5:/fields/rho")
         .required()
         .type_name("FILE");
     command
-        .option("-o,--output,--out", arguments->out,
-                "Index to write, NAME.isochron. An index that exists is replaced once the new one is "
-                "complete; any other file needs --force, and a file that is read stays")
+        .option(
+            "-o,--output,--out", arguments->out,
+            "Index to write, NAME.isochron. An index that exists is replaced once the new one is "
+            "complete; any other file needs --force, and a file that is read stays")
         .required()
         .type_name("INDEX");
     add_reading_options(command, *arguments);
 
     const auto [lattice, variation] = add_index_options(command, *arguments);
     command
-        .option("--timeout", arguments->timeout,
-                "In a job of several processes (mpirun): end the job once a process has been silent "
-                "for this long")
+        .option(
+            "--timeout", arguments->timeout,
+            "In a job of several processes (mpirun): end the job once a process has been silent "
+            "for this long")
         .between(0.1, 86400.0)
         .shows_default()
         .type_name("SECONDS")

@@ -91,7 +91,8 @@ void import(ImportOptions options) {
 
 void add_config(Command& program) {
     Command config = program.subcommand(
-        "config", "Convert configurations of other programs, or print the schema of configurations.");
+        "config",
+        "Convert configurations of other programs, or print the schema of configurations.");
     config.examples({"isochron config import cave.pvx -o my-cave.toml",
                      "isochron config schema > isochron.schema.json"});
     config.require_subcommand();
@@ -104,9 +105,7 @@ void add_config(Command& program) {
     command.option("file", options->file, "Description of a CAVE that ParaView reads (.pvx)")
         .required()
         .type_name("FILE");
-    command
-        .option("-o,--output,--out", options->out,
-                "Configuration to write (default: print it)")
+    command.option("-o,--output,--out", options->out, "Configuration to write (default: print it)")
         .type_name("FILE");
     command.flag("--force", options->force,
                  "Let --output replace any file but the .pvx file; without this option it replaces "

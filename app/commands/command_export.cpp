@@ -70,10 +70,10 @@ Target target_of(const ExportArguments& arguments) {
     const index::SurfaceFormat* const by_extension =
         folder ? nullptr : index::surface_format_of(out);
     if (!by_name && !by_extension)
-        throw UsageError(fmt::format(
-            "--output: expected a name that ends in .ply, .stl, .obj, .vtp, .glb, .usda or .csv, or a "
-            "folder and --format, got {}",
-            arguments.out));
+        throw UsageError(fmt::format("--output: expected a name that ends in .ply, .stl, .obj, "
+                                     ".vtp, .glb, .usda or .csv, or a "
+                                     "folder and --format, got {}",
+                                     arguments.out));
     const index::SurfaceFormat& format = by_name ? *by_name : *by_extension;
     if (folder)
         return {&format, out / (arguments.file.stem().string() + std::string(format.extension))};
@@ -288,9 +288,10 @@ void add_export(Command& program) {
                 "Array of the surfaces, where the index has several (default: its first)")
         .type_name("NAME");
     command
-        .option("--isovalue", arguments->isovalues,
-                "Isovalue of the surface, in the unit of the values (after scaling). May be given up "
-                "to 8 times, each time for another surface")
+        .option(
+            "--isovalue", arguments->isovalues,
+            "Isovalue of the surface, in the unit of the values (after scaling). May be given up "
+            "to 8 times, each time for another surface")
         .repeatable()
         .required()
         .type_name("VALUE");
@@ -300,8 +301,9 @@ void add_export(Command& program) {
                 "fourth of them (default: all)")
         .type_name("FIRST:LAST[:STRIDE]");
     command
-        .option("--fraction", arguments->fraction,
-                "Write the surface between each step and the next: 32768 is halfway, as for `query`")
+        .option(
+            "--fraction", arguments->fraction,
+            "Write the surface between each step and the next: 32768 is halfway, as for `query`")
         .between(0u, 65535u)
         .shows_default()
         .type_name("FRACTION");
@@ -338,9 +340,10 @@ void add_export(Command& program) {
         .shows_default()
         .type_name("PRECISION");
     command
-        .option("--length-unit,--unit", arguments->unit,
-                "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
-                "data)")
+        .option(
+            "--length-unit,--unit", arguments->unit,
+            "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
+            "data)")
         .type_name("UNIT");
     command
         .option("--rate", arguments->rate,
@@ -365,9 +368,10 @@ void add_export(Command& program) {
                 "length in the unit of the file, or 0.5cells for half the shortest side of a cell. "
                 "How far the surface has moved is measured and printed")
         .type_name("DISTANCE");
-    command.flag("--quantize", arguments->quantize,
-                 "In glTF, store coordinates in 16 bits and normals in 8 (KHR_mesh_quantization). A "
-                 "vertex moves by less than 1/75,000 of the surface's longest side");
+    command.flag(
+        "--quantize", arguments->quantize,
+        "In glTF, store coordinates in 16 bits and normals in 8 (KHR_mesh_quantization). A "
+        "vertex moves by less than 1/75,000 of the surface's longest side");
     command.flag("--compress", arguments->compress,
                  "In glTF, pack vertices and triangles without loss (EXT_meshopt_compression). "
                  "Together with --quantize, files become smaller still");

@@ -80,8 +80,10 @@ void add_info(Command& program) {
                  "Without this option, the advice is the one that the build stored");
     add_reading_options(command, arguments->sources);
     command.footer(
-        "Lengths are in the files' unit of length, times in their unit of time, values after scaling "
-        "and in their unit. `Coherence` is the number of the tree's entries, divided by cells times "
+        "Lengths are in the files' unit of length, times in their unit of time, values after "
+        "scaling "
+        "and in their unit. `Coherence` is the number of the tree's entries, divided by cells "
+        "times "
         "steps. It is 1 where a cell stores one entry at each step, and less where the tree merges "
         "steps. `Raw` is the size of a table with 24 bytes for each cell and step.");
     command.on_run([arguments] { run_info(*arguments); });

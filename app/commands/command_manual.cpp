@@ -32,8 +32,11 @@ nlohmann::ordered_json json_of(const CommandReference& command) {
     nlohmann::ordered_json commands = nlohmann::ordered_json::array();
     for (const CommandReference& below : command.commands)
         commands.push_back(json_of(below));
-    return {{"name", command.name},         {"help", command.help},   {"options", options},
-            {"examples", command.examples}, {"commands", commands}};
+    return {{"name", command.name},
+            {"help", command.help},
+            {"options", options},
+            {"examples", command.examples},
+            {"commands", commands}};
 }
 
 } // namespace
@@ -108,8 +111,9 @@ void add_completion(Command& program) {
         .required()
         .one_of(completed_shells())
         .type_name("SHELL");
-    command.footer("The first example completes in one session of bash. An installed program brings "
-                   "these scripts along.");
+    command.footer(
+        "The first example completes in one session of bash. An installed program brings "
+        "these scripts along.");
     command.on_run([shell, program] {
         const std::string script = shell_completion(program.reference(), *shell);
         tell_result({{"shell", *shell}, {"script", script}});

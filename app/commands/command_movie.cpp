@@ -154,8 +154,9 @@ void check_output(const MovieOptions& options) {
     if (is_movie_folder(out))
         return;
     if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
-        throw UsageError(fmt::format("--output: expected a name that ends in {}, or a folder, got {}",
-                                     fmt::join(kSuffixes, ", "), options.out));
+        throw UsageError(
+            fmt::format("--output: expected a name that ends in {}, or a folder, got {}",
+                        fmt::join(kSuffixes, ", "), options.out));
     index::NewFile{out};
 }
 
@@ -269,9 +270,10 @@ void add_movie(Command& program) {
                 "for every fourth of them (default: all)")
         .type_name("FIRST:LAST[:STRIDE]");
     command
-        .option("--between", options->series.between,
-                "Of an index, what to show between two steps: `hold` shows the step before, `blend` "
-                "a blend of both (default: what `isochron info` advises)")
+        .option(
+            "--between", options->series.between,
+            "Of an index, what to show between two steps: `hold` shows the step before, `blend` "
+            "a blend of both (default: what `isochron info` advises)")
         .one_of(interaction::all_names<interaction::BetweenSteps>())
         .type_name("MODE");
     command.option("--rate", options->rate, "Frames per second")
@@ -286,9 +288,10 @@ void add_movie(Command& program) {
         .shows_default()
         .type_name("EYES");
     command.flag("--force", options->force, "Replace a movie that exists");
-    command.flag("--background", options->background,
-                 "Work as the panel's movies do: at low priority, with progress in lines on stdout, "
-                 "and only as long as the program that started this one runs");
+    command.flag(
+        "--background", options->background,
+        "Work as the panel's movies do: at low priority, with progress in lines on stdout, "
+        "and only as long as the program that started this one runs");
     command.footer("Each frame is drawn for its time in the movie. `replay --every` writes single "
                    "pictures.");
     command.on_run(

@@ -203,9 +203,8 @@ void add_query(Command& program) {
     Command command = program.subcommand(
         "query", "Find the active cells of an isovalue at a step: those in which the values at the "
                  "corners have min < isovalue <= max.");
-    command.examples(
-        {"isochron query run42.isochron --isovalue 100 --step 0",
-         "isochron query run42.isochron --isovalue 100 --step 0 -o cells.bin --json"});
+    command.examples({"isochron query run42.isochron --isovalue 100 --step 0",
+                      "isochron query run42.isochron --isovalue 100 --step 0 -o cells.bin --json"});
     command.option("file", arguments->file, "Index to search").required().type_name("INDEX");
     command
         .option("--array", arguments->array,
@@ -216,7 +215,9 @@ void add_query(Command& program) {
                 "Isovalue, in the unit of the values (after scaling)")
         .required()
         .type_name("VALUE");
-    command.option("--step", arguments->step, "Step to search, from 0").required().type_name("STEP");
+    command.option("--step", arguments->step, "Step to search, from 0")
+        .required()
+        .type_name("STEP");
     command
         .option("--fraction", arguments->fraction,
                 "Search between this step and the next, where values are blended linearly and "

@@ -292,8 +292,9 @@ void replay(const Options& options, ClusterJob& job) {
 void add_replay(Command& program) {
     auto options = std::make_shared<Options>();
     Command command = program.subcommand(
-        "replay", "Replay a recording: write pictures, measure the times of frames, or play it in a "
-                  "window.");
+        "replay",
+        "Replay a recording: write pictures, measure the times of frames, or play it in a "
+        "window.");
     command.examples({"isochron replay walk.jsonl --stamps -o pictures",
                       "isochron replay walk.jsonl --every 30 --caption -o series"});
     add_replay_source(command, *options);
@@ -322,19 +323,22 @@ void add_replay(Command& program) {
         .option("--report", options->report,
                 "Write the times and the state of every frame to this JSON file")
         .type_name("FILE");
-    command.flag("--force", options->force,
-                 "Let --output and --report replace any files but those that are read; without this "
-                 "option they replace only pictures and reports of this program");
+    command.flag(
+        "--force", options->force,
+        "Let --output and --report replace any files but those that are read; without this "
+        "option they replace only pictures and reports of this program");
     command.flag("--from-devices", options->from_devices,
                  "Compute the commands again from the recorded devices, and fail if a command "
                  "differs from the recorded one");
-    command.flag("--test-pattern", options->test_pattern,
-                 "Show a test pattern that tells eyes, walls and trackers apart; this needs no index");
+    command.flag(
+        "--test-pattern", options->test_pattern,
+        "Show a test pattern that tells eyes, walls and trackers apart; this needs no index");
     command.flag("--live", options->live,
                  "Play in a window at the recorded speed; no frame waits for its cells");
     add_control_option(command, options->control);
-    command.footer("In a cluster, `mpirun -n N isochron replay ...`, each process writes the pictures "
-                   "of its own windows.");
+    command.footer(
+        "In a cluster, `mpirun -n N isochron replay ...`, each process writes the pictures "
+        "of its own windows.");
     command.exit_status(1, "bad input, or a difference that --from-devices found");
     command.on_run([options] { run_in_cluster([&](ClusterJob& job) { replay(*options, job); }); });
 }

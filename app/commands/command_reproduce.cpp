@@ -262,7 +262,8 @@ void reproduce(const ReproduceOptions& options) {
 void add_reproduce(Command& program) {
     auto options = std::make_shared<ReproduceOptions>();
     Command command = program.subcommand(
-        "reproduce", "Draw a saved picture again from the settings that it holds, and compare both.");
+        "reproduce",
+        "Draw a saved picture again from the settings that it holds, and compare both.");
     command.examples(
         {"isochron reproduce pictures/stamp_00012_stamp-1.png",
          "isochron reproduce pictures/stamp_00012_stamp-1.png --data run42.isochron -o again.png"});
@@ -276,15 +277,15 @@ void add_reproduce(Command& program) {
                 "Index to draw (default: the one that the picture names, beside the picture or in "
                 "the working directory)")
         .type_name("INDEX");
-    command
-        .option("-o,--output,--out", options->out, "Save the new picture in this file")
+    command.option("-o,--output,--out", options->out, "Save the new picture in this file")
         .type_name("FILE");
     command.flag("--force", options->force,
                  "Let --output replace any file but one that is read; without this option it "
                  "replaces only pictures of this program");
-    command.flag("--any-data", options->any_data,
-                 "Draw the data even if they differ from those of the picture, as their hashes tell, "
-                 "and count the pixels that differ");
+    command.flag(
+        "--any-data", options->any_data,
+        "Draw the data even if they differ from those of the picture, as their hashes tell, "
+        "and count the pixels that differ");
     command.option("--context", options->context, "OpenGL context to draw with")
         .one_of({"egl", "osmesa"})
         .shows_default()

@@ -216,24 +216,27 @@ void add_table(Command& program) {
                 "timing report (`replay --report`), whose frames become rows")
         .required()
         .type_name("FILE");
-    command
-        .option("-o,--output,--out", arguments->out, "File to write (default: print the table)")
+    command.option("-o,--output,--out", arguments->out, "File to write (default: print the table)")
         .type_name("FILE");
     command.flag("--force", arguments->force, "Replace a file that exists");
-    command.flag("--keep-formulas", arguments->keep_formulas,
-                 "In CSV, leave texts as they are that begin with = + - or @. Without this option a "
-                 "' is put before them, so that spreadsheets do not take them for formulas");
+    command.flag(
+        "--keep-formulas", arguments->keep_formulas,
+        "In CSV, leave texts as they are that begin with = + - or @. Without this option a "
+        "' is put before them, so that spreadsheets do not take them for formulas");
     std::string made;
     for (const interaction::ToolRow& tool : interaction::tool_table())
         if (tool.rows)
             made += fmt::format("{}, ", tool.makes);
     command.footer(
-        "The table is CSV; with --json it is a list of objects, one for each row. A row of a session "
+        "The table is CSV; with --json it is a list of objects, one for each row. A row of a "
+        "session "
         "has these columns: what (" +
         made +
         "bookmark or stamp), seconds since the session began, step, fraction (how far towards the "
-        "next step: 32768 is halfway), name, x y z (in the unit of the data), and value (at a mark; "
-        "in the second row of a ruler its length). A row of a timing report has the report's keys as "
+        "next step: 32768 is halfway), name, x y z (in the unit of the data), and value (at a "
+        "mark; "
+        "in the second row of a ruler its length). A row of a timing report has the report's keys "
+        "as "
         "columns, such as `asked.step`.");
     command.on_run([arguments] { run_table(*arguments); });
 }

@@ -167,8 +167,9 @@ void run_tell(const TellArguments& arguments) {
 void add_tell(Command& program) {
     auto arguments = std::make_shared<TellArguments>();
     Command command = program.subcommand(
-        "tell", "Give commands to a running session, which `explore --control` began, or ask it for "
-                "its state, a picture or cells.");
+        "tell",
+        "Give commands to a running session, which `explore --control` began, or ask it for "
+        "its state, a picture or cells.");
     command.examples({"isochron tell step=2 isovalue=100", "isochron tell picture -o now.png"});
     command
         .option("words", arguments->words,
@@ -194,9 +195,10 @@ void add_tell(Command& program) {
     command.flag("--now", arguments->now,
                  "Take the picture as it is, without waiting for all cells and the final quality");
     command.flag("--force", arguments->force, "Let --output replace any file");
-    command.footer("The command ends once a frame shows what the commands ask for. A VALUE is JSON, "
-                   "or a text without quotes. The keys, and what other programs may send to the "
-                   "socket, are in docs/FORMATS.md.");
+    command.footer(
+        "The command ends once a frame shows what the commands ask for. A VALUE is JSON, "
+        "or a text without quotes. The keys, and what other programs may send to the "
+        "socket, are in docs/FORMATS.md.");
     command.on_run([arguments] { run_tell(*arguments); });
 }
 

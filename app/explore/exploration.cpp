@@ -399,10 +399,11 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
     job_.finish();
     if (!job_.leads())
         return;
-    tell_result({{"data", options_.data_name},
-                 {"frames", session_->log().next()},
-                 {"recording", options_.record ? nlohmann::ordered_json(*options_.record) : nullptr},
-                 {"report", options_.report ? nlohmann::ordered_json(*options_.report) : nullptr}});
+    tell_result(
+        {{"data", options_.data_name},
+         {"frames", session_->log().next()},
+         {"recording", options_.record ? nlohmann::ordered_json(*options_.record) : nullptr},
+         {"report", options_.report ? nlohmann::ordered_json(*options_.report) : nullptr}});
     if (options_.record)
         print_note("recording: {}", *options_.record);
 }

@@ -26,8 +26,9 @@ std::string footer() {
     text += "With --emulate:\n";
     for (const std::string& line : RoomCamera::documentation())
         text += "  " + line + "\n";
-    text += "\nIn a cluster, `mpirun -n N isochron explore ...`, each process opens the windows of its "
-            "node, and the first process reads the devices; see docs/guide/clusters.md.\n";
+    text +=
+        "\nIn a cluster, `mpirun -n N isochron explore ...`, each process opens the windows of its "
+        "node, and the first process reads the devices; see docs/guide/clusters.md.\n";
     return text;
 }
 
@@ -59,8 +60,9 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                  "Show the whole installation in one window: the room from outside, with the "
                  "picture on every wall");
     command
-        .option("--context", options.context,
-                "OpenGL context: glfw opens windows, egl serves where a headset is the only display")
+        .option(
+            "--context", options.context,
+            "OpenGL context: glfw opens windows, egl serves where a headset is the only display")
         .one_of({"glfw", "egl"})
         .type_name("CONTEXT");
     command.option("--stereo", options.stereo, "Stereo mode to begin with")
@@ -70,9 +72,10 @@ void add_explore_options(Command& command, ExploreOptions& options) {
         .one_of(interaction::all_names<interaction::QualityMode>())
         .type_name("MODE");
     command
-        .option("--footprint", options.footprint,
-                "How cells are drawn once nothing moves: auto (the exact surface), gaussian, mesh or "
-                "surface")
+        .option(
+            "--footprint", options.footprint,
+            "How cells are drawn once nothing moves: auto (the exact surface), gaussian, mesh or "
+            "surface")
         .one_of(words_of<SettledFootprint>(kSettledField))
         .type_name("FOOTPRINT");
     add_shape_option(command, options.shape);
@@ -102,9 +105,10 @@ void add_explore_options(Command& command, ExploreOptions& options) {
                  "but one that is read; without this option they replace only a report, a session "
                  "and a picture");
     command
-        .option("--session", options.session,
-                "Save the session in this file (NAME.isochron-session) instead of your state folder; "
-                "it is saved every 30 s and at the end")
+        .option(
+            "--session", options.session,
+            "Save the session in this file (NAME.isochron-session) instead of your state folder; "
+            "it is saved every 30 s and at the end")
         .type_name("FILE");
     command.flag("--resume", options.resume,
                  "Continue the last session on these data, or the session in --session");

@@ -37,18 +37,17 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
         .type_name("COUNT");
     command.flag("--emulate", source.emulate,
                  "Show the whole room from outside, with the picture on every wall");
-    command
-        .option("--stereo", source.stereo, "Stereo mode to use instead of the recorded one")
+    command.option("--stereo", source.stereo, "Stereo mode to use instead of the recorded one")
         .one_of(words_of<stereo::StereoMode>())
         .type_name("MODE");
-    command
-        .option("--quality", source.quality, "Quality mode to use instead of the recorded one")
+    command.option("--quality", source.quality, "Quality mode to use instead of the recorded one")
         .one_of(interaction::all_names<interaction::QualityMode>())
         .type_name("MODE");
     command
-        .option("--footprint", source.footprint,
-                "How cells are drawn in a picture at rest, instead of the configured way: auto (the "
-                "exact surface), gaussian, mesh or surface")
+        .option(
+            "--footprint", source.footprint,
+            "How cells are drawn in a picture at rest, instead of the configured way: auto (the "
+            "exact surface), gaussian, mesh or surface")
         .one_of(words_of<SettledFootprint>(kSettledField))
         .type_name("FOOTPRINT");
     command.flag("--ray", source.ray,

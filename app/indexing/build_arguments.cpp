@@ -261,11 +261,12 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
     index::ReadOptions& read = arguments.read;
     const char* reading = "Reading";
     command
-        .option("--array", arguments.arrays,
-                "Array to read, where the files hold several. May be given several times: the index "
-                "then holds each of these arrays. `velocity.magnitude` is a component of an array, "
-                "'u*' stands for all arrays whose names match, and u,v,w makes one vector of three "
-                "arrays")
+        .option(
+            "--array", arguments.arrays,
+            "Array to read, where the files hold several. May be given several times: the index "
+            "then holds each of these arrays. `velocity.magnitude` is a component of an array, "
+            "'u*' stands for all arrays whose names match, and u,v,w makes one vector of three "
+            "arrays")
         .repeatable()
         .type_name("NAME")
         .group(reading);
@@ -275,10 +276,11 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "magnitude")
         .group(reading);
     command
-        .option("--component", read.component,
-                "Component of a vector array: its number from 0, or `magnitude`. Or a field that is "
-                "computed: the length of the `gradient` of a scalar, the length of the `vorticity` "
-                "of a vector, or the `q-criterion` of a vector")
+        .option(
+            "--component", read.component,
+            "Component of a vector array: its number from 0, or `magnitude`. Or a field that is "
+            "computed: the length of the `gradient` of a scalar, the length of the `vorticity` "
+            "of a vector, or the `q-criterion` of a vector")
         .type_name("COMPONENT")
         .group(reading);
     command
@@ -319,15 +321,17 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
               "leaves them. Without this option the last one is read")
         .group(reading);
     command
-        .option("--crop", arguments.crop,
-                "Read a part of the grid: the numbers of its first and last vertex along each axis, "
-                "from 0")
+        .option(
+            "--crop", arguments.crop,
+            "Read a part of the grid: the numbers of its first and last vertex along each axis, "
+            "from 0")
         .type_name("X0:X1,Y0:Y1,Z0:Z1")
         .group(reading);
     command
-        .option("--stride", arguments.stride,
-                "Read every second vertex (2), or every Nth, along all axes; 2,2,1 says it for each "
-                "axis")
+        .option(
+            "--stride", arguments.stride,
+            "Read every second vertex (2), or every Nth, along all axes; 2,2,1 says it for each "
+            "axis")
         .type_name("COUNT[,COUNT,COUNT]")
         .group(reading);
     command
@@ -352,8 +356,9 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .type_name("OX OY OZ")
         .group(reading);
     command
-        .option("--time-step", read.time_step,
-                "Time from one step to the next, in the unit of time (default: from the files, or 1)")
+        .option(
+            "--time-step", read.time_step,
+            "Time from one step to the next, in the unit of time (default: from the files, or 1)")
         .positive()
         .type_name("TIME")
         .group(reading);
@@ -399,7 +404,8 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group(colors);
 
     const char* raw = "Raw files without a header";
-    command.option("--dims", arguments.dims, "Number of vertices along x, y and z; x varies fastest")
+    command
+        .option("--dims", arguments.dims, "Number of vertices along x, y and z; x varies fastest")
         .values(3)
         .type_name("NX NY NZ")
         .between(2u, 65537u)
@@ -411,7 +417,8 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
         .type_name("TYPE")
         .group(raw);
-    command.flag("--big-endian", read.big_endian, "The values are big-endian (default: little-endian)")
+    command
+        .flag("--big-endian", read.big_endian, "The values are big-endian (default: little-endian)")
         .group(raw);
     command
         .option("--header-bytes", read.header_bytes,

@@ -113,8 +113,9 @@ SafeText sources_text(const std::vector<std::string>& sources) {
 SafeText tree_text(const index::IndexFile& file) {
     const auto nodes = time_nodes(file);
     if (nodes.empty())
-        return SafeText("time nodes    none; only the tree of the paper has them, which build --lattice "
-                        "adds\n");
+        return SafeText(
+            "time nodes    none; only the tree of the paper has them, which build --lattice "
+            "adds\n");
     SafeText text;
     for (const auto& node : nodes)
         text += SafeText("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
@@ -245,8 +246,7 @@ SafeText as_text(const IndexReport& report) {
                                    with_space(color->value_unit), grouped(color->nan_values)));
     line("file", fmt::format("{}; without the volume {:.3g} % of the raw size (24 bytes for each "
                              "cell and step)",
-                             file_sizes(file),
-                             percent_of_raw(file)));
+                             file_sizes(file), percent_of_raw(file)));
     if (file.has_since() && info.steps() > 1)
         line("unchanged", staying_text(file));
     for (std::size_t level = 1; level < file.detail_levels(); ++level)
@@ -256,9 +256,8 @@ SafeText as_text(const IndexReport& report) {
     for (const std::string& reason : file.plan().reasons)
         line("plan", reason);
     if (file.plan().steps < info.steps())
-        line("plan",
-             fmt::format("chosen when the index held {} of its {} steps", file.plan().steps,
-                         info.steps()));
+        line("plan", fmt::format("chosen when the index held {} of its {} steps", file.plan().steps,
+                                 info.steps()));
     line("brick classes", levels_text(file));
     if (entries_of(file) > 0)
         line("coherence",

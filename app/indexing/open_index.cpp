@@ -52,9 +52,10 @@ void check_can_be_shown(const index::Grid& grid, const std::string& name) {
                                        name, grid.vertex_count()));
 }
 
-std::shared_ptr<const index::IndexFile>
-open_array(const std::filesystem::path& path, const std::optional<std::string>& name,
-           std::uint64_t cache_bytes, const std::optional<std::string>& color_by) {
+std::shared_ptr<const index::IndexFile> open_array(const std::filesystem::path& path,
+                                                   const std::optional<std::string>& name,
+                                                   std::uint64_t cache_bytes,
+                                                   const std::optional<std::string>& color_by) {
     std::vector<std::string> named;
     for (const auto& one : {name, color_by})
         if (one)

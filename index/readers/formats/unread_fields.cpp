@@ -16,8 +16,11 @@ namespace {
 /// Names and descriptions of data, programs that wrote them, and how others show them: places, times and
 /// values are what they are without these fields, which nearly every file of some programs has.
 constexpr std::array<std::string_view, 14> kSkipped{
-    "aux_file none", "cal_max", "cal_min", "Color", "Comment", "content", "descrip", "Grid Name",
-    "ITK_InputFilterName", "LABEL", "max", "measurement frame (1,0,0) (0,1,0) (0,0,1)", "min", "Name"};
+    "aux_file none", "cal_max",   "cal_min",
+    "Color",         "Comment",   "content",
+    "descrip",       "Grid Name", "ITK_InputFilterName",
+    "LABEL",         "max",       "measurement frame (1,0,0) (0,1,0) (0,0,1)",
+    "min",           "Name"};
 
 bool is_skipped(std::string_view field) {
     return std::ranges::any_of(kSkipped, [&](std::string_view key) {

@@ -184,6 +184,8 @@ def walk(command, words):
     shown = run("help " + " ".join(words))[1]
     expect(" ".join(words), run(" ".join(words), "--help")[1] == shown, "--help and help differ")
     lines = shown.splitlines()
+    for words_of_ours in ("65536ths", "stays", "ranks", "Say commands", "so many", "made again", "The same", "else "):
+        expect(" ".join(words), words_of_ours not in shown, words_of_ours)
     for said in lines:
         expect(" ".join(words), len(said) <= 80, "too wide", said)
     if words:

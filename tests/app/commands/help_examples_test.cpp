@@ -96,8 +96,7 @@ class HelpExamples : public testing::Test {
     static void shorten(std::string& command) {
         if (command.starts_with("isochron movie run42"))
             command.insert(std::min(command.find(" #"), command.size()), " --rate 2 --size 160 90");
-        if (command.starts_with("isochron generate") &&
-            command.find("--step") == std::string::npos)
+        if (command.starts_with("isochron generate") && command.find("--step") == std::string::npos)
             command.insert(std::min(command.find(" #"), command.size()),
                            command.find("sphere") == std::string::npos ? " --steps 1 --size 16"
                                                                        : " --steps 1");
@@ -150,8 +149,8 @@ TEST_F(HelpExamples, OfEveryCommandWorkAsTheyAreWritten) {
 // Wrapped to the terminal's width; a pseudo terminal is as wide as it is told.
 TEST_F(HelpExamples, AndAllHelpAreAsWideAsTheTerminal) {
     for (const std::string columns : {"50", "120"}) {
-        const ChildResult shown = shell(
-            "script -qec 'stty cols " + columns + "; isochron help build; isochron help' /dev/null");
+        const ChildResult shown = shell("script -qec 'stty cols " + columns +
+                                        "; isochron help build; isochron help' /dev/null");
         std::istringstream lines(shown.out);
         std::size_t widest = 0;
         for (std::string line; std::getline(lines, line);)
@@ -215,7 +214,8 @@ std::string flow_step(std::size_t step) {
         const double x = kSpacing * double(i % kX), y = kSpacing * double(i / kX % kY),
                      z = kSpacing * double(i / kX / kY), t = 0.3 * double(step);
         values[0].push_back(float(101325 + 200 * std::sin(60 * x + t) * std::cos(80 * y)));
-        values[1].push_back(float(300 + 20 * std::exp(-1e4 * (x - 0.03) * (x - 0.03)) * std::cos(t)));
+        values[1].push_back(
+            float(300 + 20 * std::exp(-1e4 * (x - 0.03) * (x - 0.03)) * std::cos(t)));
         for (const double v : {std::sin(90 * y + t), std::cos(80 * x), 0.1 * z})
             values[2].push_back(float(v));
         values[3].push_back(1e-5f);
@@ -230,13 +230,14 @@ std::string flow_step(std::size_t step) {
         appended.append(reinterpret_cast<const char*>(values[i].data()), bytes);
     }
     const std::string extent = fmt::format("0 {} 0 {} 0 {}", kX - 1, kY - 1, kZ - 1);
-    return fmt::format("<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\" "
-                       "header_type=\"UInt32\"><ImageData WholeExtent=\"{0}\" Origin=\"0 0 0\" "
-                       "Spacing=\"{1} {1} {1}\"><FieldData><DataArray type=\"Float64\" "
-                       "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{2}</DataArray>"
-                       "</FieldData><Piece Extent=\"{0}\"><PointData Scalars=\"p\" Vectors=\"U\">{3}"
-                       "</PointData></Piece></ImageData><AppendedData encoding=\"raw\">_",
-                       extent, kSpacing, 0.05 * double(step), arrays) +
+    return fmt::format(
+               "<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\" "
+               "header_type=\"UInt32\"><ImageData WholeExtent=\"{0}\" Origin=\"0 0 0\" "
+               "Spacing=\"{1} {1} {1}\"><FieldData><DataArray type=\"Float64\" "
+               "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{2}</DataArray>"
+               "</FieldData><Piece Extent=\"{0}\"><PointData Scalars=\"p\" Vectors=\"U\">{3}"
+               "</PointData></Piece></ImageData><AppendedData encoding=\"raw\">_",
+               extent, kSpacing, 0.05 * double(step), arrays) +
            appended + "</AppendedData></VTKFile>";
 }
 
@@ -249,9 +250,9 @@ class GuideCommands : public HelpExamples, public testing::WithParamInterface<st
         std::filesystem::create_directory(made_->path() / "run42");
         for (std::size_t step = 0; step < kSteps; ++step)
             made_->write(fmt::format("run42/run_{:04}.vti", step), flow_step(step));
-        const ChildResult built = run_child(
-            test_support::binary_root() + "/isochron",
-            {"build", "run42", "-o", "run42.isochron", "--all-arrays"}, made_->path());
+        const ChildResult built =
+            run_child(test_support::binary_root() + "/isochron",
+                      {"build", "run42", "-o", "run42.isochron", "--all-arrays"}, made_->path());
         ASSERT_EQ(built.status, 0) << built.err;
         EXPECT_EQ(built.err.find("note"), std::string::npos) << built.err;
     }

@@ -56,8 +56,8 @@ std::array<std::uint64_t, 3> place_vtkhdf(const Hdf5File& file, SeriesInfo& info
 /// The layout of a dataset whose last dimensions, before components, match the vertices or cells;
 /// none if they do not.
 std::optional<ArrayLayout> vtkhdf_layout(const Hdf5Dataset& dataset,
-                                        std::array<std::uint64_t, 3> sizes, bool on_cells,
-                                        bool in_steps) {
+                                         std::array<std::uint64_t, 3> sizes, bool on_cells,
+                                         bool in_steps) {
     for (std::uint64_t& size : sizes)
         size -= on_cells ? 1 : 0;
     const auto& dimensions = dataset.dimensions;

@@ -249,9 +249,7 @@ class TiffVolume final : public DecodedFile {
         if (is_in_first(plane))
             return first_;
         const fs::path path =
-            slices_.empty()
-                ? path_.parent_path() / name_of_file(plane)
-                : fs::path(plane.file);
+            slices_.empty() ? path_.parent_path() / name_of_file(plane) : fs::path(plane.file);
         if (!other_ || other_path_ != path) {
             other_.reset();
             other_ = std::make_unique<TiffFile>(path);

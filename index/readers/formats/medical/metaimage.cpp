@@ -260,9 +260,8 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     // The letters say the matrix again.
     const bool has_matrix = header.find({"TransformMatrix", "Rotation", "Orientation"}).has_value();
     std::erase_if(unread, [has_matrix](const std::string& field) {
-        return field == "CenterOfRotation 0 0 0" ||
-               (field.starts_with("AnatomicalOrientation ") &&
-                (field.ends_with(" ???") || has_matrix));
+        return field == "CenterOfRotation 0 0 0" || (field.starts_with("AnatomicalOrientation ") &&
+                                                     (field.ends_with(" ???") || has_matrix));
     });
     if (auto note = note_on_unread(unread))
         info.notes.push_back(std::move(*note));

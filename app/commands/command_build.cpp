@@ -210,7 +210,7 @@ void add_build(Command& program) {
         .option(
             "-o,--output,--out", arguments->out,
             "Index to write, NAME.isochron. An index that exists is replaced once the new one is "
-            "complete; any other file needs --force, and a file that is read stays")
+            "complete; any other file needs --force, and files that are read are never replaced")
         .required()
         .type_name("INDEX");
     add_reading_options(command, *arguments);

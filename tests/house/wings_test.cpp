@@ -31,6 +31,7 @@ const std::map<std::string, Steps> kOrder{
       {"quality"},
       {"frame"},
       {"config", "command_line"},
+      {"telling"},
       {"safe_text", "text", "version"}}},
     {"index",
      {{"extraction", "indexing", "export"},

@@ -396,7 +396,7 @@ def silent_files():
     for name in ("silent.nii", "silent.nii.gz"):
         nibabel.save(image, name)
         yield name
-    xarray.DataArray(values, dims="zyx", coords=dict(z=range(4), y=range(5), x=range(6)), name="p").to_netcdf("silent_xarray.nc")
+    xarray.DataArray(values, dims=list("zyx"), coords=dict(z=range(4), y=range(5), x=range(6)), name="p").to_netcdf("silent_xarray.nc")
     yield "silent_xarray.nc"
     yield nrrd("silent_itk.nrrd", values, "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: "
                "(0,0,0)\nkinds: domain domain domain\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\ncontent: a run\n"

@@ -102,7 +102,7 @@ TEST_F(CommandLine, AppendingKeepsWhatTheIndexWasBuiltWith) {
         EXPECT_EQ(described(), whole) << options.front();
         EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
         const bool anew = options.front() == "--lattice";
-        EXPECT_EQ(appended.out.find("written anew: the paper's tree spans all steps") !=
+        EXPECT_EQ(appended.err.find("written anew: the paper's tree spans all steps") !=
                       std::string::npos,
                   anew);
         std::filesystem::remove(folder.path() / "a.isochron");

@@ -25,15 +25,17 @@ std::string version_details() {
 int main(int argc, char** argv) {
     using namespace isochron::app;
     remove_leftover_files(argc, argv);
-    return run_program({.name = "isochron",
-                        .description = "Explore time-varying volume data immersively.",
-                        .version_details = version_details,
-                        .examples = {"isochron build 'run42/*.vti' -o run42.isochron",
-                                     "isochron explore run42.isochron"},
-                        .first_commands = 5},
-                       {add_info, add_build, add_explore, add_replay, add_movie, add_export,
-                        add_query, add_change, add_measure, add_table, add_verify, add_serve,
-                        add_tell, add_reproduce, add_generate, add_config, add_manual,
-                        add_completion},
-                       argc, argv);
+    return run_program(
+        {.name = "isochron",
+         .description =
+             "Explore isosurfaces of volume data that change over time, on a desktop, in a "
+             "headset or in a CAVE.",
+         .version_details = version_details,
+         .examples = {"isochron build 'run42/*.vti' -o run42.isochron",
+                      "isochron explore run42.isochron"},
+         .first_commands = 5},
+        {add_info, add_build, add_explore, add_replay, add_movie, add_export, add_query, add_change,
+         add_measure, add_table, add_verify, add_serve, add_tell, add_reproduce, add_generate,
+         add_config, add_help, add_manual, add_completion},
+        argc, argv);
 }

@@ -8,6 +8,7 @@
 #include "app/command_line/memory_shortage.h"
 #include "app/end_in_time.h"
 #include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "app/version.h"
 
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -31,6 +33,7 @@
 #include <system_error>
 #include <utility>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace isochron::app {
@@ -39,6 +42,14 @@ namespace {
 /// `, did you mean NEAR?` as the end of a message; empty if `near` is empty.
 std::string meant(const std::string& near) {
     return near.empty() ? near : fmt::format(", did you mean {}?", near);
+}
+
+/// The message on a word that is none of `names`.
+std::string unknown_word(const std::string& word, const std::vector<std::string>& names) {
+    const std::string near = nearest_word(word, names);
+    return fmt::format("{}: unknown{}", word,
+                       near.empty() ? fmt::format(", expected {}", fmt::join(names, ", "))
+                                    : meant(near));
 }
 
 /// `isochron build 'a b.vti' -o ab.isochron`: a command as a user types it in a shell.
@@ -70,6 +81,11 @@ Option& Option::needs(const Option& other) {
     return *this;
 }
 
+Option& Option::hidden() {
+    option_->group("");
+    return *this;
+}
+
 Option& Option::values(int count) {
     option_->expected(count);
     return *this;
@@ -97,8 +113,14 @@ Option& Option::shows_default() {
 
 template <class T>
 Option& Option::between(T low, T high) {
-    option_->check(CLI::Range(low, high));
-    return *this;
+    return accepted_by(
+        [low, high](const std::string& text) {
+            T value{};
+            const bool good =
+                CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
+            return good ? std::string() : fmt::format("expected {} to {}, got {}", low, high, text);
+        },
+        fmt::format("{} to {}", low, high));
 }
 template Option& Option::between(int, int);
 template Option& Option::between(unsigned, unsigned);
@@ -130,12 +152,12 @@ Option& Option::positive() {
 }
 
 Option& Option::existing_file() {
-    option_->check(CLI::ExistingFile);
+    option_->check(CLI::Validator(CLI::ExistingFile).description(""));
     return *this;
 }
 
 Option& Option::existing_folder() {
-    option_->check(CLI::ExistingDirectory);
+    option_->check(CLI::Validator(CLI::ExistingDirectory).description(""));
     return *this;
 }
 
@@ -143,7 +165,7 @@ Option& Option::accepted_by(std::function<std::string(const std::string&)> compl
                             const std::string& form) {
     option_->check(CLI::Validator(
         [complaint = std::move(complaint)](const std::string& text) { return complaint(text); },
-        form));
+        form.empty() ? form : kFormBegins + form));
     return *this;
 }
 
@@ -151,8 +173,31 @@ bool Option::given() const {
     return option_->count() > 0;
 }
 
+namespace {
+
+/// The options that every command has; `set_telling` reads them.
+void add_telling_options(CLI::App& command) {
+    const char* group = "Output";
+    for (const auto& [name, help] :
+         {std::pair<std::string, std::string>{
+              "--json", "Print one JSON object in place of text; its keys: docs/guide/json.md"},
+          {"--quiet", "Print no notes, no progress and no report of files written"},
+          {"--verbose", "Also print on stderr what is opened and what the work took"}})
+        command
+            .add_flag_callback(
+                name, [] {}, help)
+            ->group(group);
+    command.set_help_flag("-h,--help", "Print this help")->group(group);
+    if (CLI::Option* all = command.get_option_no_throw("--help-all"); all && command.get_parent())
+        all->group(""); // told by the program
+}
+
+} // namespace
+
 Command Command::subcommand(const std::string& name, const std::string& description) {
-    return Command(*app_->add_subcommand(name, description), *typed_);
+    CLI::App& added = *app_->add_subcommand(name, description);
+    add_telling_options(added);
+    return Command(added, *typed_);
 }
 
 void Command::require_subcommand() {
@@ -200,6 +245,10 @@ void Command::footer(const std::string& text) {
     app_->footer(text);
 }
 
+void Command::exit_status(int status, const std::string& meaning) {
+    add_exit_status(*app_, status, meaning);
+}
+
 void Command::on_run(std::function<void()> run) {
     app_->callback(std::move(run));
 }
@@ -217,9 +266,26 @@ CommandReference Command::reference() const {
     return reference_of(*app_);
 }
 
+std::string Command::help(const std::vector<std::string>& words) const {
+    const CLI::App* command = app_;
+    for (const std::string& word : words) {
+        const auto all = command->get_subcommands([](const CLI::App*) { return true; });
+        const auto below = std::ranges::find(all, word, &CLI::App::get_name);
+        if (below == all.end()) {
+            std::vector<std::string> names;
+            for (const CLI::App* each : all)
+                names.push_back(each->get_name());
+            throw UsageError(unknown_word(word, names));
+        }
+        command = *below;
+    }
+    return command->get_formatter()->make_help(command, "", CLI::AppFormatMode::Normal);
+}
+
 namespace {
 
 int fail(const char* program, const std::string& what, int status) {
+    print_result(one_line(what));
     print_safely(stderr, "{}: {}\n", program, what);
     return status;
 }
@@ -240,12 +306,8 @@ std::string mistaken(const std::string& word, const std::vector<std::string>& ty
     std::error_code error;
     if (std::filesystem::exists(word, error))
         return fmt::format("{}: a file, not a command; did you mean `{}`?", word,
-                           shell_line(fmt::format("isochron {}", command_for(word)),
-                                      {std::ranges::find(typed, word), typed.end()}));
-    const std::string near = nearest_word(word, names);
-    return fmt::format("{}: unknown{}", word,
-                       near.empty() ? fmt::format(", expected {}", fmt::join(names, ", "))
-                                    : meant(near));
+                           shell_line(fmt::format("isochron {}", command_for(word)), typed));
+    return unknown_word(word, names);
 }
 
 /// The message about arguments that the command does not know.
@@ -257,8 +319,8 @@ std::string unexpected(const CLI::App& command) {
         return fmt::format("{}: one argument too many", fmt::join(unknown, " "));
     std::vector<std::string> names;
     for (const CLI::Option* known : command.get_options())
-        for (const std::string& name : known->get_lnames())
-            names.push_back("--" + name);
+        if (!known->get_group().empty() && !known->get_lnames().empty())
+            names.push_back("--" + known->get_lnames().front());
     const std::string word = option->substr(0, option->find('='));
     return fmt::format("{}: unknown option{}", word, meant(nearest_word(word, names)));
 }
@@ -328,10 +390,35 @@ std::vector<std::string> arguments_from(const CLI::App& program, int argc,
                 break;
             }
     }
-    if (!arguments.empty() && is_data(program, arguments.front()))
+    if (arguments.empty())
+        arguments.emplace_back("--help");
+    const auto first = std::ranges::find_if(
+        arguments, [](const std::string& word) { return !word.starts_with('-'); });
+    if (first != arguments.end() && is_data(program, *first))
         arguments.insert(arguments.begin(), "explore");
     return arguments;
 }
+
+/// Tells at its end what a command took.
+class TellsCost {
+  public:
+    TellsCost() = default;
+    TellsCost(const TellsCost&) = delete;
+    TellsCost& operator=(const TellsCost&) = delete;
+    ~TellsCost() {
+        if (!tells(Telling::verbose))
+            return;
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began_;
+        rusage used{};
+        getrusage(RUSAGE_SELF, &used);
+        constexpr double kPage = 1024;
+        print_detail("took {:.2f} s, at most {} of memory", took.count(),
+                     human_bytes(kPage * static_cast<double>(used.ru_maxrss)));
+    }
+
+  private:
+    std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
 
 /// Errors of the commands pass through; errors of the parser become an exit status.
 int parse_and_run(const ProgramText& text,
@@ -340,10 +427,12 @@ int parse_and_run(const ProgramText& text,
     CLI::App program{text.description, text.name};
     program.set_version_flag("--version",
                              fmt::format("{} {}{}", text.name, kVersion,
-                                         text.version_details ? text.version_details() : ""));
+                                         text.version_details ? text.version_details() : ""),
+                             "Print the version and what this build has");
     program.require_subcommand(1);
-    program.set_help_all_flag("--help-all", "Print the help of every subcommand and exit");
-    show_examples(program);
+    program.set_help_all_flag("--help-all", "Print the help of every command");
+    write_help(program);
+    add_telling_options(program);
     if (text.examples.size() > 0)
         add_examples(program, {text.examples.begin(), text.examples.end()});
     std::vector<std::string> typed;
@@ -353,6 +442,9 @@ int parse_and_run(const ProgramText& text,
     if (text.first_commands > 0)
         begin_with_first(program, text.first_commands);
     typed = arguments_from(program, argc, argv);
+    set_telling(typed);
+    print_detail("version {}", kVersion);
+    const TellsCost cost;
     try {
         program.parse(std::vector<std::string>(typed.rbegin(), typed.rend())); // as CLI11 wants
     } catch (const CLI::Success& request) {
@@ -412,6 +504,7 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
     } catch (const std::exception& error) {
         return fail(text.name, error.what(), 1);
     }
+    print_result();
     // Output that did not arrive, for example on a full disk behind a redirection, is an error.
     if (std::fflush(stdout) != 0)
         return fail(text.name, "the output cannot be written", 1);

@@ -47,6 +47,8 @@ class Option {
     Option& group(const std::string& heading);
     /// Refused if `other` is not given.
     Option& needs(const Option& other);
+    /// Help says nothing of it: another spelling of earlier versions.
+    Option& hidden();
     /// Takes exactly `count` values.
     Option& values(int count);
     /// Takes one value each time that it is given, and may be given several times.
@@ -88,16 +90,20 @@ class Command {
     Command subcommand(const std::string& name, const std::string& description);
     /// The user must name one of the subcommands.
     void require_subcommand();
-    /// `names` is `--long`, `-s,--long`, or a word for a positional argument. `value` must live
-    /// until the command has run. Its type says what is parsed: a path, a string, a number, a
-    /// std::optional of one, or a std::vector of them.
+    /// `names` is `--long`, `-s,--long`, or a word for a positional argument. Further long names are
+    /// spellings of earlier versions, which are accepted and not told: `-o,--output,--out`. `value`
+    /// must live until the command has run. Its type says what is parsed: a path, a string, a number,
+    /// a std::optional of one, or a std::vector of them.
     template <class T>
     Option option(const std::string& names, T& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);
-    /// Examples at the beginning of the command's help: commands as a user types them.
+    /// Examples at the end of the command's help: commands as a user types them.
     void examples(const std::vector<std::string>& lines);
-    /// Text below the options in the command's help.
+    /// Text below the options in the command's help. Lines that begin with spaces stay lines; others
+    /// are parts of a paragraph.
     void footer(const std::string& text);
+    /// What an exit status of the command means, where it is more than `done` and `bad input`.
+    void exit_status(int status, const std::string& meaning);
     void on_run(std::function<void()> run);
     /// The words behind the program's name, as the user typed them.
     const std::vector<std::string>& typed() const { return *typed_; }
@@ -106,6 +112,9 @@ class Command {
     std::string typed_with(const std::vector<std::string>& more) const;
     /// Its options, and its subcommands added so far.
     CommandReference reference() const;
+    /// The help of the program, or of the command that `words` lead to, as wide as the terminal.
+    /// @throws UsageError: there is no such command
+    std::string help(const std::vector<std::string>& words) const;
 
   private:
     CLI::App* app_;

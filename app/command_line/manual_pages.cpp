@@ -1,12 +1,16 @@
 // The help texts as roff.
 #include "app/command_line/manual_pages.h"
 
+#include "app/command_line/help_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -53,62 +57,61 @@ std::string option_line(const OptionReference& option) {
     return line;
 }
 
-std::string synopsis(const CommandPath& path) {
-    std::string line =
-        fmt::format("\\fB{}\\fR", roff(fmt::format("{}", fmt::join(path.words, " "))));
-    if (!path.command->commands.empty())
-        return line + " \\fICOMMAND\\fR [\\fIOPTION\\fR...]";
-    line += " [\\fIOPTION\\fR...]";
-    for (const OptionReference& option : path.command->options)
-        if (option.names.empty())
-            line += fmt::format(fmt::runtime(option.required ? " \\fI{}\\fR" : " [\\fI{}\\fR]"),
-                                roff(option.value));
-    return line;
+std::string capitals(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char letter) { return char(std::toupper(letter)); });
+    return text;
 }
 
-/// The headings in the order in which they first appear, arguments before options.
-std::vector<std::string> headings(const CommandReference& command) {
-    std::vector<std::string> found;
-    for (const OptionReference& option : command.options)
-        if (option.names.empty())
-            found = {option.heading};
-    for (const OptionReference& option : command.options)
-        if (std::ranges::find(found, option.heading) == found.end())
-            found.push_back(option.heading);
-    return found;
+/// A section with an entry for each of `rows`. @param name,text of a row
+template <class Rows, class Name, class Text>
+std::string section(const std::string& heading, const Rows& rows, const Name& name,
+                    const Text& text) {
+    if (rows.empty())
+        return {};
+    std::string lines = fmt::format(".SH \"{}\"\n", roff(capitals(heading)));
+    for (const auto& row : rows)
+        lines += fmt::format(".TP\n{}\n{}\n", name(row), roff(text(row)));
+    return lines;
+}
+
+/// Lines that stay lines.
+std::string lines_section(const std::string& heading, const std::string& lines) {
+    return lines.empty() ? lines : fmt::format(".SH {}\n.nf\n{}\n.fi\n", heading, roff(lines));
 }
 
 std::string page(const CommandPath& path, const std::string& version,
                  const std::vector<CommandPath>& all) {
+    constexpr std::size_t kColumns = 72; // as man(1) leaves them of 80
     const CommandReference& command = *path.command;
-    std::string title = page_name(path);
-    std::ranges::transform(title, title.begin(),
-                           [](unsigned char letter) { return char(std::toupper(letter)); });
     std::string text = fmt::format(".\\\" Made by `isochron manual` from the program's own help.\n"
                                    ".TH {} 1 \"\" \"{}\" \"Isochron manual\"\n.ad l\n"
                                    ".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}\n.SH DESCRIPTION\n{}\n",
-                                   roff(title), version, roff(page_name(path)),
+                                   roff(capitals(page_name(path))), version, roff(page_name(path)),
                                    roff(command.help.substr(0, command.help.find('.'))),
-                                   synopsis(path), roff(command.help));
-    if (!command.examples.empty())
-        text += fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n",
-                            roff(fmt::format("{}", fmt::join(command.examples, "\n"))));
-    if (!command.commands.empty()) {
-        text += ".SH COMMANDS\n";
-        for (const CommandReference& below : command.commands)
-            text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(below.name), roff(below.help));
+                                   roff(usage_of(path)), roff(command.help));
+    const auto bold = [](const std::string& name) { return fmt::format("\\fB{}\\fR", roff(name)); };
+    text += section(
+        "Commands", command.commands, [&](const auto& below) { return bold(below.name); },
+        [](const auto& below) { return below.help; });
+    for (const std::string& heading : headings_of(command)) {
+        std::vector<OptionReference> options;
+        std::ranges::copy_if(command.options, std::back_inserter(options),
+                             [&](const auto& option) { return option.heading == heading; });
+        text +=
+            section(heading, options, option_line, [](const auto& option) { return option.help; });
     }
-    for (const std::string& heading : headings(command)) {
-        std::string capitals = heading;
-        std::ranges::transform(capitals, capitals.begin(),
-                               [](unsigned char letter) { return char(std::toupper(letter)); });
-        text += fmt::format(".SH \"{}\"\n", roff(capitals));
-        for (const OptionReference& option : command.options)
-            if (option.heading == heading)
-                text += fmt::format(".TP\n{}\n{}\n", option_line(option), roff(option.help));
-    }
-    if (!command.footer.empty())
-        text += fmt::format(".SH NOTES\n.nf\n{}\n.fi\n", roff(command.footer));
+    text += lines_section("NOTES", footer_lines(command.footer, kColumns));
+    text += section(
+        "Exit status", command.exits,
+        [&](const auto& exit) { return bold(std::to_string(exit.first)); },
+        [](const auto& exit) { return exit.second; });
+    for (const auto& [heading, rows] :
+         {std::pair("Files", files_of(path)), std::pair("Environment", environment_of(path))})
+        text += section(
+            heading, rows, [&](const auto& row) { return bold(row.name); },
+            [](const auto& row) { return row.help; });
+    text += lines_section("EXAMPLES", fmt::format("{}", fmt::join(command.examples, "\n")));
     std::vector<std::string> others;
     for (const CommandPath& other : all)
         if (other.command != path.command)

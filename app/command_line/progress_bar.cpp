@@ -2,6 +2,7 @@
 #include "app/command_line/progress_bar.h"
 
 #include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,8 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(std::string_view name, double fraction) {
+    if (!tells(Telling::usual))
+        return;
     const std::string phase = one_line(name);
     const bool new_phase = phase != phase_;
     const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));

@@ -12,7 +12,7 @@
 namespace isochron::app {
 
 /// On a terminal: one bar per phase, or one for all phases, with the remaining time, redrawn in
-/// place. Elsewhere (a log): one line per phase.
+/// place. Elsewhere (a log): one line per phase. With `--quiet`: nothing.
 ///
 ///     ProgressBar bar;
 ///     index::build(..., bar.progress());

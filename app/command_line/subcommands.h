@@ -21,6 +21,7 @@ void add_serve(Command& program);
 void add_reproduce(Command& program);
 void add_tell(Command& program);
 void add_config(Command& program);
+void add_help(Command& program);
 void add_manual(Command& program);
 void add_completion(Command& program);
 

@@ -10,6 +10,7 @@
 #include "app/indexing/series_report.h"
 #include "app/output/guarded_outputs.h"
 #include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/readers/formats/format.h"
@@ -17,6 +18,7 @@
 #include "stereo/cluster.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 #include <memory>
@@ -44,16 +46,44 @@ SafeText summary(const fs::path& out, const index::IndexFile& file) {
                          stats.high, with_space(one.value_unit), array_sizes(array));
     }
     text += SafeText("\n");
-    for (const std::string& note : info.notes)
-        text += SafeText("note: {}\n", note);
-    if (const std::string gaps = gaps_text(info); !gaps.empty())
-        text += SafeText("note: a gap {}\n", gaps);
-    const index::IndexStats& stats = file.stats();
-    if (const std::uint64_t all = info.grid.vertex_count() * info.steps(); stats.nan_values == all)
-        text += SafeText("note: all {} values are missing: no surface can be "
-                         "found\n",
-                         grouped(all));
     return text;
+}
+
+/// What is to be known of the index that was written.
+std::vector<std::string> notes_of(const index::IndexFile& file) {
+    const index::SeriesInfo& info = file.info();
+    std::vector<std::string> notes = info.notes;
+    if (const std::string gaps = gaps_text(info); !gaps.empty())
+        notes.push_back("a gap " + gaps);
+    if (const std::uint64_t all = info.grid.vertex_count() * info.steps();
+        file.stats().nan_values == all)
+        notes.push_back(
+            fmt::format("all {} values are missing: no surface can be found", grouped(all)));
+    return notes;
+}
+
+/// Reports the index under the name that was asked for. @param written false: it held every step already
+void report(const fs::path& out, bool written, std::vector<std::string> more_notes) {
+    const auto file = index::IndexFile::open(out);
+    std::vector<std::string> notes = written ? notes_of(*file) : std::vector<std::string>();
+    notes.insert(notes.end(), more_notes.begin(), more_notes.end());
+    for (const std::string& note : notes)
+        print_note("note: {}", note);
+    nlohmann::ordered_json arrays = nlohmann::ordered_json::array();
+    for (std::size_t number = 0; number < file->arrays(); ++number)
+        arrays.push_back(array_json(file->array(number)));
+    tell_result({{"file", out.string()},
+                 {"written", written},
+                 {"vertices", std::vector<std::size_t>(file->info().grid.vertices.begin(),
+                                                       file->info().grid.vertices.end())},
+                 {"steps", file->info().steps()},
+                 {"arrays", arrays},
+                 {"file_bytes", file->stats().file_bytes},
+                 {"notes", notes}});
+    if (written)
+        print_report(summary(out, *file));
+    else
+        print_report("{}: holds every step of these files already\n", out.string());
 }
 
 /// Opens the files. Where they leave the choice among several arrays, tells the command for each.
@@ -92,11 +122,11 @@ void guard_index(const BuildArguments& arguments, std::vector<fs::path> files,
 
 void build_with(index::Team& team, const BuildArguments& asked, const Command& command,
                 const CancelOnSignal& signals) {
-    const bool reports = team.rank() == 0 && !asked.quiet;
+    const bool leads = team.rank() == 0;
     AskedBuild build(asked, team);
     const BuildArguments& arguments = build.arguments();
-    if (const std::string note = former_tiers_note(asked.tiers); reports && !note.empty())
-        print_safely(stderr, "isochron: {}\n", note);
+    if (const std::string note = former_tiers_note(asked.tiers); leads && !note.empty())
+        print_note("{}", note);
     bool has_work = false;
     std::vector<std::string> left_out;
     team.together([&] {
@@ -110,8 +140,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
     if (const std::string note = build.reread(); reports && !note.empty())
         print_safely(stderr, "isochron: {}\n", note);
     if (!has_work) {
-        if (reports)
-            print_safely("{}: holds every step of these files already\n", arguments.out.string());
+        if (leads)
+            report(arguments.out, false, {});
         return;
     }
     std::string anew;
@@ -119,16 +149,14 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
         ProgressBar bar(stderr, build.bytes(), ProgressBar::Of::all);
         anew = build.write([&](std::string_view phase, double fraction) {
             signals.check();
-            if (reports)
+            if (leads)
                 bar.show(phase, fraction);
         });
     }
-    if (reports)
-        print_safely("{}{}", summary(arguments.out, *index::IndexFile::open(arguments.out)),
-                     anew.empty() ? SafeText() : SafeText("note: written anew: {}\n", anew));
-    if (reports)
-        for (const std::string& array : left_out)
-            print_safely("note: {}\n", array);
+    if (!anew.empty())
+        left_out.insert(left_out.begin(), "written anew: " + anew);
+    if (leads)
+        report(arguments.out, true, left_out);
 }
 
 /// Prints `what` and ends the job. Not all processes know of the error, so none can be waited for.
@@ -171,41 +199,43 @@ void run_build(const BuildArguments& arguments, const Command& command) {
 
 void add_build(Command& program) {
     auto arguments = std::make_shared<BuildArguments>();
-    Command command =
-        program.subcommand("build", "Build an index of a series of volume files: one file.");
+    Command command = program.subcommand(
+        "build", "Build an index, which is one file, of the volume files of a series.");
     command.examples({"isochron build 'run42/*.vti' -o run42.isochron",
                       "isochron build 'run42/*.vti' -o run42.isochron --append"});
     command
         .option(
             "files", arguments->files,
-            "A .pvd, or the files of the steps in any order, also as quoted patterns ('t*.vti'); "
-            "or an index, also one of the previous file version. The path of an HDF5 dataset "
-            "may follow the file (run.h5:/fields/rho). Known are " +
-                index::known_extensions())
+            "A .pvd file, or the files of all steps in any order; a quoted pattern ('t*.vti') "
+            "stands for all files that match. An index, also one of an earlier version, is read "
+            "like a file. A dataset within an HDF5 file is run.h5:/fields/rho")
         .required()
-        .type_name("FILES");
+        .type_name("FILE");
     command
-        .option("-o,--out", arguments->out,
-                "Index to write. An existing one is replaced when the new one is complete; another "
-                "file only with --force, and never one that is read")
+        .option(
+            "-o,--output,--out", arguments->out,
+            "Index to write, NAME.isochron. An index that exists is replaced once the new one is "
+            "complete; any other file needs --force, and files that are read are never replaced")
         .required()
-        .type_name("NAME.isochron");
+        .type_name("INDEX");
     add_reading_options(command, *arguments);
 
     const auto [lattice, variation] = add_index_options(command, *arguments);
     command
-        .option("--timeout", arguments->timeout,
-                "In an MPI job: end the job when a process is silent for this many seconds")
+        .option(
+            "--timeout", arguments->timeout,
+            "In a job of several processes (mpirun): end the job once a process has been silent "
+            "for this long")
         .between(0.1, 86400.0)
         .shows_default()
+        .type_name("SECONDS")
         .group("Index");
     command.flag("--force", arguments->build.replaces_any,
-                 "Let --out replace a file that is no index");
-    command.flag("--quiet", arguments->quiet, "Print errors only");
-    command.footer(
-        "Exit status: 0 done, 1 bad input, 2 bad usage, 130 interrupted. Unless it is "
-        "0, no file is left behind\nand an older index is unchanged. mpirun -n N isochron "
-        "build ... spreads the work over N processes that\nshare a file system.");
+                 "Let --output replace a file that is no index");
+    command.footer("A build that ends with an error leaves no file behind, and an older index "
+                   "unchanged. `mpirun -n N isochron build ...` spreads the work over N processes "
+                   "that share a file system.\n\nExtensions of files that can be read: " +
+                   index::known_extensions());
     command.on_run([arguments, lattice = lattice, variation = variation, command] {
         arguments->build.with_tree = lattice.given() || variation.given();
         set_up_readers(*arguments);

@@ -4,7 +4,7 @@
 #include "app/commands/id_file.h"
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
@@ -31,7 +31,7 @@ struct ChangeArguments {
     std::optional<std::uint32_t> to_fraction;
     std::uint32_t repeats = 5;
     std::optional<std::string> array;
-    bool json = false, force = false;
+    bool force = false;
 };
 
 /// The cells that only one of two sets has, ascending.
@@ -59,7 +59,7 @@ Difference sorted(const index::CellChange& change) {
 void run_change(const ChangeArguments& arguments) {
     if (!arguments.to_step && !arguments.to_isovalue && !arguments.to_fraction)
         throw UsageError("--to-step or --to-isovalue is missing");
-    const auto file = array_called(open_index(arguments.file), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array);
     index::expect_narrow_ids(*file);
     std::vector<Output> outputs;
     for (const auto& out : {arguments.added, arguments.removed})
@@ -93,23 +93,19 @@ void run_change(const ChangeArguments& arguments) {
         write_ids(arguments.added, found.added);
     if (!arguments.removed.empty())
         write_ids(arguments.removed, found.removed);
-    if (arguments.json) {
-        const nlohmann::ordered_json j{{"file", arguments.file.string()},
-                                       {"array", file->info().array},
-                                       {"step", from.instant.step},
-                                       {"fraction", from.instant.fraction},
-                                       {"isovalue", from.isovalue},
-                                       {"to_step", to.instant.step},
-                                       {"to_fraction", to.instant.fraction},
-                                       {"to_isovalue", to.isovalue},
-                                       {"added", found.added.size()},
-                                       {"removed", found.removed.size()},
-                                       {"searched_anew", whole},
-                                       {"change_ms", middle->count()}};
-        print_safely(SafeText::json(j));
-        return;
-    }
-    print_safely("isovalue {} at step {} to isovalue {} at step {}\n"
+    tell_result({{"file", arguments.file.string()},
+                 {"array", file->info().array},
+                 {"step", from.instant.step},
+                 {"fraction", from.instant.fraction},
+                 {"isovalue", from.isovalue},
+                 {"to_step", to.instant.step},
+                 {"to_fraction", to.instant.fraction},
+                 {"to_isovalue", to.isovalue},
+                 {"added", found.added.size()},
+                 {"removed", found.removed.size()},
+                 {"searched_anew", whole},
+                 {"change_ms", middle->count()}});
+    print_answer("isovalue {} at step {} to isovalue {} at step {}\n"
                  "added            {}\n"
                  "removed          {}\n"
                  "found by         {}\n"
@@ -132,43 +128,54 @@ void add_change(Command& program) {
     command.examples({"isochron change run42.isochron --isovalue 100 --step 0 --to-step 1",
                       "isochron change run42.isochron --isovalue 100 --step 0 --to-step 1 --added "
                       "come.bin --removed gone.bin"});
-    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
-    command.option("--array", arguments->array,
-                   "Array to search, if the index has several (default: its first)");
-    command.option("--isovalue", arguments->isovalue, "From this isovalue").required();
-    command.option("--step", arguments->step, "From this step").required();
-    command.option("--to-isovalue", arguments->to_isovalue, "To this isovalue (default: the same)");
-    command.option("--to-step", arguments->to_step, "To this step (default: the same)");
+    command.option("file", arguments->file, "Index to search").required().type_name("INDEX");
+    command
+        .option("--array", arguments->array,
+                "Array to search, where the index has several (default: its first)")
+        .type_name("NAME");
+    command.option("--isovalue", arguments->isovalue, "Isovalue before the change")
+        .required()
+        .type_name("VALUE");
+    command.option("--step", arguments->step, "Step before the change, from 0")
+        .required()
+        .type_name("STEP");
+    command
+        .option("--to-isovalue", arguments->to_isovalue,
+                "Isovalue after the change (default: the one before)")
+        .type_name("VALUE");
+    command
+        .option("--to-step", arguments->to_step, "Step after the change (default: the one before)")
+        .type_name("STEP");
     command
         .option("--fraction", arguments->fraction,
-                "From so many 65536ths of the way to the next step, as `query --fraction`")
+                "Begin between --step and the step behind it: 32768 is halfway, as for `query`")
         .between(0u, 65535u)
-        .shows_default();
+        .shows_default()
+        .type_name("FRACTION");
     command
         .option("--to-fraction", arguments->to_fraction,
-                "To so many of them (default: the same, or 0 with --to-step)")
-        .between(0u, 65535u);
+                "End between --to-step and the step behind it (default: --fraction, or 0 with "
+                "--to-step)")
+        .between(0u, 65535u)
+        .type_name("FRACTION");
     command
         .option("--added", arguments->added,
-                "Write the ids of the cells that become active, as `query --ids` does")
-        .type_name("OUT.bin");
+                "Write the numbers of the cells that become active to this file, as `query "
+                "--output` does")
+        .type_name("FILE");
     command
         .option("--removed", arguments->removed,
-                "Write the ids of the cells that stop being active")
-        .type_name("OUT.bin");
+                "Write the numbers of the cells that stop being active to this file")
+        .type_name("FILE");
     command.flag("--force", arguments->force,
-                 "Let --added and --removed replace any file but one that is read; else they "
-                 "replace only ids");
+                 "Let --added and --removed replace any file but one that is read; without this "
+                 "option they replace only numbers of cells");
     command
         .option("--repeat", arguments->repeats,
-                "Number of repetitions; the median of their times is printed")
+                "Number of times that the search is repeated; the median of the times is printed")
         .between(1u, 1000u)
-        .shows_default();
-    command.flag("--json", arguments->json, "Print one JSON object");
-    command.footer("JSON keys: file, array, step, fraction, isovalue, to_step, to_fraction, "
-                   "to_isovalue, added, removed (numbers "
-                   "of cells), searched_anew\n(true if that was cheaper than finding the changes), "
-                   "change_ms (median).");
+        .shows_default()
+        .type_name("COUNT");
     command.on_run([arguments] { run_change(*arguments); });
 }
 

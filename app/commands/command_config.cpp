@@ -4,15 +4,18 @@
 #include "app/config/display_config_text.h"
 #include "app/config/pvx_file.h"
 #include "app/output/guarded_outputs.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -65,24 +68,31 @@ void import(ImportOptions options) {
         index::NewFile file(*options.out);
         file.write_at(0, std::as_bytes(std::span(text)));
         file.commit();
+        tell_result({{"file", *options.out}});
     } else {
-        print_safely(SafeText::data(text));
+        tell_result({{"configuration", text}});
+        print_answer(SafeText::data(text));
     }
+    std::vector<std::string> notes;
     for (const std::string& note : imported.notes)
-        print_safely(stderr, "note: {}\n", note);
+        notes.push_back("note: " + note);
     for (const ConfigProblem& problem : problems_of(config))
-        if (asks_for_tracker(problem))
-            print_safely(stderr,
-                         "note: {}: {}: its table is to be added (docs/guide/trackers.md)\n",
-                         config.name, problem.text);
-        else
-            print_safely(stderr, "{}\n", line_of(problem, config));
+        notes.push_back(asks_for_tracker(problem)
+                            ? fmt::format("note: {}: {}: its table is to be added "
+                                          "(docs/guide/trackers.md)",
+                                          config.name, problem.text)
+                            : line_of(problem, config));
+    tell_result({{"notes", notes}});
+    for (const std::string& note : notes)
+        print_note("{}", note);
 }
 
 } // namespace
 
 void add_config(Command& program) {
-    Command config = program.subcommand("config", "Import configurations and print their schema.");
+    Command config = program.subcommand(
+        "config",
+        "Convert configurations of other programs, or print the schema of configurations.");
     config.examples({"isochron config import cave.pvx -o my-cave.toml",
                      "isochron config schema > isochron.schema.json"});
     config.require_subcommand();
@@ -92,27 +102,35 @@ void add_config(Command& program) {
     command.examples(
         {"isochron config import cave.pvx -o my-cave.toml",
          "isochron config import cave.pvx -o in-feet.toml --unit 0.3048 --origin 0 1.6 0"});
-    command.option("file", options->file, "ParaView's description of a CAVE (.pvx)").required();
-    command.option("-o,--out", options->out, "Configuration to write (default: to the terminal)");
+    command.option("file", options->file, "Description of a CAVE that ParaView reads (.pvx)")
+        .required()
+        .type_name("FILE");
+    command.option("-o,--output,--out", options->out, "Configuration to write (default: print it)")
+        .type_name("FILE");
     command.flag("--force", options->force,
-                 "Let --out replace any file but the .pvx; else only the same configuration");
+                 "Let --output replace any file but the .pvx file; without this option it replaces "
+                 "only the same configuration");
     command
         .option("--unit", options->pvx.meters_per_unit,
-                "Meters per unit of the file: 0.3048 for feet, 0.001 for millimeters")
+                "Length of the file's unit: 0.3048 for feet, 0.001 for millimeters")
         .positive()
-        .shows_default();
+        .shows_default()
+        .type_name("METERS");
     command
         .option("--origin", options->origin,
-                "Position of the file's origin in the room, in meters; 0 1.6 0 if its corners are "
+                "Position in the room of the file's origin; 0 1.6 0 if the file's corners are "
                 "relative to the eyes")
-        .values(3);
-    command.footer("Exit status: 0 done, 1 bad input, 2 bad usage.");
+        .values(3)
+        .type_name("METERS METERS METERS");
     command.on_run([options] { import(*options); });
     Command schema = config.subcommand(
         "schema",
-        "Print the JSON schema of configurations; editors check and complete files with it.");
+        "Print the JSON schema of configurations, with which editors check and complete files.");
     schema.examples({"isochron config schema", "isochron config schema > isochron.schema.json"});
-    schema.on_run([] { print_safely(SafeText::data(config_schema())); });
+    schema.on_run([] {
+        tell_result(nlohmann::ordered_json::parse(config_schema()));
+        print_answer(SafeText::data(config_schema()));
+    });
 }
 
 } // namespace isochron::app

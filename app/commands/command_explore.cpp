@@ -7,12 +7,15 @@
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_note.h"
 #include "app/output/room_plan.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -45,10 +48,15 @@ bool only_describes(const ExploreOptions& options) {
     if (!options.list_devices)
         return false;
     const Config config = configure(options);
-    for (const std::string& line : describe_devices(config))
-        print_safely("{}\n", line);
-    for (const ConfigProblem& problem : device_problems_of(config))
-        print_safely("{}\n", line_of(problem, config));
+    const std::vector<std::string> devices = describe_devices(config);
+    const std::vector<ConfigProblem> problems = device_problems_of(config);
+    tell_result({{"configuration", config.name},
+                 {"devices", devices},
+                 {"problems", json_of(problems, config)}});
+    for (const std::string& line : devices)
+        print_answer("{}\n", line);
+    for (const ConfigProblem& problem : problems)
+        print_answer("{}\n", line_of(problem, config));
     return true;
 }
 
@@ -57,7 +65,7 @@ bool only_describes(const ExploreOptions& options) {
 void add_explore(Command& program) {
     auto options = std::make_shared<ExploreOptions>();
     Command command =
-        program.subcommand("explore", "Explore an index, or files of values, in a window, live.");
+        program.subcommand("explore", "Explore an index, or volume files, in a window.");
     command.examples({"isochron explore run42.isochron", "isochron explore --check-config cave4"});
     add_explore_options(command, *options);
     command.on_run([options] {

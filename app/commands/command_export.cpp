@@ -8,7 +8,7 @@
 #include "app/indexing/open_index.h"
 #include "app/output/export_request.h"
 #include "app/output/guarded_outputs.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/export/simplified_mesh.h"
@@ -45,7 +45,7 @@ struct ExportArguments {
     MeshCuts cuts;
     std::optional<double> rate;
     std::uint32_t fraction = 0;
-    bool no_normals = false, quantize = false, compress = false, force = false, json = false;
+    bool no_normals = false, quantize = false, compress = false, force = false;
 };
 
 /// @param has what the formats have; null: all formats
@@ -71,10 +71,10 @@ Target target_of(const ExportArguments& arguments) {
     const index::SurfaceFormat* const by_extension =
         folder ? nullptr : index::surface_format_of(out);
     if (!by_name && !by_extension)
-        throw UsageError(fmt::format(
-            "--out: expected a name that ends in .ply, .stl, .obj, .vtp, .glb, .usda or .csv, or a "
-            "folder and --format, got {}",
-            arguments.out));
+        throw UsageError(fmt::format("--output: expected a name that ends in .ply, .stl, .obj, "
+                                     ".vtp, .glb, .usda or .csv, or a "
+                                     "folder and --format, got {}",
+                                     arguments.out));
     const index::SurfaceFormat& format = by_name ? *by_name : *by_extension;
     if (folder)
         return {&format, out / (arguments.file.stem().string() + std::string(format.extension))};
@@ -103,7 +103,7 @@ index::ValuesWish values_of(const ExportArguments& arguments, const index::Index
         range = {arguments.range[0], arguments.range[1]};
     if (!(range[0] < range[1]) && !arguments.range.empty())
         throw UsageError(
-            fmt::format("--range: expected LOW below HIGH, got {} {}", range[0], range[1]));
+            fmt::format("--color-range: expected LOW below HIGH, got {} {}", range[0], range[1]));
     return {.array = number, .color_of = [range, colors = render::color_map(*map)](float value) {
                 return color_at(colors, (value - range[0]) / (range[1] - range[0]));
             }};
@@ -114,10 +114,10 @@ double factor_between(const std::string& from, const std::string& to) {
     const auto source = index::meters_in(from), wanted = index::meters_in(to);
     if (!wanted)
         throw UsageError(
-            fmt::format("--unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to));
+            fmt::format("--length-unit: expected m, km, cm, mm, um, nm, in or ft, got {}", to));
     if (!source)
         throw UsageError(fmt::format(
-            "--unit {}: the data have {}; build the index with --length-unit", to,
+            "--length-unit {}: the data have {}; build the index with --length-unit", to,
             from.empty() ? "no unit of length" : "the unit " + from + ", which is not a length"));
     return *source / *wanted;
 }
@@ -200,39 +200,30 @@ std::string sizes_of(const index::ExportCount& count, const index::SurfaceFormat
 void print(const ExportArguments& arguments, const index::SurfaceFormat& format,
            const std::vector<fs::path>& files, const index::ExportRequest& request,
            const index::ExportCount& count, const SimplifiedBy& moved) {
-    if (arguments.json) {
-        nlohmann::ordered_json names = nlohmann::ordered_json::array();
-        for (const fs::path& file : files)
-            names.push_back(file.string());
-        nlohmann::ordered_json j{{"files", names},
-                                 {"steps", request.plan.steps},
-                                 {"fraction", request.plan.fraction},
-                                 {"isovalues", arguments.isovalues},
-                                 {"cells", count.cells},
-                                 {"vertices", count.vertices},
-                                 {"triangles", count.triangles},
-                                 {"empty_steps", count.empty_steps}};
-        if (arguments.cuts.simplify) {
-            j["error"] = moved.moved;
-            j["error_cells"] = moved.cells;
-        }
-        print_safely(SafeText::json(j));
-        return;
-    }
-    print_safely("wrote {}{}: {} step{}, {}\n", files.front().string(),
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const fs::path& file : files)
+        names.push_back(file.string());
+    tell_result({{"files", names},
+                 {"steps", request.plan.steps},
+                 {"fraction", request.plan.fraction},
+                 {"isovalues", arguments.isovalues},
+                 {"cells", count.cells},
+                 {"vertices", count.vertices},
+                 {"triangles", count.triangles},
+                 {"empty_steps", count.empty_steps}});
+    print_report("wrote {}{}: {} step{}, {}\n", files.front().string(),
                  files.size() == 1 ? "" : fmt::format(" and {} more", files.size() - 1),
                  request.plan.steps.size(), request.plan.steps.size() == 1 ? "" : "s",
                  sizes_of(count, format));
-    if (arguments.cuts.simplify)
-        print_safely("simplified: the surface has moved by at most {} ({})\n",
+    if (arguments.cuts.simplify) {
+        tell_result({{"error", moved.moved}, {"error_cells", moved.cells}});
+        print_report("simplified: the surface has moved by at most {} ({})\n",
                      upper_text(moved.moved, request.plan.length_unit),
                      upper_text(moved.cells, "cells"));
+    }
     if (!count.empty_steps.empty())
-        print_safely(
-            stderr,
-            "isochron: note: {} of {} steps have no surface at this isovalue, the first is "
-            "step {}\n",
-            count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
+        print_note("note: {} of {} steps have no surface at this isovalue, the first is step {}",
+                   count.empty_steps.size(), request.plan.steps.size(), count.empty_steps.front());
 }
 
 /// Says by how much single precision moves vertices, where that is much of a cell, as of thin layers.
@@ -275,7 +266,7 @@ void run_export(const ExportArguments& arguments) {
     // Each value is looked at twice, soon after each other: to find cells and to place vertices.
     constexpr std::uint64_t kMostKept = std::uint64_t{128} << 20; // [byte]
     const std::uint64_t kept = std::min(kMostKept, index::memory_limit() / 4);
-    const auto file = array_called(open_index(arguments.file, kept), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array, kept, arguments.color_by);
     keep_few_steps(*file);
     index::ExportRequest request = request_of(arguments, *file, *target.format);
     SimplifiedBy moved;
@@ -311,96 +302,110 @@ void add_export(Command& program) {
         "export", "Write surfaces as files for other programs: meshes, or tables of cells.");
     command.examples({"isochron export run42.isochron --isovalue 100 --steps 0 -o surface.ply",
                       "isochron export run42.isochron --isovalue 100 -o surfaces/ --format vtp"});
-    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
-    command.option("--array", arguments->array,
-                   "Array to search, if the index has several (default: its first)");
+    command.option("file", arguments->file, "Index to take surfaces of")
+        .required()
+        .type_name("INDEX");
     command
-        .option("--isovalue", arguments->isovalues,
-                "Isovalue, in the unit of the values (after scaling); again for another surface, 8 "
-                "at most")
+        .option("--array", arguments->array,
+                "Array of the surfaces, where the index has several (default: its first)")
+        .type_name("NAME");
+    command
+        .option(
+            "--isovalue", arguments->isovalues,
+            "Isovalue of the surface, in the unit of the values (after scaling). May be given up "
+            "to 8 times, each time for another surface")
         .repeatable()
-        .required();
+        .required()
+        .type_name("VALUE");
     command
-        .option("--steps", arguments->steps,
-                "Steps, from 0: `7`, `0:63` with both ends, or `0:63:4` (default: all)")
+        .option("--steps,--step", arguments->steps,
+                "Steps to write, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for every "
+                "fourth of them (default: all)")
         .type_name("FIRST:LAST[:STRIDE]");
     command
         .option(
             "--fraction", arguments->fraction,
-            "Between each step and the next: so many 65536ths of the way, as `query --fraction`")
+            "Write the surface between each step and the next: 32768 is halfway, as for `query`")
         .between(0u, 65535u)
-        .shows_default();
+        .shows_default()
+        .type_name("FRACTION");
     command
-        .option("-o,--out", arguments->out,
-                "Output: a file; with several steps each has its number: surface_0007.ply. Or a "
-                "folder, which "
-                "is made if it ends in a slash")
+        .option("-o,--output,--out", arguments->out,
+                "File to write; with several steps, the number of the step is added to its name, "
+                "surface_0007.ply. Or a folder, which is made if its name ends in a slash")
         .required()
-        .type_name("NAME");
-    command.option("--format", arguments->format, "Format (default: by the end of the name)")
-        .one_of(format_names());
+        .type_name("FILE");
+    command.option("--format", arguments->format, "Format of the file (default: by its extension)")
+        .one_of(format_names())
+        .type_name("FORMAT");
     const Option color_by =
-        command.option("--color-by", arguments->color_by,
-                       "Array whose values color the vertices, and are written where the format "
-                       "has values; not in stl and csv");
-    command.option("--color-map", arguments->color_map, "Its color map")
+        command
+            .option("--color-by,--color", arguments->color_by,
+                    "Array whose values color the vertices. The values are written, too, where the "
+                    "format can hold them; stl and csv hold no colors")
+            .type_name("NAME");
+    command.option("--color-map", arguments->color_map, "Color map for these values")
         .needs(color_by)
-        .shows_default();
+        .shows_default()
+        .type_name("MAP");
     command
-        .option("--range", arguments->range,
-                "Values at the ends of the color map (default: the range of the array)")
+        .option("--color-range,--range", arguments->range,
+                "Values at both ends of the color map (default: the range of the array)")
         .needs(color_by)
         .values(2)
         .type_name("LOW HIGH");
     command
         .option("--precision", arguments->precision,
-                "Of coordinates. Where single precision is too coarse, an origin is subtracted, "
-                "which the file names")
+                "Precision of coordinates. Where single precision is too coarse, an origin is "
+                "subtracted from them, and the file states this origin")
         .one_of({"single", "double"})
-        .shows_default();
-    command.option("--unit", arguments->unit,
-                   "Unit of length of the coordinates: m, km, cm, mm, um, nm, in or ft (default: "
-                   "the data's)");
+        .shows_default()
+        .type_name("PRECISION");
     command
-        .option("--rate", arguments->rate, "Steps a second in glb-animation and usda (default: 10)")
-        .positive();
+        .option(
+            "--length-unit,--unit", arguments->unit,
+            "Unit of the coordinates: m, km, cm, mm, um, nm, in or ft (default: the unit of the "
+            "data)")
+        .type_name("UNIT");
+    command
+        .option("--rate", arguments->rate,
+                "Number of steps that glb-animation and usda play in a second (default: 10)")
+        .positive()
+        .type_name("RATE");
     command
         .option("--crop", arguments->cuts.crop,
-                "Only triangles within a box of the grid's vertices, both ends included")
+                "Write only triangles within a box, from one vertex of the grid to another; both "
+                "belong to the box")
         .type_name("X0:X1,Y0:Y1,Z0:Z1");
     command
         .option("--clip", arguments->cuts.clip,
-                "Only triangles on one side of a plane: a point on it and the normal, which points "
-                "to what is cut away, in the data's coordinates")
+                "Write only triangles on one side of a plane, which is given by a point and a "
+                "normal in the coordinates of the data. The normal points to the side that is cut "
+                "away")
         .values(6)
         .type_name("X Y Z NX NY NZ");
     command
         .option("--simplify", arguments->cuts.simplify,
-                "Fewer triangles: the surface moves by this distance at most, in the unit of the "
-                "file, or "
-                "in sides of a cell (the shortest): 0.5cells. How far it has moved is measured")
-        .type_name("ERROR");
-    command.flag("--quantize", arguments->quantize,
-                 "In glTF, coordinates of 16 bits and normals of 8 (KHR_mesh_quantization): a "
-                 "vertex moves by less than 1/75,000 of the surface's longest side");
+                "Write fewer triangles, so that the surface moves by at most this distance: a "
+                "length in the unit of the file, or 0.5cells for half the shortest side of a cell. "
+                "How far the surface has moved is measured and printed")
+        .type_name("DISTANCE");
     command.flag(
-        "--compress", arguments->compress,
-        "In glTF, pack vertices and triangles without loss (EXT_meshopt_compression); with "
-        "--quantize files are smaller still");
+        "--quantize", arguments->quantize,
+        "In glTF, store coordinates in 16 bits and normals in 8 (KHR_mesh_quantization). A "
+        "vertex moves by less than 1/75,000 of the surface's longest side");
+    command.flag("--compress", arguments->compress,
+                 "In glTF, pack vertices and triangles without loss (EXT_meshopt_compression). "
+                 "Together with --quantize, files become smaller still");
     command.flag("--no-normals", arguments->no_normals, "Write no normals");
     command.flag("--force", arguments->force, "Replace files that exist");
-    command.flag("--json", arguments->json, "Print one JSON object");
     std::string formats = "Formats:\n";
     for (const index::SurfaceFormat& format : index::surface_formats())
         formats += fmt::format("  {:14} {}\n", format.name, format.words);
     command.footer(
         formats +
-        "Each file appears whole or not at all. Triangles are counter-clockwise as seen "
-        "from the side of\nlower values, to which normals point. JSON keys: files, steps, "
-        "fraction, isovalues, cells, vertices,\ntriangles (both 0 in csv), empty_steps, error "
-        "and error_cells (with\n--simplify: no point of the surface, and none of what is left, has "
-        "moved "
-        "farther).");
+        "\nEach file appears once it is complete. Triangles are counter-clockwise as seen from the "
+        "side of lower values, and normals point to this side.");
     command.on_run([arguments] { run_export(*arguments); });
 }
 

@@ -8,7 +8,7 @@
 #include "app/output/guarded_outputs.h"
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
 #include "index/file/sections/file_layout.h"
@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -59,16 +60,17 @@ class Movies {
                   });
     }
 
-    /// Completes the movies. @return a line for each
-    std::vector<std::string> finish() {
+    /// Completes the movies, and reports each.
+    void finish() {
         writing_.finish();
-        std::vector<std::string> lines;
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (auto& [path, movie] : movies_) {
             movie->finish();
-            lines.push_back(fmt::format("wrote {}: {} frames at {:g} per second", path.string(),
-                                        movie->frames(), options_.rate));
+            print_report("wrote {}: {} frames at {:g} per second\n", path.string(), movie->frames(),
+                         options_.rate);
+            all.push_back({{"file", path.string()}, {"frames", movie->frames()}});
         }
-        return lines;
+        tell_result({{"source", options_.recording}, {"rate", options_.rate}, {"movies", all}});
     }
 
   private:
@@ -152,8 +154,9 @@ void check_output(const MovieOptions& options) {
     if (is_movie_folder(out))
         return;
     if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
-        throw UsageError(fmt::format("--out: expected a name that ends in {}, or a folder, got {}",
-                                     fmt::join(kSuffixes, ", "), options.out));
+        throw UsageError(
+            fmt::format("--output: expected a name that ends in {}, or a folder, got {}",
+                        fmt::join(kSuffixes, ", "), options.out));
     index::NewFile{out};
 }
 
@@ -171,7 +174,7 @@ void check_source(const MovieOptions& options, bool of_index) {
 
 /// For the program that started this one: `42 %`.
 void tell(double done) {
-    print_safely("{} %\n", static_cast<int>(100 * done));
+    print_answer("{} %\n", static_cast<int>(100 * done));
     std::fflush(stdout);
 }
 
@@ -235,8 +238,7 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
             throw;
         }
     }
-    for (const std::string& line : movies.finish())
-        print_safely("{}\n", line);
+    movies.finish();
 }
 
 } // namespace
@@ -244,43 +246,54 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
 void add_movie(Command& program) {
     auto options = std::make_shared<MovieOptions>();
     Command command = program.subcommand(
-        "movie", "Make a movie of a recording, or of all steps of an index, with ffmpeg, or write "
-                 "its frames.");
+        "movie", "Make a movie of a recording, or of all steps of an index: a file that ffmpeg "
+                 "encodes, or a folder of its frames.");
     command.examples({"isochron movie walk.jsonl -o walk.mp4",
                       "isochron movie run42.isochron --isovalue 100 -o frames/"});
-    add_replay_source(
-        command, *options,
-        "Recording made by `explore --record`; or an index: all its steps, seen as "
-        "the explorer shows them first, in 10 s, or longer if every step needs a frame");
+    add_replay_source(command, *options,
+                      "Recording made by `explore --record`. Or an index: the movie then shows all "
+                      "its steps from where `explore` looks first, in 10 s, or in more where each "
+                      "step needs a frame");
+    command
+        .option("-o,--output,--out", options->out,
+                "Movie to write: .mp4, .mkv or .mov (H.264), or .gif; or a folder for its frames "
+                "(.png)")
+        .required()
+        .type_name("FILE");
+    command
+        .option("--isovalue", options->series.isovalue,
+                "Of an index, the surface to show (default: the one that `explore` shows first)")
+        .type_name("VALUE");
+    command
+        .option("--steps,--step", options->series.steps,
+                "Of an index, the steps to show, numbered from 0: `0:63` for 0 to 63, or `0:63:4` "
+                "for every fourth of them (default: all)")
+        .type_name("FIRST:LAST[:STRIDE]");
     command
         .option(
-            "-o,--out", options->out,
-            "Movie to write: .mp4, .mkv or .mov (H.264), .gif, or a folder for its frames (.png)")
-        .required();
-    command.option("--isovalue", options->series.isovalue,
-                   "Of an index: the surface to show (default: as the explorer shows it first)");
-    command.option("--steps", options->series.steps,
-                   "Of an index: FIRST:LAST[:STRIDE], counted from 0 (default: all steps)");
-    command
-        .option("--between", options->series.between,
-                "Of an index, between two steps: hold the step before, or blend both (default: as "
-                "`isochron info` advises)")
-        .one_of(interaction::all_names<interaction::BetweenSteps>());
-    command.option("--rate", options->rate, "Frames per second").positive().shows_default();
+            "--between", options->series.between,
+            "Of an index, what to show between two steps: `hold` shows the step before, `blend` "
+            "a blend of both (default: what `isochron info` advises)")
+        .one_of(interaction::all_names<interaction::BetweenSteps>())
+        .type_name("MODE");
+    command.option("--rate", options->rate, "Frames per second")
+        .positive()
+        .shows_default()
+        .type_name("RATE");
     command
         .option("--eyes", options->eyes,
-                "window: one movie, composed by the stereo mode; each: one movie per eye and "
-                "viewport, with their names added to the name of --out")
+                "`window` makes one movie of what the window shows; `each` makes a movie for each "
+                "eye of each viewport and adds their names to the name of --output")
         .one_of({"window", "each"})
-        .shows_default();
-    command.flag("--force", options->force, "Replace an existing movie");
+        .shows_default()
+        .type_name("EYES");
+    command.flag("--force", options->force, "Replace a movie that exists");
     command.flag(
         "--background", options->background,
-        "As the panel makes movies: at low priority, ended with the program that started it, "
-        "with its progress in lines");
-    command.footer("Frames are drawn at the movie's rate; `replay --every` writes single "
-                   "pictures.\nExit status: 0 done, 1 bad input, 2 bad "
-                   "usage.");
+        "Work as the panel's movies do: at low priority, with progress in lines on stdout, "
+        "and only as long as the program that started this one runs");
+    command.footer("Each frame is drawn for its time in the movie. `replay --every` writes single "
+                   "pictures.");
     command.on_run(
         [options] { run_in_cluster([&](ClusterJob& job) { make_movie(*options, job); }); });
 }

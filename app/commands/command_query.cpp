@@ -4,7 +4,7 @@
 #include "app/commands/process_usage.h"
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/extractor.h"
@@ -30,7 +30,7 @@ struct QueryArguments {
     std::uint32_t level = 0;
     std::string method;
     std::optional<std::string> array;
-    bool json = false, force = false;
+    bool force = false;
 };
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -84,8 +84,8 @@ std::string_view name_of(index::SearchMethod method) {
 std::optional<index::SearchMethod> method_of(const QueryArguments& arguments,
                                              const index::IndexFile& file) {
     if (index::is_former_tier(arguments.method)) {
-        print_safely(stderr, "isochron: --method {}: no longer there; searched by {}\n",
-                     arguments.method, name_of(index::cheapest_method(file)));
+        print_note("--method {}: no longer there; searched by {}", arguments.method,
+                   name_of(index::cheapest_method(file)));
         return std::nullopt;
     }
     for (std::size_t i = 0; i < index::kSearchMethodNames.size(); ++i) {
@@ -177,7 +177,7 @@ SafeText as_text(const QueryArguments& arguments, const index::IndexFile& file,
 }
 
 void run_query(const QueryArguments& arguments) {
-    const auto file = array_called(open_index(arguments.file), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array);
     const index::Instant at = index::instant_named(*file, arguments.step, arguments.fraction);
     warn_beyond(arguments.isovalue, *file);
     if (arguments.level >= file->detail_levels())
@@ -192,10 +192,8 @@ void run_query(const QueryArguments& arguments) {
                                     arguments.level, arguments.repeats);
     if (!arguments.ids.empty())
         write_ids(arguments.ids, *result.set, file->chunks(arguments.level).info().grid);
-    if (arguments.json)
-        print_safely(SafeText::json(as_json(arguments, *file, result)));
-    else
-        print_safely(as_text(arguments, *file, result));
+    tell_result(as_json(arguments, *file, result));
+    print_answer(as_text(arguments, *file, result));
 }
 
 } // namespace
@@ -203,64 +201,61 @@ void run_query(const QueryArguments& arguments) {
 void add_query(Command& program) {
     auto arguments = std::make_shared<QueryArguments>();
     Command command = program.subcommand(
-        "query", "Find the active cells of an isovalue at a step: min < isovalue <= max.");
-    command.examples(
-        {"isochron query run42.isochron --isovalue 100 --step 0",
-         "isochron query run42.isochron --isovalue 100 --step 0 --ids cells.bin --json"});
-    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
-    command.option("--array", arguments->array,
-                   "Array to search, if the index has several (default: its first)");
+        "query", "Find the active cells of an isovalue at a step: those in which the values at the "
+                 "corners have min < isovalue <= max.");
+    command.examples({"isochron query run42.isochron --isovalue 100 --step 0",
+                      "isochron query run42.isochron --isovalue 100 --step 0 -o cells.bin --json"});
+    command.option("file", arguments->file, "Index to search").required().type_name("INDEX");
+    command
+        .option("--array", arguments->array,
+                "Array to search, where the index has several (default: its first)")
+        .type_name("NAME");
     command
         .option("--isovalue", arguments->isovalue,
                 "Isovalue, in the unit of the values (after scaling)")
-        .required();
-    command.option("--step", arguments->step, "Step, from 0").required();
+        .required()
+        .type_name("VALUE");
+    command.option("--step", arguments->step, "Step to search, from 0")
+        .required()
+        .type_name("STEP");
     command
         .option("--fraction", arguments->fraction,
-                "Between two steps: so many 65536ths of the way to the next step, where values are "
-                "blended linearly and compared exactly")
+                "Search between this step and the next, where values are blended linearly and "
+                "compared exactly: 0 is this step, 32768 is halfway, 65536 would be the next step")
         .between(0u, 65535u)
-        .shows_default();
+        .shows_default()
+        .type_name("FRACTION");
     command
-        .option("--ids", arguments->ids,
-                "Write the cell ids: u32 (u64 where there are 2^32 cells or more), little-endian, "
-                "ascending; id = (z * (ny - 1) + y) * (nx - 1) + x")
-        .type_name("OUT.bin");
+        .option("-o,--output,--ids", arguments->ids,
+                "Write the numbers of the active cells, ascending, to this file: u32 (u64 where "
+                "there are 2^32 cells or more), little-endian; cell x y z has the number "
+                "(z * (ny - 1) + y) * (nx - 1) + x")
+        .type_name("FILE");
     command.flag("--force", arguments->force,
-                 "Let --ids replace any file but one that is read; else it replaces only ids");
+                 "Let --output replace any file but one that is read; without this option it "
+                 "replaces only numbers of cells");
     command
         .option("--repeat", arguments->repeats,
-                "Number of repetitions; the median of their times is printed")
+                "Number of times that the search is repeated; the median of the times is printed")
         .between(0u, 1000u)
-        .shows_default();
+        .shows_default()
+        .type_name("COUNT");
     command
         .option("--level", arguments->level,
-                "Level of detail, 0 is the finest; `isochron info` lists them. Ids count "
-                "the cells of the level's own grid")
-        .shows_default();
+                "Level of detail to search; 0 is the finest, and `isochron info` lists them. Cells "
+                "are numbered in the grid of the level")
+        .shows_default()
+        .type_name("LEVEL");
     command
         .option("--method", arguments->method,
-                "Search structure to use (default: the fastest that the index has)")
+                "Search structure to use (default: the fastest one of the index)")
         .one_of(std::vector<std::string>(index::kSearchMethodNames.begin(),
                                          index::kSearchMethodNames.end()),
-                {"cells"});
-    command.flag("--json", arguments->json, "Print one JSON object");
-    command.footer(
-        "JSON keys: file, array, step, fraction, time, time_unit, isovalue (null unless finite), "
-        "value_unit,\n"
-        "level (of detail), method (bricks, tree or scan) of the first run, active_cells, "
-        "id_bits (32, or 64 "
-        "where ids do not fit),\ncandidates (tested exactly), reused (of the active cells, taken "
-        "over from an earlier result and not looked for again: 0, as a query begins without one), "
-        "false_positives (candidates - active_cells), false_positive_rate (of the active cells,\n"
-        "null when there are none), cold_search_ms and cold_shading_ms (first run, touches the\n"
-        "file), resident_bytes and read_bytes (of the process after that run: its memory, and the "
-        "bytes\nread from disk and not from the page cache), repetitions, search_ms and "
-        "shading_ms (medians of the repetitions, each a full\n"
-        "search) by repeated_method; these three are absent with --repeat 0, reading (what was "
-        "read of the file and kept), ids (only "
-        "with\n--ids). Search includes the exact test;\n"
-        "shading is positions and normals.");
+                {"cells"})
+        .type_name("METHOD");
+    command.footer("The time of a search includes the exact test of each cell. Shading is the "
+                   "computation of positions and normals. The first search reads the file; the "
+                   "repeated ones find it in memory.");
     command.on_run([arguments] { run_query(*arguments); });
 }
 

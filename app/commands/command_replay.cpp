@@ -8,10 +8,11 @@
 #include "app/loop/pattern_show.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -52,16 +53,17 @@ int report_differences(const std::vector<std::string>& lines, std::size_t frames
     constexpr std::size_t kShown = 20;
     for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i)
         print_safely(stderr, "differs: {}\n", lines[i]);
-    print_safely("commands recomputed from devices: {} of {} frames differ\n", lines.size(),
+    tell_result({{"different_frames", lines.size()}});
+    print_report("commands recomputed from devices: {} of {} frames differ\n", lines.size(),
                  frames);
     return lines.empty() ? 0 : 1;
 }
 
 void check(const Options& options) {
     if ((options.every > 0 || options.stamps) && !options.out)
-        throw UsageError("--every and --stamps need --out DIR");
+        throw UsageError("--every and --stamps need --output FOLDER");
     if (options.out && options.every == 0 && !options.stamps)
-        throw UsageError("--out writes nothing without --every N or --stamps");
+        throw UsageError("--output writes nothing without --every N or --stamps");
     if (options.live && (options.every > 0 || options.stamps || options.from_devices))
         throw UsageError("--live does not go with --every, --stamps or --from-devices");
     if (options.control && !options.live)
@@ -132,6 +134,18 @@ void write_pictures(Outputs& outputs, const Options& options, const PictureNames
         write_pictures(outputs, options, names, note(), stem, written);
 }
 
+/// Tells of the pictures, and of the frames that were replayed.
+void report_pictures(const Options& options, std::size_t frames,
+                     const std::vector<fs::path>& written, bool leads) {
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const fs::path& path : written) {
+        print_report("wrote {}\n", path.string());
+        names.push_back(path.string());
+    }
+    if (leads)
+        tell_result({{"recording", options.recording}, {"frames", frames}, {"pictures", names}});
+}
+
 /// Replays the recorded heads and hands in front of the test pattern; needs no data.
 void replay_test_pattern(const Options& options, ClusterJob& job) {
     interaction::Recording recording;
@@ -171,8 +185,7 @@ void replay_test_pattern(const Options& options, ClusterJob& job) {
         job.follow(show, done);
     show.frames().end();
     show.outputs().pictures().finish();
-    for (const fs::path& path : written)
-        print_safely("wrote {}\n", path.string());
+    report_pictures(options, recording.frames.size(), written, job.leads());
     job.finish();
 }
 
@@ -190,7 +203,7 @@ Prepared prepare(const Options& options, const ClusterJob& job) {
     Prepared all;
     all.recording = read_recording(options.recording);
     if (!all.recording.note.empty() && job.leads())
-        print_safely(stderr, "note: {}\n", all.recording.note);
+        print_note("note: {}", all.recording.note);
     all.config = config_of(options, all.recording.header);
     all.names = picture_names(all.config.installation);
     prepare_walls(all.config, job, options.emulate);
@@ -259,14 +272,16 @@ void replay(const Options& options, ClusterJob& job) {
     };
     const std::vector<std::string> different = show(session, all, options, job, done);
     session.outputs().pictures().finish();
-    for (const fs::path& path : written)
-        print_safely("wrote {}\n", path.string());
+    report_pictures(options, all.recording.frames.size(), written, job.leads());
     if (options.report)
         session.log().finish_report(session.drawing(), session.reading());
     job.finish();
     if (!job.leads())
         return;
-    print_safely("{}\n{}", session.drawing(), SafeText::lines(session.log().table()));
+    tell_result({{"drawn_by", session.drawing()}});
+    if (options.report)
+        tell_result({{"report", *options.report}});
+    print_report("{}\n{}", session.drawing(), SafeText::lines(session.log().table()));
     if (options.from_devices && report_differences(different, all.recording.frames.size()) != 0)
         throw interaction::Error(options.recording +
                                  ": the devices no longer lead to its commands");
@@ -278,37 +293,53 @@ void add_replay(Command& program) {
     auto options = std::make_shared<Options>();
     Command command = program.subcommand(
         "replay",
-        "Replay a recording: write pictures, measure times, or play it live in a window.");
-    command.examples({"isochron replay walk.jsonl --stamps --out pictures",
-                      "isochron replay walk.jsonl --every 30 --caption --out series"});
+        "Replay a recording: write pictures, measure the times of frames, or play it in a "
+        "window.");
+    command.examples({"isochron replay walk.jsonl --stamps -o pictures",
+                      "isochron replay walk.jsonl --every 30 --caption -o series"});
     add_replay_source(command, *options);
-    command.option("-o,--out", options->out, "Folder for the pictures; created if missing");
-    command.option("--every", options->every, "Write a picture every N frames").positive();
+    command
+        .option("-o,--output,--out", options->out,
+                "Folder for the pictures; it is made where it is missing")
+        .type_name("FOLDER");
+    command.option("--every", options->every, "Write a picture of every Nth frame")
+        .positive()
+        .type_name("COUNT");
     command.flag("--stamps", options->stamps, "Write a picture at every stamp");
     command
         .option("--eyes", options->eyes,
-                "window: one picture, composed by the stereo mode; each: one picture per eye and "
-                "viewport")
+                "`window` writes one picture of what the window shows; `each` writes a picture for "
+                "each eye of each viewport")
         .one_of({"window", "each"})
-        .shows_default();
+        .shows_default()
+        .type_name("EYES");
     command
-        .option("--format", options->format, "png, exr (linear light), tiff, or jpg (with losses)")
+        .option("--format", options->format,
+                "Format of the pictures: png, exr (linear light), tiff, or jpg (with losses)")
         .one_of({"png", "exr", "tiff", "jpg"})
-        .shows_default();
-    command.option("--report", options->report,
-                   "Write the times and the state of every frame to this JSON file");
-    command.flag("--force", options->force,
-                 "Let --out and --report replace any files but those that are read; else they "
-                 "replace only pictures and reports that this program wrote");
+        .shows_default()
+        .type_name("FORMAT");
+    command
+        .option("--report", options->report,
+                "Write the times and the state of every frame to this JSON file")
+        .type_name("FILE");
+    command.flag(
+        "--force", options->force,
+        "Let --output and --report replace any files but those that are read; without this "
+        "option they replace only pictures and reports of this program");
     command.flag("--from-devices", options->from_devices,
-                 "Compute the commands again from the recorded devices; a difference is an error");
-    command.flag("--test-pattern", options->test_pattern,
-                 "Show a test pattern that identifies eyes, walls and trackers; needs no index");
+                 "Compute the commands again from the recorded devices, and fail if a command "
+                 "differs from the recorded one");
+    command.flag(
+        "--test-pattern", options->test_pattern,
+        "Show a test pattern that tells eyes, walls and trackers apart; this needs no index");
     command.flag("--live", options->live,
-                 "Play in a window at the recorded speed; frames wait for nothing");
+                 "Play in a window at the recorded speed; no frame waits for its cells");
     add_control_option(command, options->control);
-    command.footer("In a cluster (mpirun -n N isochron replay ...) each process writes the "
-                   "pictures of its own windows. Exit status: 0 done, 1 bad input, 2 bad usage.");
+    command.footer(
+        "In a cluster, `mpirun -n N isochron replay ...`, each process writes the pictures "
+        "of its own windows.");
+    command.exit_status(1, "bad input, or a difference that --from-devices found");
     command.on_run([options] { run_in_cluster([&](ClusterJob& job) { replay(*options, job); }); });
 }
 

@@ -7,15 +7,17 @@
 #include "app/loop/replay.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/picture_parts.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/version.h"
 #include "index/error.h"
+#include "index/shell_word.h"
 #include "index/system/input_file.h"
 #include "index/system/new_file.h"
 #include "stereo/image_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -196,7 +198,13 @@ std::vector<std::string> differences(const PictureNote& note, const MadePicture&
 }
 
 void describe(const std::string& picture, const PictureNote& note) {
-    print_safely("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
+    tell_result({{"picture", picture},
+                 {"shows", note.part.shows},
+                 {"data", note.data},
+                 {"data_hash", note.data_hash},
+                 {"program", note.program},
+                 {"equal", false}}); // until it is known
+    print_report("{}: {} of {} (hash {}), by {}\n", picture, note.part.shows, note.data,
                  note.data_hash, note.program);
 }
 
@@ -205,9 +213,13 @@ void reproduce(const ReproduceOptions& options) {
     describe(options.picture, note);
     if (note.movie)
         throw interaction::Error(fmt::format(
-            "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE`, of the {}",
+            "{}: a movie is made again by `isochron movie {} --rate {} -o MOVIE{}{}`, of the {}",
             options.picture, note.movie->recording.empty() ? "INDEX" : "RECORDING",
             note.movie->rate,
+            options.data && !note.movie->recording.empty()
+                ? " --data " + index::shell_word(*options.data)
+                : "",
+            options.any_data ? " --any-data" : "",
             note.movie->recording.empty()
                 ? fmt::format("data with hash {}", note.data_hash)
                 : fmt::format("recording with hash {}", note.movie->recording)));
@@ -222,22 +234,26 @@ void reproduce(const ReproduceOptions& options) {
         index::NewFile file(*options.out);
         file.write_at(0, stereo::encoded_image(made.image, *options.out, text_of(note)));
         file.commit();
-        print_safely("wrote {}\n", *options.out);
+        tell_result({{"output", *options.out}});
+        print_report("wrote {}\n", *options.out);
     }
     const std::string_view mine(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (mine == there && made.differs.empty()) {
-        print_safely("made again: the same {} bytes\n", there.size());
+        tell_result({{"equal", true}, {"equal_bytes", true}});
+        print_report("made again: the same {} bytes\n", there.size());
         return;
     }
     // With what the format loses. Alpha is neither written nor compared.
     made.image = stereo::decoded_image(bytes, options.picture);
     const auto lines = differences(note, made, stereo::read_image(options.picture));
     if (lines.empty()) {
-        print_safely("made again: the same pixels, which the file stores in other bytes\n");
+        tell_result({{"equal", true}, {"equal_bytes", false}});
+        print_report("made again: the same pixels, which the file stores in other bytes\n");
         return;
     }
+    tell_result({{"differences", lines}});
     for (const std::string& line : lines)
-        print_safely("differs: {}\n", line);
+        print_report("differs: {}\n", line);
     throw interaction::Error(options.picture + ": made again, it differs");
 }
 
@@ -246,28 +262,38 @@ void reproduce(const ReproduceOptions& options) {
 void add_reproduce(Command& program) {
     auto options = std::make_shared<ReproduceOptions>();
     Command command = program.subcommand(
-        "reproduce", "Draw a saved picture again from the settings stored in it, and compare.");
+        "reproduce",
+        "Draw a saved picture again from the settings that it holds, and compare both.");
     command.examples(
         {"isochron reproduce pictures/stamp_00012_stamp-1.png",
          "isochron reproduce pictures/stamp_00012_stamp-1.png --data run42.isochron -o again.png"});
     command
         .option("picture", options->picture,
-                "Picture (.png, .exr, .tiff or .jpg) written by isochron")
-        .required();
-    command.option("--data", options->data,
-                   "Index to use (default: the named one beside the picture, or in this folder)");
-    command.option("-o,--out", options->out, "Save the new picture under this name");
+                "Picture (.png, .exr, .tiff or .jpg) that isochron wrote")
+        .required()
+        .type_name("FILE");
+    command
+        .option("--data", options->data,
+                "Index to draw (default: the one that the picture names, beside the picture or in "
+                "the working directory)")
+        .type_name("INDEX");
+    command.option("-o,--output,--out", options->out, "Save the new picture in this file")
+        .type_name("FILE");
     command.flag("--force", options->force,
-                 "Let --out replace any file but one that is read; else it replaces only pictures "
-                 "that this program wrote");
-    command.flag("--any-data", options->any_data,
-                 "Draw data that differ from those of the picture (another hash), and count the "
-                 "pixels that differ");
-    command.option("--context", options->context, "GL context to draw with")
+                 "Let --output replace any file but one that is read; without this option it "
+                 "replaces only pictures of this program");
+    command.flag(
+        "--any-data", options->any_data,
+        "Draw the data even if they differ from those of the picture, as their hashes tell, "
+        "and count the pixels that differ");
+    command.option("--context", options->context, "OpenGL context to draw with")
         .one_of({"egl", "osmesa"})
-        .shows_default();
-    command.footer("Prints whether the pictures are equal, or what differs: data, program, driver, "
-                   "pixels.\nExit status: 0 equal, 1 different or bad input, 2 bad usage.");
+        .shows_default()
+        .type_name("CONTEXT");
+    command.footer("The command prints that the pictures are equal, or what differs: the data, the "
+                   "program, the driver, and how many pixels.");
+    command.exit_status(0, "equal pictures");
+    command.exit_status(1, "different pictures or bad input");
     command.on_run([options] { reproduce(*options); });
 }
 

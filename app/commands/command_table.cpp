@@ -5,7 +5,7 @@
 #include "app/kept/session_file.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/known_files.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/error.h"
 #include "index/json_mistake.h"
 #include "index/system/new_file.h"
@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 
 struct TableArguments {
     fs::path file, out;
-    bool json = false, keep_formulas = false, force = false;
+    bool keep_formulas = false, force = false;
 };
 
 struct Table {
@@ -146,17 +146,20 @@ Table table_of(const fs::path& file) {
 
 void run_table(const TableArguments& arguments) {
     const auto [columns, rows] = table_of(arguments.file);
-    const SafeText text = arguments.json
+    const SafeText text = tells_json()
                               ? SafeText::json(rows, 1)
                               : SafeText::lines(csv_of(rows, columns, arguments.keep_formulas));
-    if (arguments.out.empty())
-        return print_safely(text);
+    if (arguments.out.empty()) {
+        tell_result(rows);
+        return print_answer(text);
+    }
     guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
                   arguments.force);
     index::NewFile file(arguments.out);
     file.write_at(0, std::as_bytes(std::span(text.str())));
     file.commit();
-    print_safely("wrote {}: {} rows\n", arguments.out.string(), rows.size());
+    tell_result({{"file", arguments.out.string()}, {"rows", rows.size()}});
+    print_report("wrote {}: {} rows\n", arguments.out.string(), rows.size());
 }
 
 } // namespace
@@ -164,30 +167,36 @@ void run_table(const TableArguments& arguments) {
 void add_table(Command& program) {
     auto arguments = std::make_shared<TableArguments>();
     Command command = program.subcommand(
-        "table", "Print what a session marked, or how long its frames took, as a table.");
+        "table", "Print a table of what a session marked, or of the times of its frames.");
     command.examples({"isochron table walk.jsonl", "isochron table walk.jsonl --json"});
     command
         .option("file", arguments->file,
-                "Recording or session: its marks, rulers, bookmarks and stamps. Or a timing report "
-                "(`replay --report`): a row for each frame")
+                "Recording or session, whose marks, rulers, bookmarks and stamps become rows. Or a "
+                "timing report (`replay --report`), whose frames become rows")
         .required()
         .type_name("FILE");
-    command.option("-o,--out", arguments->out, "Output file (default: the terminal)");
+    command.option("-o,--output,--out", arguments->out, "File to write (default: print the table)")
+        .type_name("FILE");
     command.flag("--force", arguments->force, "Replace a file that exists");
-    command.flag("--json", arguments->json, "A list of JSON objects instead of CSV");
-    command.flag("--keep-formulas", arguments->keep_formulas,
-                 "In CSV, leave texts that begin with = + - or @ as they are; else a ' before them "
-                 "keeps spreadsheets from taking them for formulas");
+    command.flag(
+        "--keep-formulas", arguments->keep_formulas,
+        "In CSV, leave texts as they are that begin with = + - or @. Without this option a "
+        "' is put before them, so that spreadsheets do not take them for formulas");
     std::string made;
     for (const interaction::ToolRow& tool : interaction::tool_table())
         if (tool.rows)
             made += fmt::format("{}, ", tool.makes);
     command.footer(
-        "Columns of marks: what (" + made +
-        "bookmark, stamp), seconds since the session began, step and\nfraction (65536ths of the "
-        "way to the next step), name, x y z (in the data's unit), "
-        "value (at a mark;\nat a ruler's second place its length). Columns of frames: those of the "
-        "report, `asked.step` and so on.");
+        "The table is CSV; with --json it is a list of objects, one for each row. A row of a "
+        "session "
+        "has these columns: what (" +
+        made +
+        "bookmark or stamp), seconds since the session began, step, fraction (how far towards the "
+        "next step: 32768 is halfway), name, x y z (in the unit of the data), and value (at a "
+        "mark; "
+        "in the second row of a ruler its length). A row of a timing report has the report's keys "
+        "as "
+        "columns, such as `asked.step`.");
     command.on_run([arguments] { run_table(*arguments); });
 }
 

@@ -1,10 +1,10 @@
-// `isochron tell`: says commands to a session that goes on, or asks it something.
+// `isochron tell`: gives commands to a running session, or asks it something.
 #include "app/command_line/cancel.h"
 #include "app/command_line/subcommands.h"
 #include "app/commands/id_file.h"
 #include "app/control/control_client.h"
 #include "app/output/guarded_outputs.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
 #include "interaction/recording/commands_json.h"
@@ -149,12 +149,17 @@ void run_tell(const TellArguments& arguments) {
     switch (request.verb) {
     case ControlVerb::picture: write_picture(answer, *arguments.out); break;
     case ControlVerb::cells: write_cells(answer, *arguments.out); break;
-    case ControlVerb::subscribe: print_events(client); break;
-    case ControlVerb::state:
-        print_safely(SafeText::json(json::parse(answer.line).at("state")));
-        break;
+    case ControlVerb::subscribe: return print_events(client);
+    case ControlVerb::state: {
+        const json state = json::parse(answer.line).at("state");
+        tell_result(state);
+        return print_answer(SafeText::json(state));
+    }
     default: break;
     }
+    tell_result(json::parse(answer.line));
+    if (arguments.out)
+        tell_result({{"file", *arguments.out}});
 }
 
 } // namespace
@@ -162,35 +167,38 @@ void run_tell(const TellArguments& arguments) {
 void add_tell(Command& program) {
     auto arguments = std::make_shared<TellArguments>();
     Command command = program.subcommand(
-        "tell", "Say commands to a session that `explore --control` began, or ask it something.");
+        "tell",
+        "Give commands to a running session, which `explore --control` began, or ask it for "
+        "its state, a picture or cells.");
     command.examples({"isochron tell step=2 isovalue=100", "isochron tell picture -o now.png"});
     command
         .option("words", arguments->words,
-                "KEY=VALUE as in a recording's commands, a JSON object of them, or a command that "
-                "happens once; or: state; picture; cells [isovalue=V] [step=N]; subscribe [state] "
-                "[time] [cells] [statistics], which prints a line for each event")
+                "Commands: KEY=VALUE with the keys of a recording's commands, an object of them as "
+                "JSON, or a word: undo, redo, save, screenshot, copy, quit. Or a question: state; "
+                "picture; cells [isovalue=V] [step=N]; subscribe [state] [time] [cells] "
+                "[statistics], which prints a line for each event")
         .required()
         .type_name("COMMAND");
     command
         .option("--socket", arguments->socket,
-                "Socket of the session: its path, or 127.0.0.1:PORT (default: the one that "
+                "Socket of the session: a path, or 127.0.0.1:PORT (default: the socket that "
                 "`explore --control` opens)")
-        .type_name("PATH");
+        .type_name("SOCKET");
     command
         .option("--token-file", arguments->token_file,
                 "File with the token of 127.0.0.1:PORT (default: the one that the session wrote)")
         .type_name("FILE");
     command
-        .option("-o,--out", arguments->out,
-                "File for a picture, or for the numbers of cells as `query --ids` has them")
+        .option("-o,--output,--out", arguments->out,
+                "File for a picture, or for the numbers of cells as `query --output` writes them")
         .type_name("FILE");
     command.flag("--now", arguments->now,
-                 "Take the picture as it is, without waiting for its cells and final quality");
-    command.flag("--force", arguments->force, "Let -o replace any file");
-    command.footer("The command returns when a frame shows what was said. Values are JSON, or "
-                   "texts without quotes.\nCommands that happen once: undo, redo, save, "
-                   "screenshot, copy, quit. The keys stand in docs/FORMATS.md, as does what other "
-                   "programs may send.");
+                 "Take the picture as it is, without waiting for all cells and the final quality");
+    command.flag("--force", arguments->force, "Let --output replace any file");
+    command.footer(
+        "The command ends once a frame shows what the commands ask for. A VALUE is JSON, "
+        "or a text without quotes. The keys, and what other programs may send to the "
+        "socket, are in docs/FORMATS.md.");
     command.on_run([arguments] { run_tell(*arguments); });
 }
 

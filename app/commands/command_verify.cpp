@@ -3,12 +3,13 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/subcommands.h"
 #include "app/indexing/open_index.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/error.h"
 #include "index/file/index_file.h"
 #include "index/file/index_states.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
@@ -19,6 +20,10 @@ namespace {
 
 void run_verify(const std::filesystem::path& path) {
     const CancelOnSignal signals;
+    std::error_code ignored;
+    using Json = nlohmann::ordered_json;
+    const bool there = std::filesystem::exists(path, ignored);
+    tell_result({{"file", path.string()}, {"intact", there ? Json(false) : Json()}}); // for now
     const auto file = open_index(path, 0, LostState::is_for_the_caller);
     {
         ProgressBar bar(stderr, static_cast<double>(file->stats().file_bytes));
@@ -30,7 +35,10 @@ void run_verify(const std::filesystem::path& path) {
     }
     if (const auto lost = index::lost_state(*file))
         throw index::Error(*lost);
-    print_safely("{}: every checksum matches{}\n", path.string(),
+    tell_result({{"intact", true},
+                 {"file_bytes", file->stats().file_bytes},
+                 {"sources_checked", file->referral().has_value()}});
+    print_report("{}: every checksum matches{}\n", path.string(),
                  file->referral() ? ", in its sources too" : "");
 }
 
@@ -39,13 +47,14 @@ void run_verify(const std::filesystem::path& path) {
 void add_verify(Command& program) {
     auto path = std::make_shared<std::filesystem::path>();
     Command command = program.subcommand(
-        "verify", "Check every checksum of an index; this reads the whole file.");
+        "verify", "Check every checksum of an index, which reads the whole file.");
     command.examples(
         {"isochron verify run42.isochron", "isochron verify run42.isochron && echo intact"});
-    command.option("file", *path, "Index").required().type_name("NAME.isochron");
-    command.footer(
-        "If the index refers to its source files, they are read too. Exit status: 0 intact, "
-        "1 damaged, and one line that says where.");
+    command.option("file", *path, "Index to check").required().type_name("INDEX");
+    command.footer("If the index refers to files instead of holding their values, these files are "
+                   "checked, too. Damage is told in one line that says where it is.");
+    command.exit_status(0, "intact");
+    command.exit_status(1, "damaged");
     command.on_run([path] { run_verify(*path); });
 }
 

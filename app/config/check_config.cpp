@@ -3,13 +3,14 @@
 
 #include "app/config/check/check.h"
 #include "app/config/tracker_setup.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "stereo/nodes.h"
 #include "stereo/screen.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -135,13 +136,65 @@ std::string describe(const Config& config) {
     return text.str();
 }
 
+nlohmann::ordered_json json_of(const std::vector<ConfigProblem>& problems, const Config& config) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const ConfigProblem& problem : problems)
+        all.push_back({{"line", problem.line},
+                       {"key", problem.key},
+                       {"text", problem.text},
+                       {"error", problem.wrong},
+                       {"message", line_of(problem, config)}});
+    return all;
+}
+
+namespace {
+
+/// What `describe` says of viewers, windows and devices, as objects.
+nlohmann::ordered_json description_json(const Config& config) {
+    using Json = nlohmann::ordered_json;
+    const auto numbers = [](const auto& v) {
+        Json list = Json::array();
+        for (int i = 0; i < v.length(); ++i)
+            list.push_back(v[i]);
+        return list;
+    };
+    Json viewers = Json::array(), windows = Json::array();
+    for (const stereo::Viewer& viewer : config.installation.viewers)
+        viewers.push_back({{"name", viewer.name},
+                           {"head", viewer.head},
+                           {"position", numbers(viewer.position)},
+                           {"eye_separation", viewer.eye_separation}});
+    const stereo::Window* last = nullptr;
+    const CheckedRoom room(config);
+    for (const PlacedViewport& place : room.viewports()) {
+        if (&place.window != last)
+            windows.push_back({{"name", place.window.name},
+                               {"size", numbers(place.window.size)},
+                               {"stereo", stereo::name_of(place.window.stereo)},
+                               {"viewports", Json::array()}});
+        last = &place.window;
+        windows.back()["viewports"].push_back(
+            {{"name", place.viewport.name},
+             {"viewer", room.viewer_of(place).name},
+             {"size", numbers(pixels_of(place))},
+             {"screen_size", numbers(stereo::size_of(place.viewport.screen))}});
+    }
+    return {{"viewers", viewers}, {"windows", windows}, {"devices", describe_devices(config)}};
+}
+
+} // namespace
+
 void check_config(const Config& config) {
-    print_safely(SafeText::lines(describe(config)));
-    for (const ConfigProblem& problem : problems_of(config))
-        print_safely("{}\n", line_of(problem, config));
+    const std::vector<ConfigProblem> problems = problems_of(config);
+    tell_result({{"configuration", config.name}});
+    tell_result(description_json(config));
+    tell_result({{"problems", json_of(problems, config)}});
+    print_answer(SafeText::lines(describe(config)));
+    for (const ConfigProblem& problem : problems)
+        print_answer("{}\n", line_of(problem, config));
     std::fflush(stdout); // before the error
     expect_sound(config);
-    print_safely("nothing is wrong\n");
+    print_answer("nothing is wrong\n");
 }
 
 } // namespace isochron::app

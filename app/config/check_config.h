@@ -4,6 +4,8 @@
 #include "app/config/config.h"
 #include "app/config/config_problem.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -16,6 +18,9 @@ std::vector<ConfigProblem> device_problems_of(const Config& config);
 /// The problem as a line, with `warning:` if it may be intended:
 /// `cave.toml:12: windows.viewports.projection: it is mirrored`.
 std::string line_of(const ConfigProblem& problem, const Config& config);
+
+/// The problems as a list of objects, each with line, key, text and whether it is an error.
+nlohmann::ordered_json json_of(const std::vector<ConfigProblem>& problems, const Config& config);
 
 /// @throws ConfigError with the first problem that is an error, in one line
 void expect_sound(const Config& config);

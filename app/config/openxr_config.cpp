@@ -1,7 +1,7 @@
 // Describes the `[openxr]` table, and opens the headset that it asks for.
 #include "app/config/openxr_config.h"
 
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "stereo/openxr/openxr_headset.h"
 
 #include <fmt/format.h>
@@ -71,8 +71,7 @@ std::unique_ptr<stereo::Headset> open_headset(const OpenXrConfig& config) {
             throw render::Error(fmt::format("{}; openxr.fallback = \"wait\" looks for one until it "
                                             "is there, \"window\" does without",
                                             error.what()));
-        print_safely(stderr, "isochron: warning: {}; the windows are shown instead\n",
-                     error.what());
+        print_note("warning: {}; the windows are shown instead", error.what());
         return nullptr;
     }
 }

@@ -7,7 +7,7 @@
 #include "app/command_line/subcommands.h"
 #include "app/config/display_config_text.h"
 #include "app/end_in_time.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/version.h"
 #include "interaction/recording/commands_json.h"
 #include "render/gl/driver.h"
@@ -191,7 +191,7 @@ void ClusterJob::tell_shared_processors(const render::Gl& gl) {
     }
     if (leads())
         for (const std::string& line : shared_processors(shares))
-            print_safely(stderr, "isochron: note: {}\n", line);
+            print_note("note: {}", line);
 }
 
 void ClusterJob::finish() {

@@ -1,7 +1,7 @@
 // Opens the control socket of a session.
 #include "app/explore/control_options.h"
 
-#include "app/safe_text.h"
+#include "app/telling.h"
 
 #include <fmt/format.h>
 
@@ -12,12 +12,13 @@ namespace isochron::app {
 
 void add_control_option(Command& command, std::optional<std::string>& control) {
     command
-        .option("--control", control,
-                "Let programs of this user steer the session through a socket (isochron tell, "
-                "isochron.connect() in Python): a path, or 127.0.0.1:PORT, which asks for a token "
-                "(default: control.sock in the user's runtime folder)")
+        .option(
+            "--control", control,
+            "Open a socket through which your programs steer the session: `isochron tell`, or "
+            "isochron.connect() in Python. SOCKET is a path, or 127.0.0.1:PORT, which asks for a "
+            "token (default: control.sock in the user's runtime folder)")
         .value_optional()
-        .type_name("[PATH]");
+        .type_name("[SOCKET]");
 }
 
 void check_control(const std::optional<std::string>& control) {
@@ -32,7 +33,7 @@ std::unique_ptr<SessionControl> opened_control(const std::optional<std::string>&
         return nullptr;
     auto opened =
         std::make_unique<SessionControl>(control_address(*control), session, std::move(options));
-    print_safely(stderr, "isochron: control socket: {}\n", opened->where());
+    print_note("control socket: {}", opened->where());
     return opened;
 }
 

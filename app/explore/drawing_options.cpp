@@ -9,8 +9,9 @@ void add_shape_option(Command& command, std::optional<std::string>& shape) {
     command
         .option("--shape", shape,
                 "Shape of quads and splats, instead of the configured one: plane (flat ellipses on "
-                "the surface) or voxel (the paper's spheres)")
-        .one_of(words_of<render::CellShape>());
+                "the surface) or voxel (the spheres of the paper)")
+        .one_of(words_of<render::CellShape>())
+        .type_name("SHAPE");
 }
 
 void set_shape(Config& config, const std::optional<std::string>& shape) {

@@ -18,7 +18,7 @@
 #include "app/loop/new_steps.h"
 #include "app/loop/panel_movies.h"
 #include "app/loop/surface_maker.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
@@ -29,6 +29,7 @@
 #include "stereo/loading_picture.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -70,6 +71,8 @@ struct UserLeft {};
 
 void explore(const ExploreOptions& options, ClusterJob& job) {
     check_control(options.control);
+    if (job.leads())
+        tell_result({{"data", nullptr}}); // until some are shown
     ExploreOptions now = with_index(options);
     if (now.test_pattern)
         return explore_test_pattern(now, job);
@@ -88,7 +91,7 @@ void explore(const ExploreOptions& options, ClusterJob& job) {
         if (exploration.canceled()) {
             said = fmt::format("canceled: {} is not opened", now.data_name);
             if (!before) {
-                print_safely(stderr, "isochron: {}\n", said);
+                print_note("{}", said);
                 return;
             }
             now = *std::exchange(before, std::nullopt);
@@ -359,7 +362,7 @@ void Exploration::keep(LiveLoop& live) {
     auto path = kept_in(options_, *file_);
     const std::string why_not = why_not_kept(path);
     if (!why_not.empty()) {
-        print_safely(stderr, "isochron: {}\n", why_not);
+        print_note("{}", why_not);
         session_->show_messages({why_not});
         live.keep_no_session(why_not);
         path.reset();
@@ -377,10 +380,9 @@ void Exploration::offer_earlier() {
         return;
     const auto all = earlier_sessions(options_, *file_);
     if (all.size() > 1)
-        print_safely(stderr,
-                     "isochron: --resume --session FILE goes on with an earlier one, of "
-                     "which there are {} beside it; the newest is {}\n",
-                     all.size() - 1, all[1].path.filename().string());
+        print_note("--resume --session FILE goes on with an earlier one, of which there are {} "
+                   "beside it; the newest is {}",
+                   all.size() - 1, all[1].path.filename().string());
     std::vector<OfferedSession> offers;
     for (const EarlierSession& each : all) {
         try {
@@ -410,8 +412,15 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
     if (options_.report)
         session_->log().finish_report(session_->drawing(), session_->reading());
     job_.finish();
-    if (options_.record && job_.leads())
-        print_safely(stderr, "recording: {}\n", *options_.record);
+    if (!job_.leads())
+        return;
+    tell_result(
+        {{"data", options_.data_name},
+         {"frames", session_->log().next()},
+         {"recording", options_.record ? nlohmann::ordered_json(*options_.record) : nullptr},
+         {"report", options_.report ? nlohmann::ordered_json(*options_.report) : nullptr}});
+    if (options_.record)
+        print_note("recording: {}", *options_.record);
 }
 
 /// What there is of a session whose display is gone, or that a signal ends while it draws.
@@ -421,7 +430,7 @@ void Exploration::save(LiveLoop& live) {
         session_->outputs().pictures().finish();
         claim_.reset();
         if (options_.record)
-            print_safely(stderr, "recording: {}\n", *options_.record);
+            print_note("recording: {}", *options_.record);
     } catch (const std::exception& error) {
         print_safely(stderr, "isochron: {}\n", error.what());
     }

@@ -26,7 +26,6 @@ struct ExploreOptions {
     std::optional<std::string> session;
     bool force = false, resume = false, follow = false;
     bool no_panel = false, emulate = false, list_devices = false, test_pattern = false;
-    bool verbose = false;
 };
 
 /// Adds the options of `explore`, and the text below them in `--help`.

@@ -12,9 +12,9 @@
 #include "app/kept/recording_file.h"
 #include "app/output/guarded_outputs.h"
 #include "app/output/room_view.h"
-#include "app/safe_text.h"
 #include "app/session/shown_arrays.h"
 #include "app/session/start_state.h"
+#include "app/telling.h"
 #include "index/error.h"
 #include "index/file/blend_advice.h"
 #include "index/file/color_source.h"
@@ -86,7 +86,7 @@ Config configure(const ExploreOptions& options) {
             window.fullscreen = false;
         }
     config.openxr.enabled = config.openxr.enabled && !options.emulate;
-    config.openxr.verbose = options.verbose;
+    config.openxr.verbose = tells(Telling::verbose);
     const bool in_headset =
         config.openxr.enabled &&
         config.rendering.context == stereo::ContextKind::egl; // shows without window
@@ -236,14 +236,13 @@ void warn_of_colors(const Config& config, const index::IndexFile& file) {
         return;
     const std::vector<std::string> there = index::color_source_names(file);
     if (std::ranges::find(there, wanted) == there.end())
-        print_safely(stderr, "isochron: warning: {}: no array {} to color by, there {}\n",
-                     file.name(), wanted,
-                     there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", ")));
+        print_note("warning: {}: no array {} to color by, there {}", file.name(), wanted,
+                   there.empty() ? "is none" : fmt::format("are {}", fmt::join(there, ", ")));
 }
 
 void warn(const Config& config) {
     for (const ConfigProblem& problem : problems_of(config))
-        print_safely(stderr, "isochron: {}\n", line_of(problem, config));
+        print_note("{}", line_of(problem, config));
 }
 
 } // namespace isochron::app

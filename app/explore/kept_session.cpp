@@ -2,7 +2,7 @@
 #include "app/explore/kept_session.h"
 
 #include "app/loop/session_keeper.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/version.h"
 #include "index/file/index_states.h"
 #include "index/system/new_file.h"
@@ -119,7 +119,7 @@ std::optional<SavedSession> earlier_session(const std::optional<std::filesystem:
     if (resume)
         return read_session(*path);
     if (there)
-        print_safely(stderr, "isochron: --resume goes on with the session in {}\n", path->string());
+        print_note("--resume goes on with the session in {}", path->string());
     return std::nullopt;
 }
 

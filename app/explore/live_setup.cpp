@@ -7,7 +7,7 @@
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/version.h"
 #include "index/system/module.h"
 
@@ -46,7 +46,7 @@ LiveOptions live_options(const ExploreOptions& options) {
 void print_status(const LiveLoop& live, const std::vector<std::string>& words) {
     for (const auto& lines : {live.status(), words})
         for (const std::string& line : lines)
-            print_safely(stderr, "{}\n", line);
+            print_note("{}", line);
 }
 
 interaction::RecordingHeader header_of(const Session& session, const Config& config,

@@ -6,6 +6,9 @@
 #include "app/explore/explore_start.h"
 #include "app/explore/live_setup.h"
 #include "app/loop/live_loop.h"
+#include "app/telling.h"
+
+#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
@@ -46,6 +49,8 @@ void explore_test_pattern(const ExploreOptions& options, ClusterJob& job) {
         job.follow(show);
     show.frames().end();
     print_status(live);
+    if (job.leads())
+        tell_result({{"configuration", config.name}});
     job.finish();
 }
 

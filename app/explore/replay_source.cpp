@@ -16,45 +16,56 @@ namespace isochron::app {
 namespace fs = std::filesystem;
 
 void add_replay_source(Command& command, ReplaySource& source, const std::string& what) {
-    command.option("recording", source.recording, what).required();
-    command.option("--data", source.data,
-                   "Index to use instead of the recorded one (a relative path is tried from the "
-                   "recording's folder, too)");
+    command.option("recording", source.recording, what).required().type_name("FILE");
+    command
+        .option("--data", source.data,
+                "Index to use instead of the recorded one; a relative path is tried from the "
+                "recording's folder, too")
+        .type_name("INDEX");
     command.flag("--any-data", source.any_data,
-                 "Accept data that differ from the recorded ones (another hash)");
+                 "Accept data that differ from the recorded ones, as their hashes tell");
     command
         .option("--size", source.size,
-                "Size in pixels of each window's pictures, or of the room with --emulate (default: "
-                "as recorded)")
+                "Size of each window's pictures, or with --emulate of the picture of the room "
+                "(default: as recorded)")
         .values(2)
-        .between(16, 16384);
+        .between(16, 16384)
+        .type_name("PIXELS PIXELS");
     command
-        .option("--samples", source.samples, "Samples per pixel (default: as configured, else 4)")
-        .between(1, 64);
+        .option("--samples", source.samples,
+                "Number of samples per pixel (default: as configured, or 4)")
+        .between(1, 64)
+        .type_name("COUNT");
     command.flag("--emulate", source.emulate,
-                 "Show the room from outside instead, with the picture on every wall");
-    command.option("--stereo", source.stereo, "Stereo mode instead of the recorded one")
-        .one_of(words_of<stereo::StereoMode>());
-    command.option("--quality", source.quality, "Quality mode instead of the recorded one")
-        .one_of(interaction::all_names<interaction::QualityMode>());
+                 "Show the whole room from outside, with the picture on every wall");
+    command.option("--stereo", source.stereo, "Stereo mode to use instead of the recorded one")
+        .one_of(words_of<stereo::StereoMode>())
+        .type_name("MODE");
+    command.option("--quality", source.quality, "Quality mode to use instead of the recorded one")
+        .one_of(interaction::all_names<interaction::QualityMode>())
+        .type_name("MODE");
     command
-        .option("--footprint", source.footprint,
-                "Footprint once nothing moves, instead of the configured one: auto (the exact "
-                "surface), gaussian, mesh or surface")
-        .one_of(words_of<SettledFootprint>(kSettledField));
-    command.flag(
-        "--ray", source.ray,
-        "Show the wand's ray and what is under the cursor; pictures leave them out otherwise");
+        .option(
+            "--footprint", source.footprint,
+            "How cells are drawn in a picture at rest, instead of the configured way: auto (the "
+            "exact surface), gaussian, mesh or surface")
+        .one_of(words_of<SettledFootprint>(kSettledField))
+        .type_name("FOOTPRINT");
+    command.flag("--ray", source.ray,
+                 "Also show the ray of the wand and what the cursor points at");
     command.flag("--caption", source.caption,
                  "Add isovalue, time, axes and a scale bar to the pictures");
     add_shape_option(command, source.shape);
-    command.option(
-        "--config", source.config,
-        "Configuration to use instead of the recorded one: a TOML file or a shipped name");
+    command
+        .option("--config", source.config,
+                "Configuration to use instead of the recorded one: a TOML file, or the name of a "
+                "shipped configuration")
+        .type_name("FILE");
     command
         .option("--context", source.context,
-                "GL context: egl (default), osmesa, glfw (default with --live)")
-        .one_of({"glfw", "egl", "osmesa"});
+                "OpenGL context to draw with (default: egl, or glfw with --live)")
+        .one_of({"glfw", "egl", "osmesa"})
+        .type_name("CONTEXT");
 }
 
 Config config_of(const ReplaySource& options, const interaction::RecordingHeader& header) {

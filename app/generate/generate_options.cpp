@@ -28,16 +28,23 @@ add_series(Command& generate_command, const std::string& description, const std:
            const Run& run) {
     Command command = generate_command.subcommand(Series::kName, description);
     const std::string name = Series::kName;
-    command.examples({"isochron generate " + name + " --out " + name, short_one});
+    command.examples({"isochron generate " + name + " -o " + name, short_one});
     auto request = std::make_shared<Request<Series>>();
-    command.option("-o,--out", request->dir, "Output folder; created if missing").required();
-    command.option("--type", request->type, "Stored type: f32 (default), or u8 (rounded)")
-        .one_of({"f32", "u8"});
-    command.option("--steps", request->series.steps, "Number of time steps")
+    command
+        .option("-o,--output,--out", request->dir,
+                "Folder for the files; it is made where it is missing")
+        .required()
+        .type_name("FOLDER");
+    command.option("--type", request->type, "Type of the values; u8 rounds them")
+        .one_of({"f32", "u8"})
+        .shows_default()
+        .type_name("TYPE");
+    command.option("--step-count,--steps", request->series.steps, "Number of steps")
         .between(1, 100000)
-        .shows_default();
+        .shows_default()
+        .type_name("COUNT");
     command.flag("--force", request->force,
-                 "Replace another series, or any files, of the names that are written");
+                 "Replace files that exist, of another series or of anything else");
     command.on_run([command, request, run] {
         request->series.type = *index::value_type_from_name(request->type);
         run(command, {request->series, request->dir, request->force});
@@ -48,39 +55,44 @@ add_series(Command& generate_command, const std::string& description, const std:
 template <class Series>
 void add_cube_options(Command& command, const std::shared_ptr<Request<Series>>& request,
                       std::size_t largest) {
-    command.option("--seed", request->series.seed, "Start of the random numbers").shows_default();
-    command.option("--size", request->series.size, "Vertices along each axis")
+    command.option("--seed", request->series.seed, "Seed of the random numbers")
+        .shows_default()
+        .type_name("NUMBER");
+    command.option("--size", request->series.size, "Number of vertices along each axis")
         .between(std::size_t{16}, largest)
-        .shows_default();
+        .shows_default()
+        .type_name("COUNT");
 }
 
 } // namespace
 
 void add_generate_options(Command& program, const Run& run) {
     Command command = program.subcommand("generate", "Make a demo series as .pvd and .vti files.");
-    command.examples({"isochron generate vorticity --out flow",
-                      "isochron generate sphere --out short --steps 5"});
+    command.examples({"isochron generate vorticity -o flow",
+                      "isochron generate sphere -o short --step-count 5"});
     command.require_subcommand();
-    add_series<SphereSeries>(command, "A moving sphere, 61 x 50 x 60 vertices",
-                             "isochron generate sphere --out short --steps 5", run);
+    add_series<SphereSeries>(command, "A moving sphere on a grid of 61 x 50 x 60 vertices",
+                             "isochron generate sphere -o short --step-count 5", run);
     auto [vorticity, flow] = add_series<VorticitySeries>(
         command, "Vorticity magnitude of decaying turbulence",
-        "isochron generate vorticity --out small --size 16 --steps 3", run);
+        "isochron generate vorticity -o small --size 16 --step-count 3", run);
     add_cube_options(vorticity, flow, 256);
     auto [fourier, modes] = add_series<FourierSeries>(
         command,
-        "Vorticity magnitude of random Fourier modes: turbulence of any size, made quickly",
-        "isochron generate fourier --out small --size 32 --steps 2 --type u8", run);
+        "Vorticity magnitude of random Fourier modes, which makes turbulence of any size quickly",
+        "isochron generate fourier -o small --size 32 --step-count 2 --type u8", run);
     add_cube_options(fourier, modes, 1024);
-    fourier.option("--modes", modes->series.modes, "How many modes")
+    fourier.option("--modes", modes->series.modes, "Number of modes")
         .between(std::size_t{1}, std::size_t{4096})
-        .shows_default();
+        .shows_default()
+        .type_name("COUNT");
     fourier
         .option("--longest", modes->series.longest,
-                "Longest wave vector of a mode, in waves along an axis: more is rougher, at most "
-                "half the size")
+                "Longest wave vector of a mode, as the number of waves along an axis: at most half "
+                "of --size. A larger number makes a rougher field")
         .between(2, 512)
-        .shows_default();
+        .shows_default()
+        .type_name("COUNT");
 }
 
 } // namespace isochron::app

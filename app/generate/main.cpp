@@ -3,9 +3,10 @@
 #include "app/command_line/progress_bar.h"
 #include "app/generate/demo_series.h"
 #include "app/generate/generate_options.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <string_view>
 
@@ -28,7 +29,8 @@ void make(const Series& series, const std::filesystem::path& dir, bool force) {
             },
             force);
     }
-    print_safely("{}: {} steps{}\n", pvd, series.steps, made ? "" : ", made before");
+    tell_result({{"file", pvd}, {"steps", series.steps}, {"written", made}});
+    print_report("{}: {} steps{}\n", pvd, series.steps, made ? "" : ", made before");
 }
 
 void add_generate(Command& program) {

@@ -18,6 +18,7 @@
 #include <iterator>
 #include <sstream>
 #include <string_view>
+#include <tuple>
 
 namespace isochron::app {
 namespace fs = std::filesystem;
@@ -72,12 +73,14 @@ std::array<std::uint32_t, 3> stride_of(const std::string& text) {
 }
 
 std::array<std::uint64_t, 3> steps_of_text(const std::string& text) {
-    const std::string expected = "the first and the last step, from 0: 0:20, or each fifth: 0:20:5";
+    const std::string expected =
+        "a step, from 0, the first and the last one, 0:20, or every fifth of them, 0:20:5";
     const auto numbers = numbers_of(text, "--steps", expected);
-    if ((numbers.size() != 2 && numbers.size() != 3) || text.find(',') != text.npos ||
+    if (numbers.size() > 3 || text.find(',') != text.npos ||
         (numbers.size() == 3 && numbers[2] == 0))
         throw UsageError(fmt::format("--steps {}, expected {}", text, expected));
-    return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1};
+    return {numbers[0], numbers.size() > 1 ? numbers[1] : numbers[0],
+            numbers.size() == 3 ? numbers[2] : 1};
 }
 
 /// Takes what the user left open from how files were read before.
@@ -260,57 +263,62 @@ void set_up_readers(const BuildArguments& arguments) {
 
 void add_reading_options(Command& command, BuildArguments& arguments) {
     index::ReadOptions& read = arguments.read;
+    const char* reading = "Reading";
     command
-        .option("--array", arguments.arrays,
-                "Array to read, if the files hold several. Given several times, each becomes an "
-                "array of the index; a component may stand behind its name: velocity.magnitude. "
-                "A pattern stands for all that match: 'u*'. u,v,w is the vector of three arrays")
+        .option(
+            "--array", arguments.arrays,
+            "Array to read, where the files hold several. May be given several times: the index "
+            "then holds each of these arrays. `velocity.magnitude` is a component of an array, "
+            "'u*' stands for all arrays whose names match, and u,v,w makes one vector of three "
+            "arrays")
         .repeatable()
         .type_name("NAME")
-        .group("Reading");
+        .group(reading);
     command
         .flag("--all-arrays", arguments.all_arrays,
-              "Read every array that has the same shape as the first, of vectors the magnitude")
-        .group("Reading");
+              "Read every array that has the same shape as the first one. A vector is read as its "
+              "magnitude")
+        .group(reading);
     command
         .option(
             "--component", read.component,
-            "Component of a vector array: a number from 0, or `magnitude`; or what is computed: "
-            "`gradient` (its length) of a scalar, `vorticity` (its length) or `q-criterion` of a "
-            "vector")
-        .group("Reading");
+            "Component of a vector array: its number from 0, or `magnitude`. Or a field that is "
+            "computed: the length of the `gradient` of a scalar, the length of the `vorticity` "
+            "of a vector, or the `q-criterion` of a vector")
+        .type_name("COMPONENT")
+        .group(reading);
     command
         .flag("--allow-surplus", read.allow_surplus,
-              "Accept files with more data than their header says")
-        .group("Reading");
+              "Accept files that hold more data than their header says")
+        .group(reading);
     command
         .flag("--extra-axis-is-time", read.extra_axis_is_time,
-              "Read the axis that is not x, y or z as time, even if the file says otherwise or "
-              "leaves it open")
-        .group("Reading");
+              "Read the fourth axis, which is not x, y or z, as time, whatever the file says of it")
+        .group(reading);
     command
         .option("--member", read.member,
-                "Which run of an ensemble to read, counted from 0, where files hold several")
-        .type_name("N")
-        .group("Reading");
+                "Number of the ensemble member to read, from 0, where files hold several members")
+        .type_name("NUMBER")
+        .group(reading);
     command
         .option("--resample", arguments.resample,
                 "Interpolate a rectilinear, curvilinear or unstructured grid onto a regular grid "
-                "of this many vertices")
+                "with this many vertices along x, y and z")
         .values(3)
         .type_name("NX NY NZ")
         .between(2u, 65537u)
-        .group("Reading");
+        .group(reading);
     command
         .flag("--resample-by-cell", arguments.resample_by_cell,
-              "The same, with the smallest cell's size as the distance between vertices")
-        .group("Reading");
+              "Interpolate like --resample, onto vertices that are as far apart as the smallest "
+              "cell is long")
+        .group(reading);
     command
         .flag("--times-from-names", read.times_from_names,
-              "Use as time the number that differs from file to file in the names of the files, or "
-              "of their folders; of several, the last: 30 of t_0030.vti, 0.25 of 0.25/p.vti. Or "
-              "the date: 2020-01-02, 20200102T0600")
-        .group("Reading");
+              "Take the time of a step from the name of its file or folder: from the last number "
+              "that differs between the names (30 in t_0030.vti, 0.25 in 0.25/p.vti), or from the "
+              "date (2020-01-02, 20200102T0600)")
+        .group(reading);
     command
         .option("--dates", arguments.dates,
                 "Order of day and month in dates whose year is last, in names and in files: "
@@ -319,96 +327,114 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .group("Reading");
     command
         .flag("--keep-first", read.keep_first,
-              "Of steps with the same time, as a restart leaves them, read the first instead of "
-              "the last")
-        .group("Reading");
+              "Read the first of several steps that have the same time, as a restarted simulation "
+              "leaves them. Without this option the last one is read")
+        .group(reading);
     command
-        .option("--crop", arguments.crop,
-                "Read only a part: the first and the last vertex along each axis, from 0")
+        .option(
+            "--crop", arguments.crop,
+            "Read a part of the grid: the numbers of its first and last vertex along each axis, "
+            "from 0")
         .type_name("X0:X1,Y0:Y1,Z0:Z1")
-        .group("Reading");
+        .group(reading);
     command
-        .option("--stride", arguments.stride,
-                "Read only every second vertex, or every Nth, along all axes or each: 2 or 2,2,1")
-        .type_name("N")
-        .group("Reading");
+        .option(
+            "--stride", arguments.stride,
+            "Read every second vertex (2), or every Nth, along all axes; 2,2,1 says it for each "
+            "axis")
+        .type_name("COUNT[,COUNT,COUNT]")
+        .group(reading);
     command
         .option("--steps", arguments.steps,
-                "Read only some steps: the first and the last, from 0, and the stride: 0:20:5")
-        .type_name("A:B[:C]")
-        .group("Reading");
+                "Read some of the steps, numbered from 0: `7`, `0:63` for 0 to 63, or `0:63:4` for "
+                "every fourth of them")
+        .type_name("FIRST:LAST[:STRIDE]")
+        .group(reading);
     command
         .option("--spacing", arguments.spacing,
-                "Distance between vertices along each axis, in length units "
-                "(default: as the files say, else 1 1 1)")
+                "Distance between vertices along each axis, in the unit of length (default: from "
+                "the files, or 1 1 1)")
         .values(3)
         .type_name("SX SY SZ")
         .positive()
-        .group("Reading");
+        .group(reading);
     command
         .option("--origin", arguments.origin,
-                "Position of the first vertex, in length units "
-                "(default: as the files say, else 0 0 0)")
+                "Position of the first vertex, in the unit of length (default: from the files, or "
+                "0 0 0)")
         .values(3)
         .type_name("OX OY OZ")
-        .group("Reading");
+        .group(reading);
     command
-        .option("--time-step", read.time_step,
-                "Physical time between steps, in time units (default: as the files say, "
-                "else 1)")
+        .option(
+            "--time-step", read.time_step,
+            "Time from one step to the next, in the unit of time (default: from the files, or 1)")
         .positive()
-        .group("Reading");
-    command.option("--length-unit", read.length_unit, "Unit of positions, such as mm")
-        .group("Reading");
+        .type_name("TIME")
+        .group(reading);
+    for (auto& [name, unit, help] :
+         {std::tuple<const char*, std::optional<std::string>&, const char*>{
+              "--length-unit", read.length_unit, "Unit of positions and distances, such as mm"},
+          {"--time-unit", read.time_unit, "Unit of times, such as s"},
+          {"--value-unit", read.value_unit, "Unit of the values, such as K"}})
+        command.option(name, unit, help).type_name("UNIT").group(reading);
     command
         .option("--allow", arguments.allowed,
-                "Folder from which the files may read others that they name (links of HDF5, XDMF "
-                "and .pvd); without it only those in their own folders. May be given several times")
+                "Folder whose files may be read where a given file names them, as links of HDF5, "
+                "XDMF and .pvd do. Without this option, only files beside the given one are read. "
+                "May be given several times")
         .repeatable()
         .existing_folder()
         .type_name("FOLDER")
-        .group("Reading");
+        .group(reading);
     command
         .option("--patience", arguments.patience,
-                "End a reader that does nothing for this many seconds, and a second more for each "
-                "megabyte of its file; time in which it waits for a local disk does not count")
-        .between(1, 86400)
+                "Give up a file whose reader has done nothing for this long; each megabyte of the "
+                "file adds a second, and waiting for a local disk does not count")
+        .between(1.0, 86400.0)
         .shows_default()
         .type_name("SECONDS")
-        .group("Reading");
-    command.option("--time-unit", read.time_unit, "Unit of times, such as s").group("Reading");
-    command.option("--value-unit", read.value_unit, "Unit of the values, such as K")
-        .group("Reading");
+        .group(reading);
 
     const char* colors = "Colors";
-    const Option color =
-        command.option("--color", arguments.color, "A second array, to color the surfaces by")
-            .group(colors);
+    const Option color = command
+                             .option("--color-by,--color", arguments.color,
+                                     "A second array, whose values color the surfaces")
+                             .type_name("NAME")
+                             .group(colors);
     command
         .option("--color-component", arguments.color_component,
-                "Component of the second array, as `--component` has it")
+                "Component of the second array, as for --component")
         .needs(color)
+        .type_name("COMPONENT")
         .group(colors);
     command.option("--color-unit", arguments.color_unit, "Unit of the second array's values")
         .needs(color)
+        .type_name("UNIT")
         .group(colors);
 
-    const char* raw = "Headerless raw files";
-    command.option("--dims", arguments.dims, "Vertices along each axis, x fastest")
+    const char* raw = "Raw files without a header";
+    command
+        .option("--dims", arguments.dims, "Number of vertices along x, y and z; x varies fastest")
         .values(3)
         .type_name("NX NY NZ")
         .between(2u, 65537u)
         .group(raw);
     command
         .option("--type", arguments.type,
-                "Type of the stored values of raw files; others are\nconverted to it, so that "
-                "files of several types make\na series")
+                "Type of the values in raw files. Other files are converted to this type, so that "
+                "files of several types make one series")
         .one_of({"i8", "u8", "i16", "u16", "i32", "f32", "f64"})
+        .type_name("TYPE")
         .group(raw);
-    command.flag("--big-endian", read.big_endian, "Big-endian values (default: little-endian)")
+    command
+        .flag("--big-endian", read.big_endian, "The values are big-endian (default: little-endian)")
         .group(raw);
-    command.option("--header-bytes", read.header_bytes, "Bytes to skip at the start of each file")
+    command
+        .option("--header-bytes", read.header_bytes,
+                "Number of bytes at the beginning of each file that are skipped")
         .shows_default()
+        .type_name("COUNT")
         .group(raw);
 }
 
@@ -416,44 +442,50 @@ std::pair<Option, Option> add_index_options(Command& command, BuildArguments& ar
     const char* index_group = "Index";
     command
         .option("--tiers", arguments.tiers,
-                "Search structures to build: bricks, tree (the paper's), both with a comma between "
-                "them, or `none` (default: bricks)")
+                "Search structures to build: bricks, tree (the tree of the paper), bricks,tree, or "
+                "none (default: bricks)")
         .type_name("LIST")
         .group(index_group);
     command
         .option("--codec", arguments.codec,
-                "How values are compressed (default: what suits each chunk best)")
+                "Compression of the values (default: what suits each chunk best)")
         .one_of({"none", "lz4", "zstd"})
+        .type_name("CODEC")
         .group(index_group);
     command
         .flag("--append", arguments.append,
-              "Add the steps that NAME.isochron does not hold yet. FILES are all steps, the held "
-              "ones first. Options that are not given stay as they were")
+              "Add to the index the steps that it does not hold yet. FILE... are the files of all "
+              "steps, beginning with those that the index holds. The index keeps its options where "
+              "none are given")
         .group(index_group);
     command
         .flag("--refer", arguments.refer,
-              "Store references to FILES instead of a copy of their values")
+              "Leave the values in the files: the index holds references to them instead of a copy")
         .group(index_group);
     command
         .option("--threads", arguments.build.threads,
-                "Threads to build with (0: one for each processor)")
+                "Number of threads that build; 0 takes one for each processor")
         .between(0u, 1024u)
+        .type_name("COUNT")
         .group(index_group);
     const Option lattice =
         command
-            .option(
-                "--lattice", arguments.build.tree.lattice,
-                "Add the paper's tree; its lattice has L x L elements (the paper's SpanSpaceSize)")
+            .option("--lattice", arguments.build.tree.lattice,
+                    "Also build the tree of the paper, with a lattice of this many elements along "
+                    "each side (the paper's SpanSpaceSize)")
             .between(1u, 4096u)
             .shows_default()
+            .type_name("COUNT")
             .group(index_group);
-    const Option variation = command
-                                 .option("--max-variation", arguments.build.tree.max_variation,
-                                         "Add the paper's tree; a cell is stored once for a time "
-                                         "span in which it has at most this many lattice elements")
-                                 .between(1u, 64u)
-                                 .shows_default()
-                                 .group(index_group);
+    const Option variation =
+        command
+            .option("--max-variation", arguments.build.tree.max_variation,
+                    "Also build the tree of the paper; it stores a cell once for a span of time in "
+                    "which the cell lies in at most this many lattice elements")
+            .between(1u, 64u)
+            .shows_default()
+            .type_name("COUNT")
+            .group(index_group);
     return {lattice, variation};
 }
 

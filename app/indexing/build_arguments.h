@@ -30,7 +30,7 @@ struct BuildArguments {
     std::vector<std::string> arrays;
     bool all_arrays = false;
     std::optional<std::string> color, color_component, color_unit;
-    bool quiet = false, append = false, refer = false;
+    bool append = false, refer = false;
     double timeout = 30; ///< [s]
 };
 

@@ -63,18 +63,6 @@ std::string array_text(const index::IndexFile& file) {
                        human_bytes(static_cast<double>(own_bytes(file))));
 }
 
-nlohmann::ordered_json array_json(const index::IndexFile& file) {
-    const index::IndexStats& stats = file.stats();
-    return {{"array", file.info().array},
-            {"value_unit", file.info().value_unit},
-            {"type", index::name_of(file.info().type)},
-            {"low", stats.low},
-            {"high", stats.high},
-            {"nan_values", stats.nan_values},
-            {"tiers", tier_names(file)},
-            {"content_hash", fmt::format("{:016x}", file.content_hash())}};
-}
-
 /// The time nodes of the paper's tree; none without it.
 std::vector<index::TimeNodeCells> time_nodes(const index::IndexFile& file) {
     const auto tree = index::tree_of(file);
@@ -104,11 +92,11 @@ index::LevelMapPtr levels_of(const index::IndexFile& file) {
 std::string levels_text(const index::IndexFile& file) {
     const auto levels = levels_of(file);
     if (!levels)
-        return "none: there are no bricks";
+        return "none, as the index has no bricks";
     const bool by_step = index::size_of(file.info().type) > 1;
     return fmt::format("{}, {}{}", levels->levels(),
-                       levels->lossless() ? "one for every value" : "shared by several values",
-                       by_step ? " (of the last step; each has its own)" : "");
+                       levels->lossless() ? "one for each value" : "each for several values",
+                       by_step ? " (in the last step; each step has its own classes)" : "");
 }
 
 SafeText sources_text(const std::vector<std::string>& sources) {
@@ -125,8 +113,9 @@ SafeText sources_text(const std::vector<std::string>& sources) {
 SafeText tree_text(const index::IndexFile& file) {
     const auto nodes = time_nodes(file);
     if (nodes.empty())
-        return SafeText("time nodes    none: bricks and the scan have none; build --lattice adds "
-                        "the paper's tree\n");
+        return SafeText(
+            "time nodes    none; only the tree of the paper has them, which build --lattice "
+            "adds\n");
     SafeText text;
     for (const auto& node : nodes)
         text += SafeText("{:{}}[{},{}] {} cells\n", "", 2 * node.depth, node.first_step,
@@ -144,17 +133,18 @@ std::optional<index::BlendQuality> quality_of(const IndexReport& report) {
 
 std::string blends_text(const std::optional<index::BlendQuality>& quality) {
     if (!quality)
-        return "not known: that takes three steps, bricks and values in the index";
+        return "unknown; the measurement needs three steps, bricks, and the values in the index";
     return fmt::format(
-        "{}: between steps the surface of their blend is expected within {:.2g} "
-        "voxels (95 % of the cells){}; {:.2g} where every second step is left out{}",
+        "{}; a blend of two steps is expected to place 95 % of the surface's cells within {:.2g} "
+        "voxels of the true surface{}. The error is {:.2g} voxels with every second step alone{}",
         quality->holds() ? "hold" : "blend", quality->expected(),
-        quality->lone > 0 ? fmt::format(", but {} of its parts of more than {} cells come and go",
+        quality->lone > 0 ? fmt::format(", but {} parts of more than {} cells appear and vanish",
                                         quality->lone, index::BlendQuality::kSmallPart)
                           : "",
         quality->every_second,
-        quality->every_fourth ? fmt::format(", {:.2g} of every fourth", *quality->every_fourth)
-                              : "");
+        quality->every_fourth
+            ? fmt::format(" and {:.2g} with every fourth step alone", *quality->every_fourth)
+            : "");
 }
 
 nlohmann::ordered_json blends_json(const std::optional<index::BlendQuality>& quality) {
@@ -202,6 +192,18 @@ std::string sizes_of(const std::vector<const index::IndexFile*>& arrays, std::ui
 
 } // namespace
 
+nlohmann::ordered_json array_json(const index::IndexFile& array) {
+    const index::IndexStats& stats = array.stats();
+    return {{"array", array.info().array},
+            {"value_unit", array.info().value_unit},
+            {"type", index::name_of(array.info().type)},
+            {"low", stats.low},
+            {"high", stats.high},
+            {"nan_values", stats.nan_values},
+            {"tiers", tier_names(array)},
+            {"content_hash", fmt::format("{:016x}", array.content_hash())}};
+}
+
 std::string array_sizes(const index::IndexFile& array) {
     return array.arrays() == 1 ? file_sizes(array) : sizes_of({&array}, own_bytes(array));
 }
@@ -221,8 +223,8 @@ double staying_percent(const index::IndexFile& file) {
 }
 
 std::string staying_text(const index::IndexFile& file) {
-    return fmt::format("{:.1f} % of the chunks of 16 x 16 x 16 values are the same as in the step "
-                       "before: stored once, and their cells are reused",
+    return fmt::format("{:.1f} % of the blocks of 16 x 16 x 16 values equal the blocks of the step "
+                       "before; they are stored once, and cells found in them are used again",
                        staying_percent(file));
 }
 
@@ -242,24 +244,25 @@ SafeText as_text(const IndexReport& report) {
         line("colors", fmt::format("{}, {}, {} to {}{}, {} NaN", color->array,
                                    index::name_of(color->type), color->low, color->high,
                                    with_space(color->value_unit), grouped(color->nan_values)));
-    line("file", fmt::format("{}; {:.3g} % of raw without the volume", file_sizes(file),
-                             percent_of_raw(file)));
+    line("file", fmt::format("{}; without the volume {:.3g} % of the raw size (24 bytes for each "
+                             "cell and step)",
+                             file_sizes(file), percent_of_raw(file)));
     if (file.has_since() && info.steps() > 1)
-        line("stays", staying_text(file));
+        line("unchanged", staying_text(file));
     for (std::size_t level = 1; level < file.detail_levels(); ++level)
-        line(level == 1 ? "levels" : "",
-             fmt::format("of detail {}: {}", level,
-                         fmt::join(file.chunks(level).info().grid.vertices, " x ")));
+        line(level == 1 ? "coarser grids" : "",
+             fmt::format("{} vertices (level of detail {})",
+                         fmt::join(file.chunks(level).info().grid.vertices, " x "), level));
     for (const std::string& reason : file.plan().reasons)
         line("plan", reason);
     if (file.plan().steps < info.steps())
-        line("plan",
-             fmt::format("made when it had {} of its {} steps", file.plan().steps, info.steps()));
-    line("ranks", levels_text(file));
+        line("plan", fmt::format("chosen when the index held {} of its {} steps", file.plan().steps,
+                                 info.steps()));
+    line("brick classes", levels_text(file));
     if (entries_of(file) > 0)
         line("coherence",
-             fmt::format("{:.4f} entries for each cell and step: the fewer, the longer "
-                         "cells stay as they are ({} entries; lattice {}, max variation {})",
+             fmt::format("{:.4f} entries for each cell and step; fewer entries mean that cells "
+                         "change more slowly ({} entries, lattice {}, max variation {})",
                          coherence(file), grouped(entries_of(file)), file.tree_options().lattice,
                          file.tree_options().max_variation));
     if (const auto quality = quality_of(report); quality || report.blends)

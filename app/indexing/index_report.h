@@ -23,6 +23,9 @@ std::string file_sizes(const index::IndexFile& file);
 /// The sizes of one array alone.
 std::string array_sizes(const index::IndexFile& array);
 
+/// An array's name, type, values and search structures.
+nlohmann::ordered_json array_json(const index::IndexFile& array);
+
 /// @throws index::Error when the tree is damaged
 SafeText as_text(const IndexReport& report);
 nlohmann::ordered_json as_json(const IndexReport& report);

@@ -3,7 +3,7 @@
 
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/version.h"
 #include "index/error.h"
 #include "index/file/sections/file_layout.h"
@@ -285,7 +285,7 @@ fs::path kept_index(const BuildArguments& given, const fs::path& folder,
     std::vector<std::string> notes = sources.volume->info().notes;
     notes.insert(notes.end(), sources.notes.begin(), sources.notes.end());
     for (const std::string& note : notes)
-        print_safely(stderr, "note: {}\n", note);
+        print_note("note: {}", note);
     make_room(folder, path, most_bytes);
     return path;
 }

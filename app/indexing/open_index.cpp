@@ -1,7 +1,7 @@
 // Opens the index that a command is given.
 #include "app/indexing/open_index.h"
 
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/volume_blocks.h"
@@ -21,17 +21,19 @@ bool is_only_scanned(const index::IndexFile& file) {
 } // namespace
 
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
-                                                   std::uint64_t cache_bytes, LostState lost) {
-    auto file = index::open_named_index(path, cache_bytes);
+                                                   std::uint64_t cache_bytes, LostState lost,
+                                                   const std::vector<std::string>& arrays) {
+    auto file = index::open_named_index(path, cache_bytes, arrays);
     const auto line = lost == LostState::is_said ? index::lost_state(*file) : std::nullopt;
     if (line)
-        print_safely(stderr, "isochron: {}\n", *line);
+        print_note("{}", *line);
     if (lost == LostState::is_said && is_only_scanned(*file))
-        print_safely(stderr,
-                     "isochron: {}: the search structures that it holds are no longer "
-                     "used, so each search scans a whole step; isochron build {} -o "
-                     "NEW.isochron gives it bricks\n",
-                     path.string(), index::shell_word(path.string()));
+        print_note("{}: the search structures that it holds are no longer used, so each search "
+                   "scans a whole step; isochron build {} -o NEW.isochron gives it bricks",
+                   path.string(), index::shell_word(path.string()));
+    print_detail("opened {}: {} of {} array{}, {} steps", path.string(),
+                 human_bytes(static_cast<double>(file->stats().file_bytes)), file->arrays(),
+                 file->arrays() == 1 ? "" : "s", file->info().steps());
     return file;
 }
 
@@ -50,18 +52,24 @@ void check_can_be_shown(const index::Grid& grid, const std::string& name) {
                                        name, grid.vertex_count()));
 }
 
-std::shared_ptr<const index::IndexFile>
-array_called(const std::shared_ptr<const index::IndexFile>& file,
-             const std::optional<std::string>& name) {
+std::shared_ptr<const index::IndexFile> open_array(const std::filesystem::path& path,
+                                                   const std::optional<std::string>& name,
+                                                   std::uint64_t cache_bytes,
+                                                   const std::optional<std::string>& color_by) {
+    std::vector<std::string> named;
+    for (const auto& one : {name, color_by})
+        if (one)
+            named.push_back(*one);
+    const auto file = open_index(path, cache_bytes, LostState::is_said, named);
     return name ? index::array_of(file, array_number(*file, *name)) : file;
 }
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
     if (isovalue < stats.low || isovalue > stats.high)
-        print_safely(stderr, "isochron: isovalue {} lies beyond the data, {} to {}{}\n",
-                     human_number(isovalue), human_number(stats.low), human_number(stats.high),
-                     with_space(file.info().value_unit));
+        print_note("isovalue {} lies beyond the data, {} to {}{}", human_number(isovalue),
+                   human_number(stats.low), human_number(stats.high),
+                   with_space(file.info().value_unit));
 }
 
 } // namespace isochron::app

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace isochron::app {
 
@@ -20,7 +21,8 @@ enum class LostState : std::uint8_t { is_said, is_for_the_caller };
 /// @throws index::Error as index::open_named_index
 std::shared_ptr<const index::IndexFile> open_index(const std::filesystem::path& path,
                                                    std::uint64_t cache_bytes = 0,
-                                                   LostState lost = LostState::is_said);
+                                                   LostState lost = LostState::is_said,
+                                                   const std::vector<std::string>& arrays = {});
 /// Opens an index for commands that show surfaces.
 /// @throws index::Error also as `check_can_be_shown`
 std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem::path& path,
@@ -31,11 +33,12 @@ std::shared_ptr<const index::IndexFile> open_index_to_show(const std::filesystem
 /// of the volume, in memory and on the GPU, which at that size hold 2^26 entries
 void check_can_be_shown(const index::Grid& grid, const std::string& name);
 
-/// One of the arrays of an index. @param name none: the first
-/// @throws index::Error naming its arrays when there is no such array
-std::shared_ptr<const index::IndexFile>
-array_called(const std::shared_ptr<const index::IndexFile>& file,
-             const std::optional<std::string>& name);
+/// Opens one of the arrays of an index. @param name none: the first @param color_by another one that is used
+/// @throws index::Error as `open_index`, and naming its arrays when there is no such array
+std::shared_ptr<const index::IndexFile> open_array(const std::filesystem::path& path,
+                                                   const std::optional<std::string>& name,
+                                                   std::uint64_t cache_bytes = 0,
+                                                   const std::optional<std::string>& color_by = {});
 
 /// Warns on stderr if an isovalue lies outside the range of the data, where no surface is.
 void warn_beyond(double isovalue, const index::IndexFile& file);

@@ -140,7 +140,7 @@ std::string gaps_text(const SeriesInfo& info) {
                                         : "more than three times the usual time"));
     }
     return named.empty() ? ""
-                         : fmt::format("{}: where steps are blended, the step before is held",
+                         : fmt::format("{}; there, the step before is shown instead of a blend",
                                        fmt::join(named, ", "));
 }
 

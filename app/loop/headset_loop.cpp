@@ -1,7 +1,7 @@
 // A headset's part in the live loop.
 #include "app/loop/headset_loop.h"
 
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "interaction/input/composite_input.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ const char* in_words(stereo::HeadsetState state) {
 void HeadsetLoop::tell_changes() {
     std::string now = fmt::format("headset {}: {}", in_words(state_), headset_->description());
     if (now != told_)
-        print_safely(stderr, "isochron: {}\n", now);
+        print_note("{}", now);
     told_ = std::move(now);
 }
 

@@ -1,7 +1,7 @@
 // Divides the memory by what a cell was measured to take.
 #include "app/quality/cell_room.h"
 
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "index/system/memory_limit.h"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::vector<std::string> limit_to_memory(DetailChoice& details, const index::Ind
                                     file.cache_bytes()))
         lines.push_back(std::move(*line));
     for (const std::string& line : lines) // nobody sees the panel of a replay
-        print_safely(stderr, "isochron: {}\n", line);
+        print_note("{}", line);
     return lines;
 }
 

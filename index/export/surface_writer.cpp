@@ -42,7 +42,7 @@ constexpr std::array<SurfaceFormat, 8> kFormats{{
      .make = glb_writer},
     {.name = "glb-animation",
      .extension = ".glb",
-     .words = "the same with all steps in one file, which viewers play",
+     .words = "glTF with all steps in one file, which viewers play",
      .all_in_one = true,
      .with_quantized = true,
      .make = glb_animation_writer},

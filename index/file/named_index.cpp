@@ -9,7 +9,8 @@
 namespace isochron::index {
 
 std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& path,
-                                                  std::uint64_t cache_bytes) {
+                                                  std::uint64_t cache_bytes,
+                                                  const std::vector<std::string>& arrays) {
     try {
         return IndexFile::open(path, cache_bytes);
     } catch (const Error& error) {
@@ -18,9 +19,12 @@ std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& p
             throw;
         std::filesystem::path made = path;
         made.replace_extension(".isochron");
-        throw Error(fmt::format("{}; `isochron build {} -o {}` makes an index of data",
-                                error.what(), shell_word(path.string()),
-                                shell_word(made.string())));
+        std::string options;
+        for (const std::string& array : arrays)
+            options += " --array " + shell_word(array);
+        throw Error(fmt::format("{}; `isochron build {} -o {}{}` makes an index of data",
+                                error.what(), shell_word(path.string()), shell_word(made.string()),
+                                options));
     }
 }
 

@@ -16,8 +16,10 @@ namespace isochron::index {
 
 /// @throws Error as IndexFile::open; if the file exists but is no .isochron, the message says how to
 ///         build an index of it
+/// @param arrays that the user names, which that index is to have
 std::shared_ptr<const IndexFile> open_named_index(const std::filesystem::path& path,
-                                                  std::uint64_t cache_bytes = 0);
+                                                  std::uint64_t cache_bytes = 0,
+                                                  const std::vector<std::string>& arrays = {});
 
 /// The names of its arrays.
 std::vector<std::string> array_names(const IndexFile& file);

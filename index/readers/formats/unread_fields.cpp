@@ -7,11 +7,33 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 namespace isochron::index {
+namespace {
 
-std::optional<std::string> note_on_unread(const std::vector<std::string>& fields) {
+/// Names and descriptions of data, programs that wrote them, and how others show them: places, times and
+/// values are what they are without these fields, which nearly every file of some programs has.
+constexpr std::array<std::string_view, 14> kSkipped{
+    "aux_file none", "cal_max",   "cal_min",
+    "Color",         "Comment",   "content",
+    "descrip",       "Grid Name", "ITK_InputFilterName",
+    "LABEL",         "max",       "measurement frame (1,0,0) (0,1,0) (0,0,1)",
+    "min",           "Name"};
+
+bool is_skipped(std::string_view field) {
+    return std::ranges::any_of(kSkipped, [&](std::string_view key) {
+        return field.starts_with(key) && (field.size() == key.size() || field[key.size()] == ' ');
+    });
+}
+
+} // namespace
+
+std::optional<std::string> note_on_unread(const std::vector<std::string>& all) {
     constexpr std::ptrdiff_t kShown = 12;
+    std::vector<std::string> fields;
+    std::ranges::remove_copy_if(all, std::back_inserter(fields), is_skipped);
     if (fields.empty())
         return std::nullopt;
     const auto shown = std::min(std::ssize(fields), kShown);

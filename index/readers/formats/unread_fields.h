@@ -10,7 +10,8 @@
 
 namespace isochron::index {
 
-/// One sentence; empty without any. @param fields as the file has them, with their values where short
+/// One sentence; empty without any. Fields that only name or describe the data are left out.
+/// @param fields as the file has them, with their values where short
 std::optional<std::string> note_on_unread(const std::vector<std::string>& fields);
 
 /// The fields of a header that none of these keys are, as `note_on_unread` takes them.

@@ -360,6 +360,71 @@ for name in ("seven.mat", "stack.lsm"):  # the content counts
     if status or "6 x 5 x 4" not in out:
         wrong.append(f"{name}: {out}{err}")
 
+# ---- what programs write by default says nothing that would be noted
+def vtk_files():
+    import vtk
+    from vtk.util import numpy_support
+    image = vtk.vtkImageData()
+    image.SetDimensions(6, 5, 4)
+    for name in ("p", "T"):
+        held = numpy_support.numpy_to_vtk(values.ravel(), deep=True)
+        held.SetName(name)
+        held.GetRange()
+        image.GetPointData().AddArray(held)
+    image.GetPointData().SetActiveScalars("T")
+    vectors = numpy_support.numpy_to_vtk(np.stack([values.ravel()] * 3, 1), deep=True)
+    vectors.SetName("U")
+    for i in range(3):
+        vectors.SetComponentName(i, "XYZ"[i])
+    image.GetPointData().SetVectors(vectors)
+    whole = vtk.vtkImageCast()
+    whole.SetInputData(image)
+    whole.SetOutputScalarTypeToUnsignedShort()
+    whole.Update()
+    for writer, name, data in [(vtk.vtkXMLImageDataWriter(), "silent.vti", image), (vtk.vtkXMLPImageDataWriter(), "silent.pvti", image),
+                               (vtk.vtkStructuredPointsWriter(), "silent.vtk", image), (vtk.vtkMetaImageWriter(), "silent.mha", image),
+                               (vtk.vtkTIFFWriter(), "silent.tif", whole.GetOutput())]:
+        writer.SetFileName(name)
+        writer.SetInputData(data)
+        writer.Write()
+        yield name
+
+
+def silent_files():
+    import nibabel
+    import xarray
+    yield from vtk_files()
+    yield hdf5("silent.h5", {"p": values}, title="a run")
+    yield netcdf("silent.nc", times=[0, 1], Conventions="CF-1.8", title="a run", history="made", institution="here")
+    tifffile.imwrite("silent_imagej.tif", values.astype("u2")[:, None], imagej=True, metadata=dict(axes="ZCYX", mode="grayscale", min=0., max=9.))
+    tifffile.imwrite("silent.ome.tif", values.astype("u2"), metadata=dict(axes="ZYX"))
+    tifffile.imwrite("silent_itk.tif", values.astype("u2"), photometric="minisblack", metadata=None, software="InsightToolkit",
+                     resolution=(25.4, 25.4), resolutionunit="INCH")
+    yield from ("silent_imagej.tif", "silent.ome.tif", "silent_itk.tif")
+    image = nibabel.Nifti1Image(values.T, np.diag([1, 1, 2, 1]))
+    image.header["descrip"], image.header["cal_max"], image.header["aux_file"] = b"FSL5.0", 9, b"none"
+    for name in ("silent.nii", "silent.nii.gz"):
+        nibabel.save(image, name)
+        yield name
+    xarray.DataArray(values, dims=list("zyx"), coords=dict(z=range(4), y=range(5), x=range(6)), name="p").to_netcdf("silent_xarray.nc")
+    yield "silent_xarray.nc"
+    yield nrrd("silent_itk.nrrd", values, "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: "
+               "(0,0,0)\nkinds: domain domain domain\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\ncontent: a run\n"
+               "ITK_InputFilterName:=NrrdImageIO\n")
+    yield write("silent_itk.mha", b"ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = "
+                b"False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\nCenterOfRotation = 0 0 0\nAnatomicalOrientation = RAI\n"
+                b"ElementSpacing = 1 1 1\nITK_InputFilterName = MetaImageIO\nDimSize = 6 5 4\nElementType = MET_FLOAT\n"
+                b"ElementDataFile = LOCAL\n" + values.tobytes())
+
+
+for name in silent_files():
+    status, out, err = run("info", name)
+    if status or re.search("^note", out, re.MULTILINE):
+        wrong.append(f"{name}: {out}{err}, expected no note")
+    status, out, err = run("build", name, "-o", "silent.isochron", "--force", "--all-arrays")
+    if status or "note" in out + err:
+        wrong.append(f"{name}: {out}{err}, expected no note of the build")
+
 # ---- every option that a message of the readers names is in a case above, or is no advice
 NO_ADVICE = [
     "expected positive numbers", "expected a positive number", "expected less than", "expected a volume of less than", "stride 0",

@@ -124,7 +124,7 @@ TEST_F(CommandLine, AppendingKeepsWhatTheIndexWasBuiltWith) {
         EXPECT_EQ(described(), whole) << options.front();
         EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
         const bool anew = options.front() == "--lattice";
-        EXPECT_EQ(appended.out.find("written anew: the paper's tree spans all steps") !=
+        EXPECT_EQ(appended.err.find("written anew: the paper's tree spans all steps") !=
                       std::string::npos,
                   anew);
         std::filesystem::remove(folder.path() / "a.isochron");
@@ -161,7 +161,7 @@ TEST_F(CommandLine, AppendingSaysWhereItIsToldOtherwise) {
         more.push_back("--append");
         const ChildResult appended = isochron(build_of("t*.raw", more));
         EXPECT_EQ(appended.status, 0) << appended.err;
-        EXPECT_THAT(appended.out, HasSubstr("note: written anew: " + told));
+        EXPECT_THAT(appended.err, HasSubstr("isochron: note: written anew: " + told));
         EXPECT_EQ(isochron({"verify", "a.isochron"}).status, 0);
         std::filesystem::remove(folder.path() / "a.isochron");
     }

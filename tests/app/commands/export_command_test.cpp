@@ -537,7 +537,7 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
         {{"--isovalue", "0", "-o", "a.csv", "--color-by", "t"},
          "--color-by: is for ply, obj, vtp, glb, glb-animation, usda, not csv"},
         {{"--isovalue", "0", "-o", "a.stl", "--color-by", "t"}, "usda, not stl"},
-        {{"--isovalue", "0", "-o", "a.ply", "--range", "0", "1"}, "--range requires --color-by"},
+        {{"--isovalue", "0", "-o", "a.ply", "--range", "0", "1"}, "--color-range requires --color-by"},
         {{"--isovalue", "0", "-o", "a.csv", "--no-normals"}, "--no-normals: is for ply, obj"},
         {{"--isovalue", "0", "-o", "a.glb", "--rate", "5"},
          "--rate: is for glb-animation, usda, not glb"},

@@ -35,11 +35,11 @@ TEST_F(Generate, TellsAsTheProgramDoesWhatIsWrong) {
     expect_failure(isochron({"generate", "sphere", "--out=-d", "--steps", "3"}), 1,
                    "-d/sphere.pvd: is another series than ");
     expect_failure(isochron({"generate", "sphere"}), 2,
-                   "--out is required (see isochron generate sphere --help)");
+                   "--output is required (see isochron generate sphere --help)");
     expect_failure(isochron({"generate", "sphere", "-o", "d", "--type", "u9"}), 2,
                    "expected one of f32, u8, got u9, did you mean u8?");
     EXPECT_THAT(isochron({"generate", "sphere", "--help"}).out,
-                AllOf(HasSubstr("isochron generate sphere"), HasSubstr("--steps")));
+                AllOf(HasSubstr("isochron generate sphere"), HasSubstr("--step-count")));
 }
 
 TEST_F(Generate, IsCanceledAsTheProgramIs) {

@@ -1,11 +1,15 @@
-// Help begins with examples; they and the commands of the guide work as they are written.
+// Examples of help and commands of the guide work as they are written; what every command prints where.
 #include "tests/app/commands/explore_fixture.h"
 
 #include "tests/support/child_process.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -70,7 +74,9 @@ class HelpExamples : public testing::Test {
         while (std::getline(lines, line) && line != heading) {
         }
         while (std::getline(lines, line) && !line.empty())
-            if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
+            if (!found.empty() && found.back().ends_with(" \\")) // an example goes on
+                found.back().replace(found.back().size() - 1, 1, line.substr(4));
+            else if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
                 found.push_back(line.substr(2));
         return found;
     }
@@ -90,8 +96,7 @@ class HelpExamples : public testing::Test {
     static void shorten(std::string& command) {
         if (command.starts_with("isochron movie run42"))
             command.insert(std::min(command.find(" #"), command.size()), " --rate 2 --size 160 90");
-        if (command.starts_with("isochron generate") &&
-            command.find("--steps") == std::string::npos)
+        if (command.starts_with("isochron generate") && command.find("--step") == std::string::npos)
             command.insert(std::min(command.find(" #"), command.size()),
                            command.find("sphere") == std::string::npos ? " --steps 1 --size 16"
                                                                        : " --steps 1");
@@ -101,10 +106,12 @@ class HelpExamples : public testing::Test {
     std::vector<std::string> environment_;
 };
 
-TEST_F(HelpExamples, OfTheProgramAreBeforeTheFiveCommandsToBeginWith) {
+TEST_F(HelpExamples, OfTheProgramAreBehindTheFiveCommandsToBeginWith) {
     const std::string text = help("isochron");
     EXPECT_EQ(lines_below(text, "Examples:").size(), 2u);
-    EXPECT_LT(text.find("Examples:"), text.find("Usage:"));
+    EXPECT_LT(text.find("Commands to begin with:"), text.find("Examples:"));
+    EXPECT_EQ(shell("isochron").out, text);
+    EXPECT_EQ(shell("isochron help").out, text);
     std::vector<std::string> first;
     for (const std::string& line : lines_below(text, "Commands to begin with:"))
         first.push_back(line.substr(0, line.find(' ')));
@@ -114,14 +121,14 @@ TEST_F(HelpExamples, OfTheProgramAreBeforeTheFiveCommandsToBeginWith) {
 TEST_F(HelpExamples, OfEveryCommandWorkAsTheyAreWritten) {
     test_support::VirtualDisplay screen;
     environment_.push_back(std::string("DISPLAY=") + std::getenv("DISPLAY"));
-    ASSERT_EQ(shell("isochron generate sphere --steps 3 -o run42").status, 0);
+    ASSERT_EQ(shell("isochron generate sphere --step-count 3 -o run42").status, 0);
     const std::vector<std::string> commands = commands_of("isochron");
     EXPECT_GT(commands.size(), 17u);
     for (const std::string& command : commands) {
         const std::string text = help(command);
         const std::vector<std::string> examples = lines_below(text, "Examples:");
         EXPECT_EQ(examples.size(), 2u) << command;
-        EXPECT_LT(text.find("Examples:"), text.find("Usage:")) << command;
+        EXPECT_GT(text.find("Examples:"), text.find("Usage:")) << command;
         for (std::string example : examples) {
             shorten(example);
             // A window is waited for, and closed.
@@ -137,6 +144,31 @@ TEST_F(HelpExamples, OfEveryCommandWorkAsTheyAreWritten) {
             EXPECT_EQ(result.status, 0) << example << '\n' << result.err;
         }
     }
+}
+
+// Wrapped to the terminal's width; a pseudo terminal is as wide as it is told.
+TEST_F(HelpExamples, AndAllHelpAreAsWideAsTheTerminal) {
+    for (const std::string columns : {"50", "120"}) {
+        const ChildResult shown = shell("script -qec 'stty cols " + columns +
+                                        "; isochron help build; isochron help' /dev/null");
+        std::istringstream lines(shown.out);
+        std::size_t widest = 0;
+        for (std::string line; std::getline(lines, line);)
+            widest = std::max(widest, line.size() - (line.ends_with('\r') ? 1 : 0));
+        EXPECT_LE(widest, std::stoul(columns));
+        EXPECT_GT(widest + 12, std::stoul(columns));
+    }
+}
+
+TEST_F(HelpExamples, OfEveryCommandTellAnswersAndNotesApart) {
+    ASSERT_EQ(shell("isochron generate sphere --step-count 3 -o run42 && isochron build run42 -o "
+                    "run42.isochron && isochron replay walk.jsonl --stamps -o pictures")
+                  .status,
+              0);
+    const ChildResult result =
+        shell("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 " + test_support::source_root() +
+              "/tests/app/commands/each_command.py isochron " + test_support::source_root());
+    EXPECT_EQ(result.status, 0) << result.out << result.err;
 }
 
 /// The commands in a page's blocks that need neither a window nor hardware nor other computers.
@@ -160,7 +192,7 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
 TEST_F(HelpExamples, OfThePageAboutSteeringWorkInASession) {
     test_support::VirtualDisplay screen;
     environment_.push_back(std::string("DISPLAY=") + std::getenv("DISPLAY"));
-    ASSERT_EQ(shell("isochron generate sphere --steps 9 -o run42").status, 0);
+    ASSERT_EQ(shell("isochron generate sphere --step-count 9 -o run42").status, 0);
     ASSERT_EQ(shell("isochron build run42 -o run42.isochron").status, 0);
     std::string all = "isochron explore run42.isochron --control & until [ -S "
                       "$XDG_RUNTIME_DIR/isochron/control.sock ]; do sleep 0.1; done; set -e\n";
@@ -172,16 +204,57 @@ TEST_F(HelpExamples, OfThePageAboutSteeringWorkInASession) {
     EXPECT_EQ(result.status, 0) << result.err;
 }
 
-/// Each page's commands work in a copy of one folder, with a series, its index and a configuration.
+/// A step of a flow as a solver of a finite volume writes it, in SI units: pressure, temperature, velocity
+/// and a viscosity that is constant.
+std::string flow_step(std::size_t step) {
+    constexpr std::size_t kX = 33, kY = 25, kZ = 17;
+    constexpr double kSpacing = 0.002; // [m]
+    std::array<std::vector<float>, 4> values;
+    for (std::size_t i = 0; i < kX * kY * kZ; ++i) {
+        const double x = kSpacing * double(i % kX), y = kSpacing * double(i / kX % kY),
+                     z = kSpacing * double(i / kX / kY), t = 0.3 * double(step);
+        values[0].push_back(float(101325 + 200 * std::sin(60 * x + t) * std::cos(80 * y)));
+        values[1].push_back(
+            float(300 + 20 * std::exp(-1e4 * (x - 0.03) * (x - 0.03)) * std::cos(t)));
+        for (const double v : {std::sin(90 * y + t), std::cos(80 * x), 0.1 * z})
+            values[2].push_back(float(v));
+        values[3].push_back(1e-5f);
+    }
+    std::string arrays, appended;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        arrays += fmt::format("<DataArray type=\"Float32\" Name=\"{}\" NumberOfComponents=\"{}\" "
+                              "format=\"appended\" offset=\"{}\"/>",
+                              std::array{"p", "T", "U", "nut"}[i], i == 2 ? 3 : 1, appended.size());
+        const auto bytes = static_cast<std::uint32_t>(values[i].size() * sizeof(float));
+        appended.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+        appended.append(reinterpret_cast<const char*>(values[i].data()), bytes);
+    }
+    const std::string extent = fmt::format("0 {} 0 {} 0 {}", kX - 1, kY - 1, kZ - 1);
+    return fmt::format(
+               "<VTKFile type=\"ImageData\" version=\"0.1\" byte_order=\"LittleEndian\" "
+               "header_type=\"UInt32\"><ImageData WholeExtent=\"{0}\" Origin=\"0 0 0\" "
+               "Spacing=\"{1} {1} {1}\"><FieldData><DataArray type=\"Float64\" "
+               "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{2}</DataArray>"
+               "</FieldData><Piece Extent=\"{0}\"><PointData Scalars=\"p\" Vectors=\"U\">{3}"
+               "</PointData></Piece></ImageData><AppendedData encoding=\"raw\">_",
+               extent, kSpacing, 0.05 * double(step), arrays) +
+           appended + "</AppendedData></VTKFile>";
+}
+
+/// Each page's commands work in a copy of one folder, with such a flow, its index and a configuration.
 class GuideCommands : public HelpExamples, public testing::WithParamInterface<std::string> {
   protected:
     static void SetUpTestSuite() {
+        constexpr std::size_t kSteps = 12;
         made_ = std::make_unique<TestFolder>();
-        const std::string isochron = test_support::binary_root() + "/isochron";
-        for (const std::vector<std::string>& command :
-             {std::vector<std::string>{"generate", "sphere", "--steps", "9", "-o", "run42"},
-              {"build", "run42", "-o", "run42.isochron"}})
-            ASSERT_EQ(run_child(isochron, command, made_->path()).status, 0);
+        std::filesystem::create_directory(made_->path() / "run42");
+        for (std::size_t step = 0; step < kSteps; ++step)
+            made_->write(fmt::format("run42/run_{:04}.vti", step), flow_step(step));
+        const ChildResult built =
+            run_child(test_support::binary_root() + "/isochron",
+                      {"build", "run42", "-o", "run42.isochron", "--all-arrays"}, made_->path());
+        ASSERT_EQ(built.status, 0) << built.err;
+        EXPECT_EQ(built.err.find("note"), std::string::npos) << built.err;
     }
     static void TearDownTestSuite() { made_.reset(); }
     GuideCommands() {

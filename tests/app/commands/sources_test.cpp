@@ -84,13 +84,13 @@ TEST_F(SourceInfo, SaysWhereNumbersAreMissing) {
         all.insert(all.end(), more.begin(), more.end());
         const ChildResult result = run(all);
         EXPECT_EQ(result.status, 0) << result.err;
-        return result.out;
+        return result.err;
     };
     const auto gaps = [&] {
         return nlohmann::json::parse(info({"a.isochron", "--json"}).out).at("gaps");
     };
-    const std::string gap = "between steps 1 and 2 (numbers are missing in the names): where steps "
-                            "are blended, the step before is held\n";
+    const std::string gap = "between steps 1 and 2 (numbers are missing in the names); there, the "
+                            "step before is shown instead of a blend\n";
     const auto behind_1 =
         nlohmann::json::parse(R"([{"after_step": 1, "numbers_are_missing": true}])");
     EXPECT_THAT(build("t[013].raw"), HasSubstr("note: a gap " + gap));

@@ -56,8 +56,8 @@ std::array<std::uint64_t, 3> place_vtkhdf(const Hdf5File& file, SeriesInfo& info
 /// The layout of a dataset whose last dimensions, before components, match the vertices or cells;
 /// none if they do not.
 std::optional<ArrayLayout> vtkhdf_layout(const Hdf5Dataset& dataset,
-                                        std::array<std::uint64_t, 3> sizes, bool on_cells,
-                                        bool in_steps) {
+                                         std::array<std::uint64_t, 3> sizes, bool on_cells,
+                                         bool in_steps) {
     for (std::uint64_t& size : sizes)
         size -= on_cells ? 1 : 0;
     const auto& dimensions = dataset.dimensions;
@@ -106,7 +106,7 @@ bool is_flag(const std::string& path) {
     return path.ends_with("/vtkGhostType");
 }
 
-void note_unread(const Hdf5File& file, const ChosenScalar& chosen, SeriesInfo& info) {
+void note_unread(const Hdf5File& file, SeriesInfo& info) {
     std::vector<std::string> unread;
     if (const auto version = file.numbers(kRoot, "Version"); version.size() == 2 && version[0] > 2)
         unread.push_back(fmt::format("Version {}.{}, read as 2", version[0], version[1]));
@@ -116,11 +116,6 @@ void note_unread(const Hdf5File& file, const ChosenScalar& chosen, SeriesInfo& i
         for (const std::string& name : file.attributes(group))
             if (std::ranges::find(kRead, name) == kRead.end())
                 unread.push_back(name);
-    for (const std::string& group : {kPoints, kCells})
-        for (const std::string& name : file.attributes(group))
-            if (const std::string array = file.text(group, name);
-                chosen.offered.size() > 1 && array != chosen.array.name)
-                unread.push_back(fmt::format("{} {}", name, array));
     for (const Hdf5Dataset& dataset : file.datasets()) {
         if (dataset.path.starts_with(kRoot + "/FieldData/") || is_flag(dataset.path))
             unread.push_back(dataset.path.substr(kRoot.size() + 1));
@@ -165,7 +160,7 @@ std::unique_ptr<DecodedFile> decode_vtkhdf(std::unique_ptr<Hdf5File> file,
     volume.layout = *vtkhdf_layout(volume.datasets.front(), sizes, volume.on_cells, in_steps);
     if (in_steps)
         take_steps(*file, name, volume);
-    note_unread(*file, chosen, volume.info);
+    note_unread(*file, volume.info);
     return open_volume(std::move(file), name, std::move(volume), options);
 }
 

@@ -142,7 +142,7 @@ class MeshFile final : public DecodedFile {
         if (info_.times.empty())
             take_time_of_vtk(mesh_->data().GetFieldData(), info_);
         info_.value_unit = source.unit_of(chosen_.array.name);
-        take_fields_of_vtk(mesh_->data(), chosen_, "", info_);
+        take_fields_of_vtk(mesh_->data(), chosen_, info_);
         if (auto note = note_on_unread(source.unread()))
             info_.notes.push_back(std::move(*note));
     }

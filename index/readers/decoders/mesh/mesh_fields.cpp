@@ -69,8 +69,6 @@ std::int64_t dimensions_of_amrex(const fs::path& path) {
 
 std::vector<std::string> unread_of_exodus(vtkExodusIIReader& reader) {
     std::vector<std::string> unread;
-    if (const std::string title = reader.GetTitle() ? reader.GetTitle() : ""; !title.empty())
-        unread.push_back(fmt::format("title {}", excerpt(title)));
     for (const auto& [kind, what] : {std::pair(vtkExodusIIReader::SIDE_SET, "side sets"),
                                      {vtkExodusIIReader::NODE_SET, "node sets"},
                                      {vtkExodusIIReader::EDGE_BLOCK, "edge blocks"},

@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -206,6 +208,14 @@ class TiffVolume final : public DecodedFile {
         const std::string& said = first_.description();
         if (!slices_.empty() || !(x > 0) || !(y > 0) || unit < 2 || unit > 3 ||
             said.starts_with("ImageJ=") || said.find("<OME") != said.npos)
+            return;
+        // Of screens and prints, or of no known size: 1 mm in VTK and ITK.
+        constexpr std::array kUsual{1.0, 25.4, 72.0, 75.0, 96.0, 100.0, 150.0, 200.0, 300.0, 600.0};
+        constexpr double kRounded = 0.01, kCentimeters = 2.54; // in an inch
+        const double in_inch = unit == 2 ? x : x * kCentimeters;
+        if (x == y && std::ranges::any_of(kUsual, [&](double usual) {
+                return std::abs(in_inch / usual - 1) < kRounded;
+            }))
             return;
         info_.notes.push_back(fmt::format("stated and not used: {} x {} pixels for each {} "
                                           "(--spacing, --length-unit)",

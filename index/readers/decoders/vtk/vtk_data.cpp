@@ -85,7 +85,6 @@ class VtkData {
         file_bytes(path_);
         with_vtk(path_, [&] {
             const bool legacy = head_of(path_, 16).starts_with("# vtk DataFile");
-            title_ = legacy ? title_of(path_) : "";
             read_ = legacy ? read_legacy(path_) : read_xml(path_);
             if (!read_)
                 throw Error(fmt::format("{}: holds no data that VTK knows", path_.string()));
@@ -93,9 +92,8 @@ class VtkData {
         });
     }
 
-    vtkDataObject& read() const { return *read_; }      ///< as it was read
-    vtkDataSet& data() const { return *data_; }         ///< on the grid
-    const std::string& title() const { return title_; } ///< title of a legacy file, else empty
+    vtkDataObject& read() const { return *read_; } ///< as it was read
+    vtkDataSet& data() const { return *data_; }    ///< on the grid
     bool resampled() const { return resampled_; }
     const Grid& grid() const { return info_.grid; }
     const std::vector<std::string>& notes() const { return info_.notes; } ///< on the grid
@@ -143,7 +141,6 @@ class VtkData {
     }
 
     fs::path path_;
-    std::string title_;
     SeriesInfo info_; ///< grid and notes
     vtkSmartPointer<vtkDataObject> read_;
     vtkSmartPointer<vtkDataSet> data_;
@@ -171,7 +168,7 @@ class VtkDataFile final : public DecodedFile {
             std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells, all_->resampled()),
                               std::back_inserter(info_.notes));
             take_time_of_vtk(all_->read().GetFieldData(), info_);
-            take_fields_of_vtk(all_->read(), chosen_, all_->title(), info_);
+            take_fields_of_vtk(all_->read(), chosen_, info_);
         });
     }
 

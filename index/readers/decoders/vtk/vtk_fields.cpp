@@ -88,13 +88,6 @@ bool is_one_of(const auto& list, std::string_view word) {
     return std::ranges::any_of(list, [&](std::string_view one) { return one == word; });
 }
 
-/// What makes one of several arrays the one to be shown is not used: the user chooses.
-void add_active(const std::string& group, const std::string& kind, const std::string& name,
-                const ChosenScalar& chosen, UnreadFields& unread) {
-    if (!name.empty() && chosen.offered.size() > 1 && name != chosen.array.name)
-        unread.add(fmt::format("{} {}", group, kind), name);
-}
-
 class MarkupFields {
   public:
     MarkupFields(std::string_view markup, const ChosenScalar& chosen, SeriesInfo& info)
@@ -115,9 +108,7 @@ class MarkupFields {
         if (element == "FieldData" || element == "PointData" || element == "CellData") {
             if (!tag.text.ends_with("/>"))
                 group_ = element;
-            for (const auto& [kind, name] : attributes)
-                add_active(group_, kind, name, chosen_, unread_);
-            return;
+            return; // which array another program would show: here the user chooses
         }
         if (element == "InformationKey")
             return take_key(attributes["name"], tag);
@@ -126,10 +117,9 @@ class MarkupFields {
         if (group_ == "FieldData" && !is_one_of(kTimeFields, array_))
             unread_.add("FieldData " + array_, "");
         for (const auto& [name, value] : attributes)
-            if (!is_one_of(kReadAttributes, name) && !name.starts_with("NumberOf"))
-                unread_.add(fmt::format("{} {}",
-                                        name.starts_with("ComponentName") ? array_ : element, name),
-                            value);
+            if (!is_one_of(kReadAttributes, name) && !name.starts_with("NumberOf") &&
+                !name.starts_with("ComponentName"))
+                unread_.add(fmt::format("{} {}", element, name), value);
     }
 
     void take_key(const std::string& name, Tag tag) {
@@ -158,12 +148,9 @@ class MarkupFields {
     std::string group_, array_; ///< in which the tag is
 };
 
-/// Names of components, unit and further keys of an array.
+/// Unit and further keys of an array.
 void take_array(vtkAbstractArray& array, bool chosen, UnreadFields& unread, SeriesInfo& info) {
     const std::string name = array.GetName() ? array.GetName() : "";
-    for (int i = 0; i < array.GetNumberOfComponents(); ++i)
-        if (const char* component = array.GetComponentName(i))
-            unread.add(fmt::format("{} ComponentName{}", name, i), component);
     if (!array.HasInformation())
         return;
     const vtkNew<vtkInformationIterator> each;
@@ -183,11 +170,8 @@ void take_fields_of_markup(std::string_view markup, const ChosenScalar& chosen, 
     const MarkupFields fields(markup, chosen, info);
 }
 
-void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, const std::string& title,
-                        SeriesInfo& info) {
+void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, SeriesInfo& info) {
     UnreadFields unread;
-    if (!title.empty() && title != "vtk output") // VTK's own
-        unread.add("title", title);
     const auto take_arrays = [&](vtkFieldData* fields, bool of_chosen) {
         for (int i = 0; fields && i < fields->GetNumberOfArrays(); ++i) {
             vtkAbstractArray& array = *fields->GetAbstractArray(i);

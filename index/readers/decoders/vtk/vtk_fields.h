@@ -1,4 +1,4 @@
-// What files of VTK state besides values and places: units, names of components, other field data.
+// What files of VTK state besides values and places: units, other field data.
 #pragma once
 
 #include "index/readers/formats/stored_scalar.h"
@@ -15,8 +15,6 @@ namespace isochron::index {
 void take_fields_of_markup(std::string_view markup, const ChosenScalar& chosen, SeriesInfo& info);
 
 /// Takes unit and note from what VTK has read.
-/// @param title of a legacy file, or empty
-void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, const std::string& title,
-                        SeriesInfo& info);
+void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, SeriesInfo& info);
 
 } // namespace isochron::index

@@ -81,7 +81,7 @@ class LegacyFile final : public DecodedFile {
             std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
                               std::back_inserter(info_.notes));
             take_time_of_vtk(image.GetFieldData(), info_);
-            take_fields_of_vtk(image, chosen_, title_of(path_), info_);
+            take_fields_of_vtk(image, chosen_, info_);
         });
     }
 

@@ -3,7 +3,6 @@
 
 #include "index/readers/decoders/vtk/vtk_numbers.h"
 #include "index/readers/formats/data_stream.h"
-#include "index/readers/formats/text_header.h"
 
 #include <vtkCellData.h>
 #include <vtkDataReader.h>
@@ -11,14 +10,6 @@
 #include <vtkPointData.h>
 
 namespace isochron::index {
-
-std::string title_of(const std::filesystem::path& path) {
-    constexpr std::size_t kHead = 512; // VTK's title has 256 bytes at most
-    const std::string head = head_of(path, kHead);
-    std::size_t at = 0;
-    take_line(head, at);
-    return std::string(trimmed(take_line(head, at)));
-}
 
 void read_all(vtkDataReader& reader, const std::filesystem::path& path) {
     reader.SetFileName(path.c_str());

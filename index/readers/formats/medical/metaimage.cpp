@@ -258,8 +258,11 @@ std::unique_ptr<VolumeFile> open_metaimage(const fs::path& path, const ReadOptio
     if (header.find({"ElementSpacing"}) && header.find({"ElementSize"}))
         unread.emplace_back("ElementSize (ElementSpacing counts)");
     // Where a matrix turns space, the center only says about which point: Offset has it in already.
-    std::erase_if(unread, [](const std::string& field) {
-        return field == "CenterOfRotation 0 0 0" || field.starts_with("AnatomicalOrientation ???");
+    // The letters say the matrix again.
+    const bool has_matrix = header.find({"TransformMatrix", "Rotation", "Orientation"}).has_value();
+    std::erase_if(unread, [has_matrix](const std::string& field) {
+        return field == "CenterOfRotation 0 0 0" || (field.starts_with("AnatomicalOrientation ") &&
+                                                     (field.ends_with(" ???") || has_matrix));
     });
     if (auto note = note_on_unread(unread))
         info.notes.push_back(std::move(*note));

@@ -17,7 +17,7 @@ std::filesystem::path program_folder();
 
 /// The path of one of the program's files, `isochron-reader-vtk` or `libisochron_mpi.so`: in the
 /// program's folder (as in a build) or in ../libexec/isochron beside it (installed), and nowhere
-/// else. @throws Error naming the file, the program's folder, and the package that brings the file
+/// else. @throws Error naming the file and the program's folder
 std::filesystem::path file_of_program(const std::string& name);
 
 /// Address of `symbol` in `lib<name>.so`. The module stays loaded.

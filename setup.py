@@ -40,8 +40,9 @@ class Build(build_ext):
         package.mkdir(parents=True, exist_ok=True)
         for module in native.glob("_native*.so"):
             shutil.copy(module, package)
-        cmake("--install", folder, "--component", "program", "--prefix", package / "_program",
-              stdout=subprocess.DEVNULL)
+        for component in "program", "vtk", "mpi", "generate":
+            cmake("--install", folder, "--component", component, "--prefix", package / "_program",
+                  stdout=subprocess.DEVNULL)
         shutil.rmtree(package / "_program" / "share" / "doc")  # the guide is read elsewhere
 
 

@@ -11,7 +11,7 @@ namespace {
 
 /// The lines of --version that help with reports of errors.
 std::string version_details() {
-    std::string details = "\ncommit " + std::string(kCommit) + "\nwith " ISOCHRON_PARTS_WITH;
+    std::string details = kSinceRelease + std::string("\ncommit ") + kCommit + "\nwith " ISOCHRON_PARTS_WITH;
     constexpr std::string_view kWithout = ISOCHRON_PARTS_WITHOUT;
     if (!kWithout.empty())
         details.append("; without ").append(kWithout);

@@ -1,4 +1,4 @@
-# Writes copyright, changelog and the notices of libraries that are compiled in, for all packages, below OUT.
+# Writes copyright, changelog and the notices of libraries that are compiled in, for all PACKAGES, below OUT.
 file(REMOVE_RECURSE ${OUT})
 file(READ ${SOURCE}/LICENSE license)
 string(REGEX MATCH "Copyright [^\n]*" holder "${license}")
@@ -27,12 +27,33 @@ if(NOT day)
   set(day 1970-01-01)
 endif()
 execute_process(COMMAND date -u -R -d ${day} OUTPUT_VARIABLE date OUTPUT_STRIP_TRAILING_WHITESPACE)
-foreach(package IN ITEMS isochron libisochron-dev python3-isochron)
+include(${CMAKE_CURRENT_LIST_DIR}/version.cmake)
+set(of_all "${copyright}")
+foreach(package IN LISTS PACKAGES)
+  set(copyright "${of_all}")
+  if(package STREQUAL isochron-generate)
+    # Its sources are under the license of all; what is linked with FFTW is under FFTW's.
+    string(APPEND copyright "
+Files: usr/libexec/isochron/isochron-generate
+Copyright: ${holder}
+           2003, 2007-2014 Matteo Frigo, Massachusetts Institute of Technology
+License: GPL-2+
+ The program is linked with FFTW, https://www.fftw.org, which is free software
+ under the GNU General Public License, version 2 or (at your option) any later
+ version. The program as a whole is under the same terms; on Debian they are in
+ /usr/share/common-licenses/GPL-2.
+")
+  endif()
   set(libraries libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libglm-dev libimgui-dev libhwy-dev libstb-dev)
-  if(package STREQUAL python3-isochron)
+  if(package MATCHES "^isochron-")
+    set(libraries nlohmann-json3-dev libglm-dev libhwy-dev)
+    if(package STREQUAL isochron-generate)
+      list(APPEND libraries libcli11-dev)
+    endif()
+  elseif(package STREQUAL python3-isochron)
     set(libraries nlohmann-json3-dev libglm-dev libhwy-dev pybind11-dev)
   endif()
-  set(changelog "${package} (${VERSION}) stable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- ${MAINTAINER}  ${date}\n")
+  set(changelog "${package} (${VERSION}${SINCE_RELEASE}) stable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- ${MAINTAINER}  ${date}\n")
   file(WRITE ${OUT}/${package}/copyright "${copyright}")
   file(WRITE ${OUT}/${package}/changelog "${changelog}")
   execute_process(COMMAND gzip -9n ${OUT}/${package}/changelog)
@@ -42,4 +63,3 @@ foreach(package IN ITEMS isochron libisochron-dev python3-isochron)
     endif()
   endforeach()
 endforeach()
-file(WRITE ${OUT}/made "")

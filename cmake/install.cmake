@@ -7,12 +7,23 @@ set(private libexec/isochron) # where file_of_program looks, from the program's 
 install(TARGETS isochron RUNTIME COMPONENT program)
 get_directory_property(readers DIRECTORY index BUILDSYSTEM_TARGETS)
 list(FILTER readers INCLUDE REGEX ^isochron-reader-)
+# What stands in packages of its own, see index/system/module.cpp.
+set(component_of_isochron-reader-vtk vtk)
+set(component_of_isochron-reader-mesh vtk)
+set(component_of_isochron_mpi mpi)
+set(component_of_isochron-generate generate)
 foreach(part IN LISTS readers ITEMS isochron-generate isochron-reader-image isochron_mpi isochron_images isochron_site)
   if(TARGET ${part})
-    install(TARGETS ${part} RUNTIME DESTINATION ${private} COMPONENT program
-      LIBRARY DESTINATION ${private} COMPONENT program)
+    set(component program)
+    if(DEFINED component_of_${part})
+      set(component ${component_of_${part}})
+      list(APPEND ISOCHRON_COMPONENTS ${component})
+    endif()
+    install(TARGETS ${part} RUNTIME DESTINATION ${private} COMPONENT ${component}
+      LIBRARY DESTINATION ${private} COMPONENT ${component})
   endif()
 endforeach()
+list(REMOVE_DUPLICATES ISOCHRON_COMPONENTS)
 
 # The Python module finds the program's readers from its own place, too.
 if(TARGET isochron_python)

@@ -19,20 +19,10 @@ namespace {
 
 const char* const kProgramOfSeries = "isochron-generate";
 
-std::filesystem::path program_of_series() {
-    try {
-        return index::file_of_program(kProgramOfSeries);
-    } catch (const index::Error& error) {
-        throw index::Error(fmt::format("{}; it comes with the package isochron, and from a build "
-                                       "that has found FFTW (libfftw3-dev)",
-                                       error.what()));
-    }
-}
-
 /// Turns this process into the other program: signals, terminal and exit status are its own then.
 /// @throws index::Error if it cannot be started
 [[noreturn]] void become_program_of_series(const Command& command) {
-    const std::string file = program_of_series().string();
+    const std::string file = index::file_of_program(kProgramOfSeries).string();
     std::vector<std::string> words = command.typed();
     std::vector<char*> arguments{const_cast<char*>(kProgramOfSeries)};
     for (std::string& word : words)

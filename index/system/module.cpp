@@ -9,6 +9,7 @@
 
 #include <array>
 #include <mutex>
+#include <string_view>
 
 namespace isochron::index {
 
@@ -22,6 +23,15 @@ struct ProgramFolder {
     std::mutex mutex;
     fs::path folder;
 };
+
+/// Files that packages of their own bring, and that `./run build --everything` builds.
+struct Component {
+    std::string_view file, package;
+};
+constexpr std::array kComponents{Component{"isochron-reader-vtk", "isochron-readers-vtk"},
+                                 Component{"isochron-reader-mesh", "isochron-readers-vtk"},
+                                 Component{"libisochron_mpi.so", "isochron-mpi"},
+                                 Component{"isochron-generate", "isochron-generate"}};
 
 ProgramFolder& folder_that_was_set() {
     static ProgramFolder folder;
@@ -48,7 +58,15 @@ fs::path file_of_program(const std::string& name) {
          std::array{folder / name, folder.parent_path() / "libexec" / "isochron" / name})
         if (fs::exists(place))
             return place;
-    throw Error(fmt::format("{}: not found beside the program in {}", name, folder.string()));
+    std::string way_out;
+    for (const auto& [file, package] : kComponents)
+        if (file == name)
+            way_out =
+                fmt::format("; `apt install {}` brings it, or `./run build --everything` where "
+                            "the program was built",
+                            package);
+    throw Error(
+        fmt::format("{}: not found beside the program in {}{}", name, folder.string(), way_out));
 }
 
 void* module_symbol(const std::string& name, const std::string& symbol) {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -30,6 +31,18 @@ std::string& glfw_complaint() {
 [[noreturn]] void fail(const std::string& what) {
     throw render::Error(glfw_complaint().empty() ? what
                                                  : fmt::format("{}: {}", what, glfw_complaint()));
+}
+
+/// What a session of Wayland alone needs where GLFW knows X11 alone, as Debian 12's; else empty.
+std::string way_to_wayland() {
+    const auto is_set = [](const char* name) {
+        const char* const value = std::getenv(name);
+        return value && *value;
+    };
+    if (!is_set("WAYLAND_DISPLAY") || is_set("DISPLAY") ||
+        std::strstr(glfwGetVersionString(), "Wayland"))
+        return {};
+    return "; this session is of Wayland alone: on Debian 12, `apt install libglfw3-wayland`";
 }
 
 /// The initialization of GLFW, which all windows share.
@@ -51,9 +64,9 @@ class GlfwLibrary {
         glfwSetErrorCallback([](int, const char* text) { glfw_complaint() = text; });
         if (!glfwInit())
             throw NoDisplay(
-                fmt::format("no display to open a window on, see DISPLAY ({}); `isochron replay` "
+                fmt::format("no display to open a window on, see DISPLAY ({}){}; `isochron replay` "
                             "draws pictures of a recording without one",
-                            glfw_complaint()));
+                            glfw_complaint(), way_to_wayland()));
         watch_display();
     }
     ~GlfwLibrary() { glfwTerminate(); }

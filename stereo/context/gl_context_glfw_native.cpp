@@ -17,6 +17,10 @@ using RROutput = XID;
 #define GLFW_EXPOSE_NATIVE_EGL
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
+// A GLFW for Wayland alone lacks these, as that of Debian 12's libglfw3-wayland.
+#pragma weak glfwGetX11Display
+#pragma weak glfwGetGLXContext
+#pragma weak glfwGetGLXWindow
 
 namespace isochron::stereo {
 namespace {
@@ -88,7 +92,7 @@ GlxHandles glx_handles(GLFWwindow* window) {
 NativeGl native_of(GLFWwindow* window) {
     if (glfwGetWindowAttrib(window, GLFW_CONTEXT_CREATION_API) == GLFW_EGL_CONTEXT_API)
         return egl_handles(window);
-    if (glfwGetX11Display() && glfwGetGLXContext(window))
+    if (glfwGetX11Display && glfwGetX11Display() && glfwGetGLXContext(window))
         return glx_handles(window);
     return {};
 }

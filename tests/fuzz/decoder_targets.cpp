@@ -129,6 +129,25 @@ void fuzz_xdmf(Bytes input) {
         input);
 }
 
+void fuzz_vti(Bytes input) {
+    const MemoryFile file(input);
+    open_and_read(
+        [&](const index::ReadOptions& options) { return index::decode_vti(file.path(), options); },
+        input);
+}
+
+void fuzz_pvd(Bytes input) {
+    const MemoryFile file(input);
+    try {
+        const index::ListedFiles files = index::decode_pvd(file.path());
+        claim(!files.empty(), "a collection lists files");
+        for (const index::ListedFile& each : files)
+            claim(std::isfinite(each.time), "times are finite");
+    } catch (const index::Error& error) {
+        claim_one_line(index::in_one_line(error.what()));
+    }
+}
+
 void expect_whole(const index::TiffStack& stack) {
     claim(stack.channels > 0 && stack.slices > 0 && stack.frames > 0, "a stack has pages");
     claim(stack.planes.empty() ||
@@ -175,10 +194,13 @@ void fuzz_tiff_microscopes(Bytes input) {
 } // namespace
 
 std::span<const Target> decoder_targets() {
-    static constexpr std::array kTargets{
-        Target{"zarr", fuzz_zarr}, Target{"zarr_zip", fuzz_zarr_zip}, Target{"xdmf", fuzz_xdmf},
-        Target{"tiff_description", fuzz_tiff_description},
-        Target{"tiff_microscopes", fuzz_tiff_microscopes}};
+    static constexpr std::array kTargets{Target{"zarr", fuzz_zarr},
+                                         Target{"zarr_zip", fuzz_zarr_zip},
+                                         Target{"xdmf", fuzz_xdmf},
+                                         Target{"tiff_description", fuzz_tiff_description},
+                                         Target{"tiff_microscopes", fuzz_tiff_microscopes},
+                                         Target{"vti", fuzz_vti},
+                                         Target{"pvd", fuzz_pvd}};
     return kTargets;
 }
 

@@ -206,7 +206,7 @@ OpenVolumeFile opener_of(const Format& format) {
 ListedFiles read_pvd(const fs::path& path) {
     ReaderPool& readers = readers_of_this_process();
     readers.let_read(path);
-    ReaderLease lease(readers, program_of("vtk"), path, false);
+    ReaderLease lease(readers, program_of("vti"), path, false);
     ListedFiles files;
     lease.work([] {},
                [&] {

@@ -180,7 +180,7 @@ std::vector<Format> table() {
          .names_files = true},
 
         // VTK's image data, XML and legacy.
-        {.name = "vti", .ends = {{".vti"}}, .recognize = is_vti, .reader = "vtk"},
+        {.name = "vti", .ends = {{".vti"}}, .recognize = is_vti, .reader = "vti"},
         {.name = "vtk", .ends = {{".vtk"}}, .recognize = is_legacy_vtk, .reader = "vtk"},
 
         // Formats of medicine. MetaImage and NRRD may have their data beside them.

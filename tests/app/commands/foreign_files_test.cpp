@@ -113,16 +113,16 @@ TEST_F(ForeignFiles, WithoutAReaderAreRefusedAndOthersAreRead) {
     const fs::path program = folder.path() / "bin" / "isochron";
     fs::create_directory(program.parent_path());
     fs::copy_file(test_support::binary_root() + "/isochron", program);
-    fs::copy_file("/bin/true", folder.path() / "isochron-reader-vtk");
+    fs::copy_file("/bin/true", folder.path() / "isochron-reader-vti");
     const auto run = [&](const std::vector<std::string>& arguments) {
         return run_child(program.string(), arguments, folder.path());
     };
     const std::string vti = (kData / "vti" / "ascii.vti").string();
     expect_failure(run({"build", vti, "-o", "b.isochron"}), 1,
-                   vti + ": cannot be read: isochron-reader-vtk: not found beside the program");
+                   vti + ": cannot be read: isochron-reader-vti: not found beside the program");
     EXPECT_EQ(run(build_of("t*.raw", {"--quiet"})).status, 0);
     // One that is no reader says so, too.
-    fs::copy_file("/bin/true", program.parent_path() / "isochron-reader-vtk");
+    fs::copy_file("/bin/true", program.parent_path() / "isochron-reader-vti");
     expect_failure(run({"build", vti, "-o", "b.isochron"}), 1,
                    vti + ": cannot be read: at the start: its reader ended with status 0");
 }

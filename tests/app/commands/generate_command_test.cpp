@@ -72,7 +72,7 @@ TEST_F(Generate, NamesThePackageWhereTheProgramIsAlone) {
     };
     expect_failure(run({"generate", "sphere", "-o", "d"}), 1,
                    "isochron-generate: not found beside the program in " + bin.string() +
-                       "; it comes with the package isochron");
+                       "; `apt install isochron-generate` brings it");
     EXPECT_EQ(run({"generate", "--help"}).status, 0);
     folder.write("bin/isochron-generate", "not to be run");
     expect_failure(run({"generate", "sphere", "-o", "d"}), 1,

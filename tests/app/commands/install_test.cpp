@@ -39,11 +39,12 @@ class Installed : public CommandLine {
 
 TEST_F(Installed, WorksFromAnyPrefixAndWhereItIsMovedTo) {
     install("first", "program");
+    install("first", "generate");
     fs::create_directories(folder.path() / "elsewhere");
     fs::rename(folder.path() / "first", folder.path() / "elsewhere" / "moved to");
     // What lies in the working directory under the names of modules and readers is not taken.
     folder.write("libisochron_images.so", "no module");
-    folder.write("isochron-reader-vtk", "no reader");
+    folder.write("isochron-reader-vti", "no reader");
     const std::string program = "'elsewhere/moved to/bin/isochron'";
     EXPECT_THAT(shell(program + " --version"), HasSubstr("commit "));
     shell(program +
@@ -70,13 +71,34 @@ TEST_F(Installed, WithoutOpenImageIOOneLineNamesThePackage) {
     EXPECT_THAT(result.err, HasSubstr("libMissingImIO"));
 }
 
+/// What stands in packages of its own is named with its package where it is needed.
+TEST_F(Installed, WithoutAComponentOneLineNamesItsPackage) {
+    install("tree", "program");
+    const std::string program = (folder.path() / "tree/bin/isochron").string();
+    const std::string missing = ": not found beside the program in " +
+                                (folder.path() / "tree/bin").string() + "; `apt install ";
+    for (const char* file : {"a.vtk", "a.vtu", "a.vtr", "a.pvti"}) {
+        folder.write(file, "");
+        const ChildResult result = run_child(program, {"info", file}, folder.path());
+        expect_failure(result, 1, "isochron-reader-vtk" + missing + "isochron-readers-vtk`");
+    }
+    expect_failure(run_child(program, {"generate", "sphere", "-o", "d"}, folder.path()), 1,
+                   "isochron-generate" + missing + "isochron-generate`");
+    const ChildResult job = run_child(
+        "/usr/bin/env", {"OMPI_COMM_WORLD_SIZE=2", program, "build", "a.vti", "-o", "a.isochron"},
+        folder.path());
+    expect_failure(job, 1, "libisochron_mpi.so" + missing + "isochron-mpi`");
+    const std::string image = test_support::test_data() + "/vti/raw_zlib64.vti";
+    EXPECT_EQ(run_child(program, {"info", image}, folder.path()).status, 0);
+}
+
 #ifdef ISOCHRON_WITH_PYTHON
 /// The interpreter has none of the program's files; what the module needs lies where it was installed.
 TEST_F(Installed, PythonFindsReadersFromThePlaceOfItsModule) {
-    install("first", "program");
-    install("first", "python");
+    for (const char* component : {"program", "generate", "python"})
+        install("first", component);
     fs::rename(folder.path() / "first", folder.path() / "moved to");
-    folder.write("isochron-reader-vtk", "no reader");
+    folder.write("isochron-reader-vti", "no reader");
     shell("'moved to/bin/isochron' generate sphere --out sphere >/dev/null");
     const std::string python =
         "PYTHONPATH='moved to/lib/python3/dist-packages' /usr/bin/python3 -B -c ";
@@ -88,7 +110,7 @@ TEST_F(Installed, PythonFindsReadersFromThePlaceOfItsModule) {
     EXPECT_THAT(shell(python + "'import isochron\n"
                                "try: isochron.build(\"sphere/*.vti\", \"sphere.isochron\")\n"
                                "except isochron.Error as error: print(error)'"),
-                HasSubstr("isochron-reader-vtk: not found beside the program in "));
+                HasSubstr("isochron-reader-vti: not found beside the program in "));
 }
 #endif
 
@@ -149,6 +171,13 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
                 HasSubstr("libopenimageio"));
     EXPECT_THAT(shell("dpkg-deb -f packages/isochron_*.deb Depends"),
                 testing::AllOf(HasSubstr("libegl1"), testing::Not(HasSubstr("libopenimageio"))));
+    // FFTW's license is that of one package, and said there.
+    EXPECT_EQ(shell("for f in packages/*.deb; do dpkg-deb -f $f Depends | grep -q libfftw && "
+                    "dpkg-deb -f $f Package || true; done"),
+              "isochron-generate\n");
+    EXPECT_THAT(shell("dpkg-deb --fsys-tarfile packages/isochron-generate_*.deb | "
+                      "tar -xO ./usr/share/doc/isochron-generate/copyright"),
+                HasSubstr("License: GPL-2+"));
     const std::string dpkg =
         "dpkg --root=$PWD/root --force-not-root --force-depends --force-script-chrootless "
         "--log=$PWD/dpkg.log ";
@@ -162,6 +191,7 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
          {"bin/isochron", "libexec/isochron/isochron-reader-vtk",
           "share/applications/isochron.desktop", "libexec/isochron/libisochron_images.so",
           "share/mime/packages/isochron.xml", "share/doc/isochron/copyright",
+          "libexec/isochron/libisochron_mpi.so", "share/doc/isochron-generate/copyright",
           "share/doc/isochron/third-party/libcli11-dev", "lib/cmake/Isochron/IsochronConfig.cmake"})
         EXPECT_TRUE(fs::exists(folder.path() / "root/usr" / file)) << file;
     EXPECT_THAT(shell("root/usr/bin/isochron --version"), HasSubstr("isochron "));
@@ -171,8 +201,9 @@ TEST_F(Installed, PackagesComeAndGoWithoutATrace) {
                         "'import isochron; print(isochron.__name__)'"),
                   "isochron\n");
     }
-    shell(dpkg + "--purge isochron libisochron-dev " + (python ? "python3-isochron" : "") +
-          " >log 2>&1 || (cat log; exit 1)");
+    shell(dpkg +
+          "--purge isochron isochron-readers-vtk isochron-mpi isochron-generate libisochron-dev " +
+          (python ? "python3-isochron" : "") + " >log 2>&1 || (cat log; exit 1)");
     EXPECT_EQ(files_below(folder.path() / "root" / "usr"), before);
 }
 

@@ -112,7 +112,7 @@ class MeshFile final : public DecodedFile {
         with_vtk(path_, [&] {
             vtkImageData& image = mesh_->image(step);
             if (step != hidden_at_) {
-                hidden_ = hidden_by_flags(image, chosen_, info_.grid);
+                hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
                 hidden_at_ = step;
             }
             values_of_vtk(image, chosen_, info_.grid, slices, hidden_, out, path_.string());
@@ -127,7 +127,7 @@ class MeshFile final : public DecodedFile {
         info_.grid = grid_of_vtk(*reinterpret_cast<int(*)[6]>(image.GetExtent()), image.GetOrigin(),
                                  image.GetSpacing(), image.GetDirectionMatrix()->GetData(), name);
         chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, name);
-        hidden_ = hidden_by_flags(image, chosen_, info_.grid);
+        hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
         info_.arrays = chosen_.offered;
         info_.array = chosen_.label();
         info_.type = chosen_.value_type();

@@ -1,64 +1,70 @@
 // Reads ParaView collections (.pvd): files and their times.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
-#include "index/readers/decoders/vtk/vtk_session.h"
 #include "index/readers/decoders/vtk/xml_markup.h"
 #include "index/readers/formats/named_file.h"
+#include "index/readers/formats/text_header.h"
 #include "index/system/mapped_file.h"
 
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
-
+#include <charconv>
 #include <cmath>
+#include <string_view>
 
 namespace isochron::index {
 namespace {
 
-namespace fs = std::filesystem;
-
-void read_collection(const fs::path& path, ListedFiles& files) {
-    const std::string name = path.string();
-    {
-        const MappedFile file(path);
-        expect_shallow({reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()},
-                       name);
-    }
-    const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
-        vtkXMLUtilities::ReadElementFromFile(path.c_str()));
-    vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
-    if (!collection)
-        throw Error(fmt::format("{}: not a ParaView collection", name));
-    for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
-        vtkXMLDataElement* set = collection->GetNestedElement(i);
-        if (std::string_view(set->GetName()) != "DataSet")
-            continue;
-        const char* file = set->GetAttribute("file");
-        double time = 0;
-        if (!file)
-            throw Error(fmt::format("{}: DataSet {} names no file", name, i));
-        const char* text = set->GetAttribute("timestep");
-        if (!text)
-            throw Error(fmt::format("{}: {} has no timestep", name, file));
-        if (!set->GetScalarAttribute("timestep", time) || !std::isfinite(time))
-            throw Error(
-                fmt::format("{}: {}: timestep \"{}\", expected a number", name, file, text));
-        const char *part = set->GetAttribute("part"), *group = set->GetAttribute("group");
-        files.push_back({.path = file_named_in(path, file),
-                         .time = time,
-                         .part = fmt::format("{} of {}", part ? part : "0", group ? group : "")});
-    }
-    if (files.empty())
-        throw Error(fmt::format("{}: an empty collection", name));
+/// A finite number; none if it is none.
+std::optional<double> time_in(std::string_view text) {
+    text = trimmed(text);
+    if (text.starts_with('+'))
+        text.remove_prefix(1);
+    double time = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), time);
+    if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(time))
+        return std::nullopt;
+    return time;
 }
 
 } // namespace
 
-ListedFiles decode_pvd(const fs::path& path) {
+ListedFiles decode_pvd(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    const MappedFile file(path);
+    const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()),
+                                file.bytes().size());
+    expect_shallow(text, name);
+    tinyxml2::XMLDocument xml;
+    if (xml.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
+        throw Error(fmt::format("{}: cannot be read: line {}: its XML is damaged ({})", name,
+                                xml.ErrorLineNum(), xml.ErrorName()));
+    const tinyxml2::XMLElement* const root = xml.RootElement();
+    const tinyxml2::XMLElement* const collection =
+        root ? root->FirstChildElement("Collection") : nullptr;
+    if (!collection)
+        throw Error(fmt::format("{}: not a ParaView collection", name));
     ListedFiles files;
-    with_vtk(path, [&] { read_collection(path, files); });
+    for (const auto* set = collection->FirstChildElement("DataSet"); set;
+         set = set->NextSiblingElement("DataSet")) {
+        const char* const listed = set->Attribute("file");
+        if (!listed)
+            throw Error(fmt::format("{}: DataSet {} names no file", name, files.size()));
+        const char* const stated = set->Attribute("timestep");
+        if (!stated)
+            throw Error(fmt::format("{}: {} has no timestep", name, listed));
+        const auto time = time_in(stated);
+        if (!time)
+            throw Error(
+                fmt::format("{}: {}: timestep \"{}\", expected a number", name, listed, stated));
+        const char *part = set->Attribute("part"), *group = set->Attribute("group");
+        files.push_back({.path = file_named_in(path, listed),
+                         .time = *time,
+                         .part = fmt::format("{} of {}", part ? part : "0", group ? group : "")});
+    }
+    if (files.empty())
+        throw Error(fmt::format("{}: an empty collection", name));
     return files;
 }
 

@@ -1,9 +1,10 @@
-// Reads VTK XML image data (.vti) with vtkXMLImageDataReader, in all encodings and compressors.
+// Reads VTK XML image data (.vti), in all encodings and with all compressors, without VTK.
 #include "index/error.h"
 #include "index/readers/decoders/decoders.h"
+#include "index/readers/decoders/vtk/vti_document.h"
 #include "index/readers/decoders/vtk/vtk_fields.h"
 #include "index/readers/decoders/vtk/vtk_ghosts.h"
-#include "index/readers/decoders/vtk/vtk_session.h"
+#include "index/readers/decoders/vtk/vtk_image.h"
 #include "index/readers/decoders/vtk/xml_markup.h"
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/stored_file.h"
@@ -11,117 +12,96 @@
 
 #include <fmt/format.h>
 
-#include <vtkDataArraySelection.h>
-#include <vtkDataObject.h>
-#include <vtkImageData.h>
-#include <vtkInformation.h>
-#include <vtkInformationVector.h>
-#include <vtkNew.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkXMLImageDataReader.h>
-
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <iterator>
-#include <limits>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace isochron::index {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Every piece gives its part of the vertices; where one is missing VTK would leave zeros. Pieces
-// may overlap.
-void expect_whole(std::string_view markup, const Grid& grid, const std::string& file) {
-    std::uint64_t cells = 0;
-    for (std::size_t at = markup.find("<Piece"); at != std::string_view::npos;
-         at = markup.find("<Piece", at + 1)) {
-        const std::string_view tag = markup.substr(at, markup.find('>', at) - at);
-        const std::size_t key = tag.find("Extent");
-        const std::size_t quote = key == tag.npos ? tag.npos : tag.find_first_of("\"'", key);
-        if (quote == tag.npos)
-            continue;
-        std::istringstream numbers{std::string(tag.substr(quote + 1))};
-        std::int64_t e[6]{};
-        for (std::int64_t& number : e)
-            numbers >> number;
-        std::uint64_t piece = 1;
-        for (int axis = 0; axis < 3; ++axis)
-            piece *= static_cast<std::uint64_t>(
-                std::max<std::int64_t>(e[2 * axis + 1] - e[2 * axis], 0));
-        cells += piece;
+/// The vertices or cells that an extent has along each axis.
+std::array<std::int64_t, 3> sizes_of(const VtiExtent& extent, bool on_cells) {
+    std::array<std::int64_t, 3> sizes{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        sizes[axis] = std::max<std::int64_t>(
+            std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] + !on_cells, 0);
+    return sizes;
+}
+
+/// The product; none where it has more than 62 bits.
+std::optional<std::uint64_t> count_of(const std::array<std::int64_t, 3>& sizes) {
+    std::uint64_t count = 1;
+    for (const std::int64_t size : sizes) {
+        if (size != 0 && count > (std::uint64_t{1} << 62) / static_cast<std::uint64_t>(size))
+            return std::nullopt;
+        count *= static_cast<std::uint64_t>(size);
     }
+    return count;
+}
+
+// Every piece gives its part of the vertices; where one is missing there would be zeros. Pieces may
+// overlap.
+void expect_whole(const std::vector<VtiPiece>& pieces, const Grid& grid, const std::string& file) {
+    std::uint64_t cells = 0;
+    for (const VtiPiece& piece : pieces)
+        cells += std::min(count_of(sizes_of(piece.extent, true)).value_or(grid.cell_count()),
+                          grid.cell_count());
     if (cells < grid.cell_count())
         throw Error(fmt::format("{}: its pieces hold {} cells, the whole extent has {}", file,
                                 cells, grid.cell_count()));
 }
 
 // Checks that the file is large enough. A value takes at least a digit and a blank as text, and 4/3
-// of its size in base64. The best ratios of VTK's compressors are below 1:10,000 (LZMA), 1:1,032
-// (zlib) and 1:255 (LZ4).
-void expect_bytes(std::string_view markup, const ChosenScalar& chosen, const Grid& grid,
+// of its size in base64.
+void expect_bytes(const ChosenScalar& chosen, const VtiDocument& document, const Grid& grid,
                   std::uint64_t size, const std::string& file) {
-    std::uint64_t best = 1;
-    if (markup.find("compressor") != markup.npos)
-        best = markup.find("LZMA") != markup.npos ? 10'000 : 1'032;
-    const std::uint64_t tuples = chosen.array.on_cells ? grid.cell_count() : grid.vertex_count();
-    const std::uint64_t stored = tuples * chosen.array.components;
-    // The time may be ascii although values are compressed.
-    const bool text = best == 1 && markup.find("ascii") != markup.npos;
-    const std::uint64_t least = text ? stored : stored * size_of(*chosen.array.type) / best;
-    if (least > size)
+    const bool text = std::ranges::any_of(document.pieces, [&](const VtiPiece& piece) {
+        return std::ranges::any_of(piece.arrays(chosen.array.on_cells), [&](const VtiArray& array) {
+            return array.array.name == chosen.array.name && array.place.as == VtiPlace::As::text;
+        });
+    });
+    const double stored =
+        static_cast<double>(tuples_of_vtk(chosen, grid)) * chosen.array.components;
+    const double best = static_cast<double>(best_ratio(document.encoding.packing));
+    const double least =
+        text ? stored : stored * static_cast<double>(size_of(*chosen.array.type)) / best;
+    if (least > static_cast<double>(size))
         throw Error(
             fmt::format("{}: truncated: {} vertices in {} bytes", file, grid.vertex_count(), size));
 }
 
-void select_only(vtkDataArraySelection* selection, const std::string& name) {
-    selection->DisableAllArrays();
-    if (!name.empty())
-        selection->EnableArray(name.c_str());
-}
-
 class VtiFile final : public DecodedFile {
   public:
-    VtiFile(fs::path path, const ReadOptions& options) : path_(std::move(path)) {
+    VtiFile(fs::path path, const ReadOptions& options) : path_(std::move(path)), file_(path_) {
         const std::string name = path_.string();
-        const MappedFile file(path_);
-        const std::string_view markup = markup_of(file);
+        const std::string_view markup = markup_of(file_);
         if (markup.find("<VTKFile") == markup.npos || markup.find("ImageData") == markup.npos)
             throw Error(fmt::format("{}: not VTK XML image data", name));
-        expect_end(file, name);
+        expect_end(file_, name);
         expect_shallow(markup, name);
         expect_names(markup, name);
-        take_infinities(markup, file);
-        with_vtk(path_, [&] {
-            reader_->SetFileName(path_.c_str());
-            reader_->UpdateInformation();
-        });
-        // A second call, since VTK's information is complete only if the first reported no error.
-        with_vtk(path_, [&] { describe(options); });
+        document_ = vti_document(file_, markup, name);
+        describe(options);
         take_fields_of_markup(markup, chosen_, info_);
-        if (markup.find("vtkLZ4DataCompressor") != markup.npos)
+        if (document_.encoding.packing == BlockPacking::lz4)
             info_.notes.push_back(
                 "LZ4 data of VTK carry no check: damage to them may go unnoticed");
-        expect_whole(markup, info_.grid, name);
-        expect_bytes(markup, chosen_, info_.grid, file.bytes().size(), name);
-        with_vtk(path_, [&] {
-            // Without arrays VTK reads only the time; arrays of flags add little.
-            select({});
-            if (chosen_.array.gaps)
-                for (const char* flags : kGhostFlags) {
-                    reader_->GetPointDataArraySelection()->EnableArray(flags);
-                    reader_->GetCellDataArraySelection()->EnableArray(flags);
-                }
-            reader_->Update();
-            hidden_ = hidden_by_flags(*reader_->GetOutput(), chosen_, info_.grid);
-            std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
-                              std::back_inserter(info_.notes));
-            take_time_of_vtk(reader_->GetOutput()->GetFieldData(), info_);
-        });
+        expect_whole(document_.pieces, info_.grid, name);
+        expect_bytes(chosen_, document_, info_.grid, file_.bytes().size(), name);
+        if (chosen_.array.gaps)
+            hidden_ = hidden_by_flags({.points = flags(false), .cells = flags(true)}, chosen_,
+                                      info_.grid);
+        std::ranges::copy(notes_on_hidden(hidden_, chosen_.array.on_cells),
+                          std::back_inserter(info_.notes));
+        take_time();
     }
 
     const SeriesInfo& info() const override { return info_; }
@@ -131,54 +111,30 @@ class VtiFile final : public DecodedFile {
     std::uint64_t decoded_bytes() const override { return bytes_of_vtk(chosen_, info_.grid); }
 
     void read(std::size_t, Slices slices, std::span<std::byte> out) override {
-        with_vtk(path_, [&] {
-            if (!std::exchange(decoded_, true)) { // selecting again would make VTK read again
-                select(chosen_.array);
-                reader_->Update();
-            }
-            values_of_vtk(*reader_->GetOutput(), chosen_, info_.grid, slices, hidden_, out,
-                          path_.string());
-        });
-        if (replaced_)
-            visit_value_type(info_.type, [&]<class T>(std::type_identity<T>) {
-                const std::span<T> values(reinterpret_cast<T*>(out.data()), out.size() / sizeof(T));
-                if constexpr (std::is_floating_point_v<T>)
-                    std::ranges::replace(values, static_cast<T>(kLowest),
-                                         -std::numeric_limits<T>::infinity());
-            });
+        if (!std::exchange(decoded_, true))
+            decode();
+        const bool all = slices.count == info_.grid.vertices[2];
+        const std::uint64_t slice = values_.size() / info_.grid.vertices[2];
+        auto tuples = all ? values_ : values_.subspan(slices.first * slice, slices.count * slice);
+        std::vector<std::byte> aligned; // a file has its values anywhere
+        if (memory_.empty()) {
+            aligned.assign(tuples.begin(), tuples.end());
+            tuples = aligned;
+        }
+        convert_slices(chosen_, tuples, info_.grid, slices, hidden_, out, path_.string());
     }
 
   private:
-    // Replaces infinities that VTK reads wrongly; only numbers as text can have them.
-    void take_infinities(std::string_view markup, const MappedFile& file) {
-        if (markup.find("ascii") == markup.npos || !holds_hard_infinities(markup))
-            return;
-        const std::string_view all(reinterpret_cast<const char*>(file.bytes().data()),
-                                   file.bytes().size());
-        std::optional<std::string> text = with_easy_infinities(markup);
-        if (!text)
-            throw Error(fmt::format("{}: holds -inf beside {}, which VTK cannot tell apart",
-                                    path_.string(), kLowest));
-        reader_->SetInputString(*text + std::string(all.substr(markup.size())));
-        reader_->ReadFromInputStringOn();
-        replaced_ = true;
-    }
-
     void describe(const ReadOptions& options) {
         const std::string name = path_.string();
-        vtkInformation* out = reader_->GetOutputInformation(0);
-        if (!out->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-            throw Error(fmt::format("{}: not VTK XML image data", name));
-        int extent[6];
-        out->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
-        constexpr double kIdentity[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
-        info_.grid = grid_of_vtk(
-            extent, out->Get(vtkDataObject::ORIGIN()), out->Get(vtkDataObject::SPACING()),
-            out->Has(vtkDataObject::DIRECTION()) ? out->Get(vtkDataObject::DIRECTION()) : kIdentity,
-            name);
+        info_.grid = grid_of_vtk(*reinterpret_cast<const int(*)[6]>(document_.extent.data()),
+                                 document_.origin.data(), document_.spacing.data(),
+                                 document_.direction.data(), name);
         std::vector<StoredArray> arrays;
-        add_arrays(out->Get(vtkDataObject::POINT_DATA_VECTOR()), false, arrays);
-        add_arrays(out->Get(vtkDataObject::CELL_DATA_VECTOR()), true, arrays);
+        for (const bool on_cells : {false, true})
+            if (!document_.pieces.empty())
+                for (const VtiArray& each : document_.pieces.front().arrays(on_cells))
+                    arrays.push_back(each.array);
         chosen_ = choose_scalar(without_flags(std::move(arrays)), options, name);
         info_.arrays = chosen_.offered;
         info_.array = chosen_.label();
@@ -186,30 +142,141 @@ class VtiFile final : public DecodedFile {
         info_.notes = chosen_.notes();
     }
 
-    static void add_arrays(vtkInformationVector* listed, bool on_cells,
-                           std::vector<StoredArray>& arrays) {
-        for (int i = 0; listed && i < listed->GetNumberOfInformationObjects(); ++i) {
-            vtkInformation* array = listed->GetInformationObject(i);
-            arrays.push_back({array->Get(vtkDataObject::FIELD_NAME()),
-                              stored_type_of_vtk(array->Get(vtkDataObject::FIELD_ARRAY_TYPE())),
-                              static_cast<std::uint32_t>(
-                                  array->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())),
-                              on_cells});
+    void take_time() {
+        for (const char* name : kTimeFields)
+            for (const VtiArray& field : document_.fields) {
+                if (field.array.name != name || !field.array.type)
+                    continue;
+                std::array<std::byte, 8> bytes{};
+                const std::size_t size = size_of(*field.array.type);
+                read_vti_values(field.place, document_.encoding, *field.array.type,
+                                std::span(bytes).first(size), where(name));
+                info_.times = {
+                    visit_stored_type(*field.array.type, [&]<class T>(std::type_identity<T>) {
+                        T value{};
+                        std::memcpy(&value, bytes.data(), sizeof(T));
+                        return static_cast<double>(value);
+                    })};
+                if (std::string_view(name) != kTimeFields.front())
+                    info_.notes.push_back(fmt::format("times are those of the field {}", name));
+                return;
+            }
+    }
+
+    std::string where(std::string_view array) const {
+        return fmt::format("{}: array {}", path_.string(), array);
+    }
+
+    /// The array of a piece that has a name; null if it has none.
+    static const VtiArray* array_in(const VtiPiece& piece, const std::string& name, bool on_cells) {
+        const auto& arrays = piece.arrays(on_cells);
+        const auto found =
+            std::ranges::find(arrays, name, [](const VtiArray& each) -> const std::string& {
+                return each.array.name;
+            });
+        return found == arrays.end() ? nullptr : &*found;
+    }
+
+    /// Puts the pieces of an array together, in the order of the file: of what two pieces have, the later counts.
+    /// @param out tuples of the whole grid
+    void assemble(const StoredArray& wanted, std::span<std::byte> out) const {
+        const std::size_t tuple = size_of(*wanted.type) * wanted.components;
+        const auto whole = sizes_of(document_.extent, wanted.on_cells);
+        for (const VtiPiece& piece : document_.pieces) {
+            const auto sizes = sizes_of(piece.extent, wanted.on_cells);
+            if (std::ranges::find(sizes, 0) != sizes.end())
+                continue;
+            const VtiArray* const array = array_in(piece, wanted.name, wanted.on_cells);
+            if (!array || array->array.type != wanted.type ||
+                array->array.components != wanted.components)
+                throw Error(fmt::format("{}: array {} is not the same in all pieces",
+                                        path_.string(), wanted.name));
+            if (piece.extent == document_.extent) {
+                read_vti_values(array->place, document_.encoding, *wanted.type, out,
+                                where(wanted.name));
+                continue;
+            }
+            const auto count = count_of(sizes);
+            if (!count || *count > out.size() / tuple)
+                throw Error(
+                    fmt::format("{}: a piece is larger than the whole extent", path_.string()));
+            std::vector<std::byte> part(*count * tuple);
+            read_vti_values(array->place, document_.encoding, *wanted.type, part,
+                            where(wanted.name));
+            place_part(part, piece.extent, sizes, whole, tuple, out);
         }
     }
 
-    void select(const StoredArray& array) {
-        select_only(reader_->GetPointDataArraySelection(), array.on_cells ? "" : array.name);
-        select_only(reader_->GetCellDataArraySelection(), array.on_cells ? array.name : "");
+    /// Copies rows of the part that lies within the whole.
+    void place_part(std::span<const std::byte> part, const VtiExtent& extent,
+                    const std::array<std::int64_t, 3>& sizes,
+                    const std::array<std::int64_t, 3>& whole, std::size_t tuple,
+                    std::span<std::byte> out) const {
+        std::array<std::int64_t, 3> at{}, first{}, count{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[axis] = std::int64_t{extent[2 * axis]} - document_.extent[2 * axis];
+            first[axis] = std::max<std::int64_t>(0, -at[axis]);
+            count[axis] = std::min(sizes[axis], whole[axis] - at[axis]) - first[axis];
+            if (count[axis] <= 0)
+                return;
+        }
+        for (std::int64_t z = first[2]; z < first[2] + count[2]; ++z)
+            for (std::int64_t y = first[1]; y < first[1] + count[1]; ++y) {
+                const auto from =
+                    static_cast<std::size_t>((z * sizes[1] + y) * sizes[0] + first[0]);
+                const auto to = static_cast<std::size_t>(
+                    ((z + at[2]) * whole[1] + y + at[1]) * whole[0] + first[0] + at[0]);
+                std::memcpy(out.data() + to * tuple, part.data() + from * tuple,
+                            static_cast<std::size_t>(count[0]) * tuple);
+            }
+    }
+
+    /// Flags of all points or cells; none where the file has no flags for them.
+    std::vector<std::uint8_t> flags(bool on_cells) const {
+        std::vector<std::uint8_t> all;
+        for (const char* name : kGhostFlags) {
+            const VtiArray* const array = array_in(document_.pieces.front(), name, on_cells);
+            if (!array || !array->array.type || array->array.components != 1)
+                continue;
+            const std::size_t tuples =
+                on_cells ? info_.grid.cell_count() : info_.grid.vertex_count();
+            std::vector<std::byte> stored(tuples * size_of(*array->array.type));
+            assemble(array->array, stored);
+            all.resize(tuples);
+            visit_stored_type(*array->array.type, [&]<class T>(std::type_identity<T>) {
+                const T* const values = reinterpret_cast<const T*>(stored.data());
+                for (std::size_t i = 0; i < tuples; ++i)
+                    all[i] |= ghost_flag(name, static_cast<double>(values[i]));
+            });
+        }
+        return all;
+    }
+
+    /// Values that stand in the file as they are in memory stay there.
+    void decode() {
+        const StoredArray& wanted = chosen_.array;
+        const std::uint64_t bytes = bytes_of_vtk(chosen_, info_.grid);
+        if (document_.pieces.size() == 1 && document_.pieces.front().extent == document_.extent)
+            if (const VtiArray* array =
+                    array_in(document_.pieces.front(), wanted.name, wanted.on_cells))
+                values_ = plain_vti_values(array->place, document_.encoding, *wanted.type, bytes,
+                                           where(wanted.name));
+        if (!values_.empty())
+            return;
+        memory_.resize(bytes);
+        assemble(wanted, memory_);
+        values_ = memory_;
     }
 
     fs::path path_;
+    MappedFile file_;
+    VtiDocument document_;
     SeriesInfo info_;
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
-    bool replaced_ = false; ///< -inf has been replaced by kLowest
-    bool decoded_ = false;  ///< VTK has read the values, or has tried to
-    vtkNew<vtkXMLImageDataReader> reader_;
+    bool decoded_ = false;
+    std::span<const std::byte> values_; ///< of the chosen array, in the file or in memory
+    std::vector<std::byte> memory_;
 };
 
 } // namespace

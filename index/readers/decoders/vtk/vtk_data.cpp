@@ -157,7 +157,7 @@ class VtkDataFile final : public DecodedFile {
             info_.grid = all_->grid();
             info_.notes = all_->notes();
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(data)), options, path_.string());
-            hidden_ = hidden_by_flags(data, chosen_, info_.grid);
+            hidden_ = hidden_by_flags(flags_of_vtk(data, info_.grid), chosen_, info_.grid);
             info_.arrays = chosen_.offered;
             info_.array = chosen_.label();
             info_.type = chosen_.value_type();

@@ -1,30 +1,15 @@
 // After "VTK File Formats" and the keys that VTK writes with its arrays.
 #include "index/readers/decoders/vtk/vtk_fields.h"
 
-#include "index/readers/decoders/vtk/vtk_resample.h"
 #include "index/readers/decoders/vtk/xml_markup.h"
 #include "index/readers/formats/text_header.h"
-#include "index/readers/formats/unread_fields.h"
 
 #include <fmt/format.h>
-
-#include <vtkAbstractArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
-#include <vtkFieldData.h>
-#include <vtkInformation.h>
-#include <vtkInformationIterator.h>
-#include <vtkInformationKey.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <utility>
-#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -38,30 +23,7 @@ constexpr std::array kReadAttributes{
     "RangeMin",   "RangeMax",       "GhostLevel", "TimeStep",
     "TimeValue",  "NumberOfTuples", "index",      "file",
     "location",   "NumberOfPoints"};
-/// Field data that give the time; field data that VTK's readers of meshes add, of what is said
-/// elsewhere; ranges of values that VTK writes with each array.
-constexpr std::array kTimeFields{"TimeValue", "TIME", "TimeStep"};
-constexpr std::array kOfReaders{"ElementBlockIds", "Title", "CasePath"};
-constexpr std::array kRanges{"L2_NORM_RANGE", "L2_NORM_FINITE_RANGE", "COMPONENT_RANGE",
-                             "FINITE_RANGE", "DISCRETE_VALUES"};
-constexpr std::string_view kUnit = "UNITS_LABEL", kSpace = " \t\r\n";
-
-/// Fields as `note_on_unread` takes them, each said once.
-class UnreadFields {
-  public:
-    void add(const std::string& key, std::string_view value) {
-        if (seen_.insert(key).second)
-            fields_.push_back(value.empty() ? key : fmt::format("{} {}", key, excerpt(value)));
-    }
-    void tell(SeriesInfo& info) const {
-        if (auto note = note_on_unread(fields_))
-            info.notes.push_back(std::move(*note));
-    }
-
-  private:
-    std::set<std::string> seen_;
-    std::vector<std::string> fields_;
-};
+constexpr std::string_view kSpace = " \t\r\n";
 
 std::string_view element_of(std::string_view tag) {
     const std::size_t end = tag.find_first_of(" \t\r\n/>", 1);
@@ -82,10 +44,6 @@ std::map<std::string, std::string> attributes_of(std::string_view tag) {
         at = end + 1;
     }
     return attributes;
-}
-
-bool is_one_of(const auto& list, std::string_view word) {
-    return std::ranges::any_of(list, [&](std::string_view one) { return one == word; });
 }
 
 class MarkupFields {
@@ -148,52 +106,20 @@ class MarkupFields {
     std::string group_, array_; ///< in which the tag is
 };
 
-/// Unit and further keys of an array.
-void take_array(vtkAbstractArray& array, bool chosen, UnreadFields& unread, SeriesInfo& info) {
-    const std::string name = array.GetName() ? array.GetName() : "";
-    if (!array.HasInformation())
-        return;
-    const vtkNew<vtkInformationIterator> each;
-    each->SetInformation(array.GetInformation());
-    for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem()) {
-        const std::string key = each->GetCurrentKey()->GetName();
-        if (key == kUnit && chosen)
-            info.value_unit = array.GetInformation()->Get(vtkDataArray::UNITS_LABEL());
-        if (key != kUnit && !is_one_of(kRanges, key))
-            unread.add(fmt::format("{} {}", name, key), "");
-    }
+} // namespace
+
+void UnreadFields::add(const std::string& key, std::string_view value) {
+    if (seen_.insert(key).second)
+        fields_.push_back(value.empty() ? key : fmt::format("{} {}", key, excerpt(value)));
 }
 
-} // namespace
+void UnreadFields::tell(SeriesInfo& info) const {
+    if (auto note = note_on_unread(fields_))
+        info.notes.push_back(std::move(*note));
+}
 
 void take_fields_of_markup(std::string_view markup, const ChosenScalar& chosen, SeriesInfo& info) {
     const MarkupFields fields(markup, chosen, info);
-}
-
-void take_fields_of_vtk(vtkDataObject& data, const ChosenScalar& chosen, SeriesInfo& info) {
-    UnreadFields unread;
-    const auto take_arrays = [&](vtkFieldData* fields, bool of_chosen) {
-        for (int i = 0; fields && i < fields->GetNumberOfArrays(); ++i) {
-            vtkAbstractArray& array = *fields->GetAbstractArray(i);
-            const bool is_chosen = array.GetName() && array.GetName() == chosen.array.name;
-            take_array(array, of_chosen && is_chosen, unread, info);
-        }
-    };
-    const auto take_others = [&](vtkFieldData* fields) {
-        for (int i = 0; fields && i < fields->GetNumberOfArrays(); ++i)
-            if (const char* name = fields->GetAbstractArray(i)->GetName();
-                name && !is_one_of(kTimeFields, name) && !is_one_of(kOfReaders, name))
-                unread.add(fmt::format("FieldData {}", name), "");
-    };
-    take_others(data.GetFieldData());
-    each_grid(data, [&](vtkDataSet& grid) {
-        // Arrays of cells become arrays of points where a grid is resampled.
-        take_arrays(grid.GetPointData(), true);
-        take_arrays(grid.GetCellData(), !grid.GetPointData()->HasArray(chosen.array.name.c_str()));
-        if (&grid != &data)
-            take_others(grid.GetFieldData());
-    });
-    unread.tell(info);
 }
 
 } // namespace isochron::index

@@ -3,40 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkPointData.h>
-
 #include <algorithm>
-#include <string_view>
+#include <utility>
 
 namespace isochron::index {
 namespace {
 
-/// A number for each tuple, not 0 if a flag of `hiding` is set; empty if there are no flags.
-std::vector<std::uint8_t> flagged(vtkFieldData* fields, int hiding, std::size_t tuples) {
-    std::vector<std::uint8_t> hidden;
-    for (const char* name : kGhostFlags) {
-        vtkDataArray* flags = vtkDataArray::SafeDownCast(fields->GetAbstractArray(name));
-        if (!flags || flags->GetNumberOfComponents() != 1 ||
-            static_cast<std::size_t>(flags->GetNumberOfTuples()) != tuples)
-            continue;
-        hidden.resize(tuples);
-        // vtkGhostLevels has the distance from the nearest value that is no ghost: not 0 is a
-        // ghost.
-        const bool levels = std::string_view(name) != kGhostFlags[0];
-        for (std::size_t i = 0; i < tuples; ++i) {
-            // Flags may have any type.
-            const double flag = flags->GetTuple1(static_cast<vtkIdType>(i));
-            constexpr double kMost = 255;
-            if (levels ? flag != 0
-                       : flag > 0 && flag <= kMost && (static_cast<int>(flag) & hiding) != 0)
-                hidden[i] = 1;
-        }
-    }
-    return hidden;
+/// Flags of points and of cells that hide them (vtkDataSetAttributes.h).
+constexpr int kDuplicatePoint = 1, kHiddenPoint = 2;
+constexpr int kDuplicateCell = 1, kRefinedCell = 8, kHiddenCell = 32;
+
+/// A number for each tuple, not 0 if a flag of `hiding` is set.
+std::vector<std::uint8_t> flagged(std::vector<std::uint8_t> flags, int hiding) {
+    for (std::uint8_t& flag : flags)
+        flag = (flag & hiding) != 0;
+    return flags;
 }
 
 /// Calls `visit` with each corner of a cell.
@@ -90,19 +71,22 @@ std::vector<StoredArray> without_flags(std::vector<StoredArray> arrays) {
     return arrays;
 }
 
-std::vector<std::uint8_t> hidden_by_flags(vtkDataSet& image, const ChosenScalar& chosen,
+std::uint8_t ghost_flag(std::string_view name, double value) {
+    constexpr std::uint8_t kAll = 255;
+    // vtkGhostLevels has the distance from the nearest value that is no ghost: not 0 is a ghost.
+    if (name != kGhostFlags[0])
+        return value != 0 ? kAll : 0;
+    return value > 0 && value <= kAll ? static_cast<std::uint8_t>(value) : 0;
+}
+
+std::vector<std::uint8_t> hidden_by_flags(GhostFlags flags, const ChosenScalar& chosen,
                                           const Grid& grid) {
     std::vector<std::uint8_t> cells =
-        flagged(image.GetCellData(),
-                vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
-                    vtkDataSetAttributes::HIDDENCELL,
-                grid.cell_count());
+        flagged(std::move(flags.cells), kDuplicateCell | kRefinedCell | kHiddenCell);
     if (chosen.array.on_cells)
         return cells;
     std::vector<std::uint8_t> points =
-        flagged(image.GetPointData(),
-                vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT,
-                grid.vertex_count());
+        flagged(std::move(flags.points), kDuplicatePoint | kHiddenPoint);
     if (!cells.empty()) {
         points.resize(grid.vertex_count());
         hide_cells(cells, grid, points);

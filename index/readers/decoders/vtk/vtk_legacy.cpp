@@ -73,7 +73,7 @@ class LegacyFile final : public DecodedFile {
                                      image.GetOrigin(), image.GetSpacing(),
                                      image.GetDirectionMatrix()->GetData(), path_.string());
             chosen_ = choose_scalar(without_flags(arrays_of_vtk(image)), options, path_.string());
-            hidden_ = hidden_by_flags(image, chosen_, info_.grid);
+            hidden_ = hidden_by_flags(flags_of_vtk(image, info_.grid), chosen_, info_.grid);
             info_.arrays = chosen_.offered;
             info_.array = chosen_.label();
             info_.type = chosen_.value_type();

@@ -1,4 +1,4 @@
-// `isochron-reader-vtk`: the reader for VTK's formats.
+// `isochron-reader-vtk`: the reader for what VTK reads: all its formats but image data in XML.
 #include "index/readers/decoders/decoders.h"
 #include "index/readers/decoders/reader_program.h"
 
@@ -6,7 +6,7 @@
 
 int main() {
     using namespace isochron::index;
-    constexpr std::array kDecoders{Decoder{"vti", decode_vti}, Decoder{"vtk", decode_vtk},
+    constexpr std::array kDecoders{Decoder{"vtk", decode_vtk},
                                    Decoder{"vtk data", decode_vtk_data}};
-    return run_reader(kDecoders, decode_pvd);
+    return run_reader(kDecoders);
 }

@@ -2,7 +2,7 @@
 #include "index/readers/decoders/vtk/vtk_session.h"
 
 #include "index/error.h"
-#include "index/readers/formats/stored_file.h"
+#include "index/readers/decoders/vtk/vtk_fields.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,6 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 
-#include <cassert>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -93,10 +92,6 @@ std::string one_line(std::string text) {
     return line;
 }
 
-std::uint64_t tuples_of(const ChosenScalar& chosen, const Grid& grid) {
-    return chosen.array.on_cells ? grid.cell_count() : grid.vertex_count();
-}
-
 } // namespace
 
 void with_vtk(const std::filesystem::path& file, const std::function<void()>& work) {
@@ -151,23 +146,6 @@ std::optional<StoredType> stored_type_of_vtk(int type) {
     }
 }
 
-Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spacing,
-                 const double* direction, const std::string& file) {
-    Grid grid;
-    std::array<std::int64_t, 3> sizes{};
-    glm::dmat3 steps;
-    for (int axis = 0; axis < 3; ++axis) {
-        sizes[axis] = std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] + 1;
-        for (int row = 0; row < 3; ++row)
-            steps[axis][row] = direction[3 * row + axis] * spacing[axis];
-    }
-    grid.vertices = checked_vertices(sizes, file);
-    set_axes(grid, steps, file);
-    grid.origin = glm::dvec3(origin[0], origin[1], origin[2]) +
-                  steps * glm::dvec3(extent[0], extent[2], extent[4]);
-    return grid;
-}
-
 void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& grid, Slices slices,
                    std::span<const std::uint8_t> hidden, std::span<std::byte> out,
                    const std::string& file) {
@@ -177,7 +155,7 @@ void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& gr
         vtkDataArray::SafeDownCast(fields->GetAbstractArray(chosen.array.name.c_str()));
     if (!array)
         throw Error(fmt::format("{}: array {} cannot be read", file, chosen.array.name));
-    const std::uint64_t tuples = tuples_of(chosen, grid);
+    const std::uint64_t tuples = tuples_of_vtk(chosen, grid);
     if (static_cast<std::uint64_t>(array->GetNumberOfTuples()) != tuples)
         throw Error(fmt::format("{}: array {} has {} tuples, expected {}", file, chosen.array.name,
                                 array->GetNumberOfTuples(), tuples));
@@ -186,26 +164,29 @@ void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& gr
         throw Error(fmt::format("{}: array {} has changed its type", file, chosen.array.name));
     const std::span all(static_cast<const std::byte*>(array->GetVoidPointer(0)),
                         bytes_of_vtk(chosen, grid));
-    if (slices.count == grid.vertices[2])
-        return convert(chosen, all, grid, out, file, hidden);
-    assert(!chosen.array.on_cells);
-    Grid slab = grid;
-    slab.vertices[2] = slices.count;
     const std::uint64_t slice = all.size() / grid.vertices[2];
-    if (!hidden.empty()) {
-        const std::size_t layer = hidden.size() / grid.vertices[2];
-        hidden = hidden.subspan(slices.first * layer, slices.count * layer);
-    }
-    convert(chosen, all.subspan(slices.first * slice, slices.count * slice), slab, out, file,
-            hidden);
+    convert_slices(chosen,
+                   chosen.array.on_cells ? all
+                                         : all.subspan(slices.first * slice, slices.count * slice),
+                   grid, slices, hidden, out, file);
 }
 
-std::uint32_t slices_of_vtk(const ChosenScalar& chosen, const SeriesInfo& info) {
-    return chosen.array.on_cells ? info.grid.vertices[2] : slices_worth_asking(info);
-}
-
-std::uint64_t bytes_of_vtk(const ChosenScalar& chosen, const Grid& grid) {
-    return tuples_of(chosen, grid) * chosen.array.components * size_of(*chosen.array.type);
+GhostFlags flags_of_vtk(vtkDataSet& image, const Grid& grid) {
+    const auto flags_in = [](vtkFieldData* fields, std::size_t tuples) {
+        std::vector<std::uint8_t> flags;
+        for (const char* name : kGhostFlags) {
+            vtkDataArray* array = vtkDataArray::SafeDownCast(fields->GetAbstractArray(name));
+            if (!array || array->GetNumberOfComponents() != 1 ||
+                static_cast<std::size_t>(array->GetNumberOfTuples()) != tuples)
+                continue;
+            flags.resize(tuples);
+            for (std::size_t i = 0; i < tuples; ++i)
+                flags[i] |= ghost_flag(name, array->GetTuple1(static_cast<vtkIdType>(i)));
+        }
+        return flags;
+    };
+    return {.points = flags_in(image.GetPointData(), grid.vertex_count()),
+            .cells = flags_in(image.GetCellData(), grid.cell_count())};
 }
 
 std::vector<StoredArray> arrays_of_vtk(vtkDataSet& image) {
@@ -225,8 +206,7 @@ std::vector<StoredArray> arrays_of_vtk(vtkDataSet& image) {
 
 void take_time_of_vtk(vtkFieldData* fields, SeriesInfo& info) {
     info.times.clear();
-    // The names that ParaView, VisIt and other programs use.
-    for (const char* name : {"TimeValue", "TIME", "TimeStep"}) {
+    for (const char* name : kTimeFields) {
         vtkDataArray* time = fields ? fields->GetArray(name) : nullptr;
         if (!time || time->GetNumberOfTuples() != 1 || time->GetNumberOfComponents() != 1)
             continue;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "index/readers/decoders/decoded_file.h"
+#include "index/readers/decoders/vtk/vtk_ghosts.h"
+#include "index/readers/decoders/vtk/vtk_image.h"
 #include "index/readers/formats/stored_scalar.h"
 
 #include <vtkSmartPointer.h>
@@ -25,12 +27,6 @@ void with_vtk(const std::filesystem::path& file, const std::function<void()>& wo
 /// The stored type of an array type of VTK; none for types that are not numbers.
 std::optional<StoredType> stored_type_of_vtk(int type);
 
-/// Grid of an image; an extent that does not start at 0 moves the origin.
-/// @param extent first and last vertex along each axis
-/// @param direction matrix in VTK's order, row by row
-Grid grid_of_vtk(const int (&extent)[6], const double* origin, const double* spacing,
-                 const double* direction, const std::string& file);
-
 /// Converts slices of the chosen array of an image that has been read; for cell data, all slices.
 /// @param hidden see `hidden_by_flags`
 /// @throws Error naming the file when the array is absent or not as long as the image
@@ -38,9 +34,8 @@ void values_of_vtk(vtkDataSet& image, const ChosenScalar& chosen, const Grid& gr
                    std::span<const std::uint8_t> hidden, std::span<std::byte> out,
                    const std::string& file);
 
-/// `slices_at_once` and `decoded_bytes` of a `DecodedFile`.
-std::uint32_t slices_of_vtk(const ChosenScalar& chosen, const SeriesInfo& info);
-std::uint64_t bytes_of_vtk(const ChosenScalar& chosen, const Grid& grid);
+/// Flags of an image that has been read, of as many points and cells as the grid has.
+GhostFlags flags_of_vtk(vtkDataSet& image, const Grid& grid);
 
 /// Arrays of an image that has been read.
 std::vector<StoredArray> arrays_of_vtk(vtkDataSet& image);

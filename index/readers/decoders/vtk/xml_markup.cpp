@@ -1,4 +1,4 @@
-// Checks the depth of elements by their tags only, and changes numbers as text.
+// Checks the depth of elements by their tags only.
 #include "index/readers/decoders/vtk/xml_markup.h"
 
 #include "index/error.h"
@@ -30,35 +30,6 @@ std::size_t behind_tag(std::string_view markup, std::size_t at) {
         at = behind(markup, markup.substr(at, 1), at + 1);
     }
     return markup.size();
-}
-
-/// Calls `visit` for each word of the text between tags, in order.
-template <class Visit>
-void for_each_word(std::string_view text, Visit visit) {
-    constexpr std::string_view kBlank = " \t\r\n";
-    for (std::size_t tag = text.find('<'); tag != text.npos;) {
-        const std::size_t begin = behind_tag(text, tag + 1);
-        tag = text.find('<', begin);
-        const std::string_view numbers = text.substr(begin, tag - begin);
-        for (std::size_t at = 0; (at = numbers.find_first_not_of(kBlank, at)) != numbers.npos;) {
-            const std::size_t end = std::min(numbers.find_first_of(kBlank, at), numbers.size());
-            visit(begin + at, numbers.substr(at, end - at));
-            at = end;
-        }
-    }
-}
-
-/// -1 and 1 for infinities that VTK reads wrongly, else 0.
-int hard_infinity(std::string_view word) {
-    const bool negative = word.starts_with('-');
-    if (negative || word.starts_with('+'))
-        word.remove_prefix(1);
-    const auto is = [&](std::string_view name) {
-        return std::ranges::equal(word, name, {}, [](unsigned char c) { return std::tolower(c); });
-    };
-    if (is("infinity"))
-        return negative ? -1 : 1;
-    return negative && is("inf") ? -1 : 0;
 }
 
 } // namespace
@@ -126,33 +97,6 @@ std::optional<std::string> with_slashes(std::string_view markup,
         }
     });
     return changed ? std::optional(text) : std::nullopt;
-}
-
-bool holds_hard_infinities(std::string_view text) {
-    bool found = false;
-    for_each_word(text, [&](std::size_t, std::string_view word) {
-        found = found || hard_infinity(word) != 0;
-    });
-    return found;
-}
-
-std::optional<std::string> with_easy_infinities(std::string_view text) {
-    const std::string lowest = fmt::format("{:.17g}", static_cast<double>(kLowest));
-    std::string easy;
-    std::size_t copied = 0;
-    bool ambiguous = false;
-    for_each_word(text, [&](std::size_t at, std::string_view word) {
-        // kLowest in any spelling: no other f32 begins like this.
-        ambiguous = ambiguous || word.starts_with("-3.4028");
-        const int sign = hard_infinity(word);
-        if (sign == 0)
-            return;
-        easy += text.substr(copied, at - copied);
-        easy += sign > 0 ? "inf" : lowest;
-        copied = at + word.size();
-    });
-    easy += text.substr(copied);
-    return ambiguous ? std::nullopt : std::optional(std::move(easy));
 }
 
 void for_each_tag(std::string_view markup, const std::function<void(Tag)>& visit) {

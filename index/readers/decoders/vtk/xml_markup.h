@@ -1,4 +1,4 @@
-// Checks and changes XML before VTK reads it.
+// Checks XML before it is parsed.
 #pragma once
 
 #include "index/system/mapped_file.h"
@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,16 +41,5 @@ void expect_names(std::string_view markup, const std::string& file);
 /// The markup with slashes in the names of other files (`Source`, `file`), see `path_named_in`.
 /// @return none where it has them already
 std::optional<std::string> with_slashes(std::string_view markup, const std::filesystem::path& file);
-
-/// Whether a text has numbers that VTK 9.1 reads wrongly: it reads `-inf` as `inf`, and does not
-/// know `Infinity`.
-bool holds_hard_infinities(std::string_view text);
-
-/// The lowest f32, which replaces -inf while VTK reads the values.
-inline constexpr float kLowest = std::numeric_limits<float>::lowest();
-
-/// The text with these numbers replaced by `inf` and `kLowest`.
-/// @return none when it has `kLowest` itself, which could not be told from -inf after VTK
-std::optional<std::string> with_easy_infinities(std::string_view text);
 
 } // namespace isochron::index

@@ -25,7 +25,7 @@ TEST(XmlMarkup, NestedTooDeepIsRefused) {
     expect_shallow(repeated("<a>", 64) + repeated("</a>", 64), "good.vti");
 }
 
-TEST(XmlMarkup, WithoutNestingIsLeftToVtk) {
+TEST(XmlMarkup, WithoutNestingIsLeftToTheParser) {
     for (const char* text : {"<a/>", "<a></a>", "<a b='>' c=\"<\"/>", "<!-- <a> -->",
                              "<![CDATA[<a>]]>", "<?a <a ?>", "<!DOCTYPE a>", "</a>"})
         expect_shallow(repeated(text, 1000), text);

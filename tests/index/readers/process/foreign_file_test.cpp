@@ -205,7 +205,7 @@ TEST(Readers, SeeOnlyTheFoldersOfTheirFiles) {
     EXPECT_TRUE(pool.may_read(here.path() / "other"));
     EXPECT_FALSE(pool.may_read(elsewhere.path() / "a.vti"));
     // A reader that was started for one folder is no use in the other.
-    const auto old = pool.take("isochron-reader-vtk");
+    const auto old = pool.take("isochron-reader-vti");
     old->ask(OpenFile{.format = "vti", .path = elsewhere.path() / "a.vti", .options = {}});
     const ReaderReply reply = old->reply();
     const auto* refused = std::get_if<Refused>(&reply);

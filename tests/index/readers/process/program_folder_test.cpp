@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const char* const kReader = "isochron-reader-vtk";
+const char* const kReader = "isochron-reader-vti";
 
 /// Another program's folder, until the test ends.
 class ProgramFolder : public testing::Test {

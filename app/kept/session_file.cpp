@@ -1,6 +1,7 @@
 // Saves and reads sessions.
 #include "app/kept/session_file.h"
 
+#include "app/kept/session_picture.h"
 #include "index/json_mistake.h"
 
 #include "index/system/input_file.h"
@@ -75,12 +76,30 @@ SavedSession session_from(const json& value) {
         saved.arrays = arrays_from(*arrays);
     if (const json* looked = members.find("only_looked"))
         saved.only_looked = interaction::boolean(*looked, "only_looked");
+    const auto words = [&](const char* key, std::string& text) {
+        if (const json* member = members.find(key))
+            text = interaction::text(*member, key);
+    };
+    words("name", saved.name);
+    words("opened", saved.opened);
+    words("picture", saved.picture);
+    if (auto picture = from_base64(saved.picture))
+        saved.picture = std::move(*picture);
+    else
+        throw interaction::Error("picture: expected base64");
     members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays",
-                  "only_looked"});
+                  "only_looked", "name", "opened", "picture"});
     return saved;
 }
 
 } // namespace
+
+bool is_lasting(const SavedSession& session) {
+    const interaction::Commands& state = session.state;
+    return !session.name.empty() || (state.mark && state.mark->point) ||
+           (state.ruler && !state.ruler->places.empty()) ||
+           (state.bookmarks && !state.bookmarks->empty());
+}
 
 void save_session(const std::filesystem::path& path, const SavedSession& session) {
     json value{{"format", kFormat},
@@ -94,6 +113,12 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
         value["arrays"] = arrays_json(session.arrays);
     if (session.only_looked)
         value["only_looked"] = true;
+    if (!session.name.empty())
+        value["name"] = session.name;
+    if (!session.opened.empty())
+        value["opened"] = session.opened;
+    if (!session.picture.empty())
+        value["picture"] = to_base64(session.picture);
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));

@@ -38,6 +38,7 @@ class LayerTest : public testing::Test {
                                .gaps = gaps_,
                                .arrays = arrays_,
                                .movies = {.offered = true},
+                               .sessions = sessions_,
                                .controls = controls_},
                               time_);
     }
@@ -102,6 +103,7 @@ class LayerTest : public testing::Test {
     FrameReport report_;
     std::vector<std::uint32_t> gaps_;
     PanelArrays arrays_;
+    std::vector<OfferedSession> sessions_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

@@ -23,9 +23,8 @@ GLint number_in_shader(StereoMode mode) {
 } // namespace
 
 Multiplex::Multiplex(const render::Gl& gl)
-    : program_(render::link_program(
-          gl, {render::shader_file("full_screen.vert"), render::shader_file("multiplex.frag")},
-          shader_prelude())),
+    : program_(gl, {render::shader_file("full_screen.vert"), render::shader_file("multiplex.frag")},
+               shader_prelude()),
       no_attributes_(gl) {}
 
 std::string Multiplex::shader_prelude() {

@@ -3,6 +3,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/gl/render_target.h"
+#include "render/gl/shader.h"
 #include "stereo/stereo_mode.h"
 
 #include <glm/vec2.hpp>
@@ -43,7 +44,7 @@ class Multiplex {
               int window_height, bool upside_down = false) const;
 
   private:
-    render::Program program_;
+    render::LazyProgram program_;
     render::VertexArray no_attributes_;
 };
 

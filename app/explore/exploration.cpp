@@ -13,6 +13,7 @@
 #include "app/explore/pattern_exploration.h"
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
+#include "app/kept/session_picture.h"
 #include "app/loop/data_window.h"
 #include "app/loop/live_recording.h"
 #include "app/loop/new_steps.h"
@@ -23,16 +24,16 @@
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
 #include "interaction/recording/recording.h"
-#include "render/gl/link_watch.h"
 #include "stereo/context/display_loss.h"
 #include "stereo/context/wake.h"
-#include "stereo/loading_picture.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -56,16 +57,27 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     const WakeOnSignal ends(wake, stereo::Wake::call);
     PageWindowOptions page = page_options(config);
     page.wake = wake;
+    BackgroundWork reading;
+    reading.set_wake([wake] { (*wake)(); });
     const auto chosen =
         choose_data(windows, {.recent = UserMemory(index::user_state_folder()).recent(),
+                              .offers = offers_beside_files(reading),
                               .why_not_open = [&](const auto& data) { return why_not_open(data); },
                               .window = page});
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
 }
 
-/// Ends the making of a session.
-struct UserLeft {};
+/// The small picture of a session, read in the background.
+std::shared_future<render::Image> picture_of(const SavedSession& session, BackgroundWork& reading) {
+    auto read = std::make_shared<std::promise<render::Image>>();
+    reading.post([read, png = session.picture, &reading] {
+        read->set_value(png.empty() ? render::Image() : picture_in(png).value_or(render::Image()));
+        reading.wake();
+        return std::string();
+    });
+    return read->get_future().share();
+}
 
 } // namespace
 
@@ -129,7 +141,7 @@ Exploration::Exploration(ExploreOptions options, ClusterJob& job)
 void Exploration::open_outputs() {
     headset_ = open_headset(config_.openxr);
     windows_.emplace(open_windows(options_, config_, job_, headset_.get()));
-    stereo::show_loading(*windows_, config_.rendering.background);
+    show_loading(*windows_, short_name(), config_, early_, tells());
 }
 
 void Exploration::open_data() {
@@ -192,11 +204,31 @@ void Exploration::open_index_file() {
     file_ = opening.take();
 }
 
+/// Whether the first picture comes before all is compiled that later ones may need: in one window.
+bool Exploration::may_prepare_later() const {
+    return tells() && !headset_ && windows_->count() == 1 && !windows_->console() &&
+           !windows_->room() && config_.installation.windows.front().viewports.size() == 1;
+}
+
+/// A context for a thread beside that of the window; null: there is none.
+std::unique_ptr<stereo::GlContext> Exploration::context_beside() const {
+    std::unique_ptr<stereo::GlContext> beside;
+    try {
+        beside = stereo::make_context(config_.rendering.context,
+                                      {.size = {1, 1}, .vsync = false, .visible = false});
+        beside->leave();
+    } catch (const render::Error&) { // all is done in the session's context
+    }
+    session_->outputs().windows().drawing().make_current();
+    return beside;
+}
+
 /// Makes the session, and draws everything once. Meanwhile the window says so, and the user is seen
 /// between the parts. @return false: the user has left, and there is no session
 bool Exploration::prepare_session() {
     std::optional<stereo::Windows> first; // which stays where it is while the others move
     std::unique_ptr<PreparingPage> page;
+    const bool later = may_prepare_later();
     if (tells()) {
         first.emplace(windows_->first());
         page = std::make_unique<PreparingPage>(*first, short_name(), config_, early_);
@@ -209,24 +241,16 @@ bool Exploration::prepare_session() {
     if (!look(0))
         return false;
     try {
-        std::optional<render::LinkWatch> watch;
-        // With several windows, another one's context may be current while something is linked.
-        if (page && windows_->count() == 1 && !windows_->console())
-            watch.emplace([&] {
-                if (!look(0))
-                    throw UserLeft();
-            });
         session_.emplace(config_, file_, std::move(*windows_), index::Extract(),
                          std::move(headset_));
-    } catch (const UserLeft&) {
-        static_cast<void>(page.release()); // its context is gone with the windows
-        return false;
     } catch (...) {
-        static_cast<void>(page.release());
+        static_cast<void>(page.release()); // its context is gone with the windows
         throw;
     }
     set_start();
-    if (look(0) && job_.leads())
+    if (later)
+        session_->prepare_first(look, context_beside());
+    else if (look(0) && job_.leads())
         session_->warm_up(look);
     const bool stays = look(1);
     page.reset(); // before its context
@@ -291,11 +315,12 @@ std::optional<NextData> Exploration::run() {
     BackgroundWork remembering; // no frame waits for that disk
     LiveLoop live(config_, std::move(trackers_), live_options_with(memory, remembering),
                   session_->outputs().headset());
+    remembering.set_wake(live.waker());
     const WakeOnSignal ends(live.wake(), stereo::Wake::call);
     session_->set_clock(live.clock());
     std::optional<SavedAtEnd> saved([this, &live] { save(live); });
     if (job_.leads())
-        lead(live);
+        lead(live, remembering);
     else
         job_.follow(*session_);
     session_->frames().end();
@@ -325,9 +350,9 @@ LiveOptions Exploration::live_options_with(UserMemory& memory, BackgroundWork& w
     return how;
 }
 
-void Exploration::lead(LiveLoop& live) {
+void Exploration::lead(LiveLoop& live, BackgroundWork& reading) {
     if (job_.size() == 1)
-        keep(live);
+        keep(live, reading);
     const auto header = header_of(*session_, config_, *file_, *options_.data);
     const auto recording = std::make_shared<LiveRecording>();
     if (options_.record) {
@@ -357,8 +382,8 @@ void Exploration::lead(LiveLoop& live) {
 }
 
 /// Saves the session as it goes on, or says why it does not.
-void Exploration::keep(LiveLoop& live) {
-    offer_earlier();
+void Exploration::keep(LiveLoop& live, BackgroundWork& reading) {
+    const auto drops = offer_earlier(reading);
     auto path = kept_in(options_, *file_);
     const std::string why_not = why_not_kept(path);
     if (!why_not.empty()) {
@@ -369,31 +394,51 @@ void Exploration::keep(LiveLoop& live) {
     } else if (!options_.session) {
         path = claim_.emplace(*path).path();
     }
-    keep_session(live, path, *options_.data, *file_, *session_, earlier_,
-                 earlier_ && path == kept_in(options_, *file_));
+    keep_session(live, path, options_, *file_, *session_, earlier_,
+                 earlier_ && path == kept_in(options_, *file_), drops);
 }
 
-/// Offers to go on with one of the sessions before, if there are any that fit. What is beside the
-/// last one is said on stderr as well.
-void Exploration::offer_earlier() {
-    if (earlier_)
-        return;
+/// Lists the sessions before, and offers to go on with one of them. What is beside the last one is said
+/// on stderr as well, and which ones go. @return files of those that go
+std::vector<std::filesystem::path> Exploration::offer_earlier(BackgroundWork& reading) {
     const auto all = earlier_sessions(options_, *file_);
-    if (all.size() > 1)
+    if (!earlier_ && all.size() > 1)
         print_note("--resume --session FILE goes on with an earlier one, of which there are {} "
                    "beside it; the newest is {}",
                    all.size() - 1, all[1].path.filename().string());
+    std::vector<std::filesystem::path> drops;
+    for (const EarlierSession& each :
+         sessions_to_drop(all, kept_in(options_, *file_).value_or(std::filesystem::path()))) {
+        drops.push_back(each.path);
+        say_dropped(each);
+    }
     std::vector<OfferedSession> offers;
     for (const EarlierSession& each : all) {
         try {
             const std::string hash = held_hash(*file_, each.session.data_hash);
-            offers.push_back({words_of(each), state_of(each.session, session_->state(), hash,
-                                                       file_->info().steps(), each.path.string())
-                                                  .as_commands()});
+            const bool goes = std::ranges::find(drops, each.path) != drops.end();
+            offers.push_back({words_of(each) + (goes ? ", goes next" : ""),
+                              state_of(each.session, session_->state(), hash, file_->info().steps(),
+                                       each.path.string())
+                                  .as_commands(),
+                              each.session.name, each.path, picture_of(each.session, reading)});
         } catch (const std::exception&) { // `--resume` would say what is wrong with it
         }
     }
-    session_->panel().offer_earlier(std::move(offers));
+    session_->set_sessions(std::move(offers));
+    if (!earlier_)
+        session_->panel().offer_earlier();
+    return drops;
+}
+
+/// Says that a session goes, before it does.
+void Exploration::say_dropped(const EarlierSession& session) {
+    const std::string line = fmt::format("{} sessions on these data are kept: that of {} goes when "
+                                         "this one is saved. Ctrl + K finds "
+                                         "it, Ctrl + S gives it a name, with which it stays",
+                                         kMostSessions, words_of(session));
+    print_safely(stderr, "isochron: {}\n", line);
+    session_->show_messages({line});
 }
 
 void Exploration::say(const std::string& message) {

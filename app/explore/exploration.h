@@ -7,6 +7,7 @@
 #include "app/explore/cluster_job.h"
 #include "app/explore/explore_options.h"
 #include "app/indexing/indexing.h"
+#include "app/kept/earlier_sessions.h"
 #include "app/kept/session_claim.h"
 #include "app/kept/session_file.h"
 #include "app/kept/user_memory.h"
@@ -48,14 +49,17 @@ class Exploration {
     void open_outputs();
     std::string short_name() const;
     bool tells() const;
+    bool may_prepare_later() const;
+    std::unique_ptr<stereo::GlContext> context_beside() const;
     bool prepare_session();
     void open_session();
     void set_start();
 
     LiveOptions live_options_with(UserMemory& memory, BackgroundWork& writing);
-    void lead(LiveLoop& live);
-    void offer_earlier();
-    void keep(LiveLoop& live);
+    void lead(LiveLoop& live, BackgroundWork& reading);
+    std::vector<std::filesystem::path> offer_earlier(BackgroundWork& reading);
+    void say_dropped(const EarlierSession& session);
+    void keep(LiveLoop& live, BackgroundWork& reading);
     void finish(LiveLoop& live, UserMemory& memory);
     void save(LiveLoop& live);
 

@@ -1,6 +1,7 @@
 // Saving and resuming of the session of `explore`.
 #include "app/explore/kept_session.h"
 
+#include "app/explore/explored_data.h"
 #include "app/loop/session_keeper.h"
 #include "app/telling.h"
 #include "app/version.h"
@@ -140,20 +141,30 @@ std::string why_not_kept(const std::optional<std::filesystem::path>& path) {
 }
 
 void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& path,
-                  const std::string& data, const index::IndexFile& file, const Session& session,
-                  const std::optional<SavedSession>& earlier, bool resumed) {
+                  const ExploreOptions& options, const index::IndexFile& file,
+                  const Session& session, const std::optional<SavedSession>& earlier, bool resumed,
+                  std::vector<std::filesystem::path> drops) {
+    namespace fs = std::filesystem;
     if (earlier)
         live.stand(earlier->head);
-    if (path)
-        live.join(
-            CompanionPlace::keeper,
-            std::make_shared<SessionKeeper>(
-                *path,
-                SavedSession{std::string(kProgram), std::filesystem::absolute(data).string(),
-                             data_hash_of(file), session.state().as_commands(), live.standing(),
-                             session.left_arrays(), !earlier || earlier->only_looked,
-                             file.metadata().reading_number},
-                resumed));
+    if (!path)
+        return;
+    SavedSession kept{.program = std::string(kProgram),
+                      .data = fs::absolute(*options.data).string(),
+                      .data_hash = data_hash_of(file),
+                      .state = session.state().as_commands(),
+                      .head = live.standing(),
+                      .arrays = session.left_arrays(),
+                      .only_looked = !earlier || earlier->only_looked,
+                      .reading = file.metadata().reading_number};
+    if (const auto opened = name_to_remember(options))
+        kept.opened = fs::absolute(*opened).lexically_normal().string();
+    if (earlier && resumed) {
+        kept.name = earlier->name;
+        kept.picture = earlier->picture;
+    }
+    live.join(CompanionPlace::keeper,
+              std::make_shared<SessionKeeper>(*path, std::move(kept), resumed, std::move(drops)));
 }
 
 } // namespace isochron::app

@@ -52,8 +52,10 @@ std::string why_not_kept(const std::optional<std::filesystem::path>& path);
 
 /// Makes the loop save the session to `path`, and start with the head of the earlier session.
 /// @param resumed that session lies in the same file
+/// @param drops files of sessions that go once this one is saved
 void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& path,
-                  const std::string& data, const index::IndexFile& file, const Session& session,
-                  const std::optional<SavedSession>& earlier, bool resumed);
+                  const ExploreOptions& options, const index::IndexFile& file,
+                  const Session& session, const std::optional<SavedSession>& earlier, bool resumed,
+                  std::vector<std::filesystem::path> drops);
 
 } // namespace isochron::app

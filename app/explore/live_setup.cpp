@@ -7,18 +7,106 @@
 #include "app/indexing/build_sources.h"
 #include "app/indexing/file_patterns.h"
 #include "app/indexing/open_index.h"
+#include "app/kept/earlier_sessions.h"
+#include "app/kept/session_picture.h"
 #include "app/telling.h"
 #include "app/version.h"
+#include "index/error.h"
 #include "index/system/module.h"
+#include "index/system/new_file.h"
+#include "index/system/user_folders.h"
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
 #include <utility>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace isochron::app {
 
+namespace {
+
+/// A series to try the program with; empty: there is no folder for it.
+std::filesystem::path demo_data() {
+    const auto folder = index::user_cache_folder();
+    return folder ? *folder / "demo" / "fourier.pvd" : std::filesystem::path();
+}
+
+/// Whether a program ends well; its output is left out.
+bool runs_well(std::vector<std::string> command) {
+    std::vector<char*> words;
+    for (std::string& word : command)
+        words.push_back(word.data());
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (const int file : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, file, "/dev/null", O_WRONLY, 0);
+    pid_t process = 0;
+    const int failure =
+        posix_spawn(&process, words.front(), &files, nullptr, words.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    int status = 0;
+    while (failure == 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return failure == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// Makes the demo, which takes a second. @throws index::Error when it cannot be made
+void make_demo(const std::filesystem::path& demo) {
+    index::make_folder(demo.parent_path());
+    const std::vector<std::string> command{index::file_of_program("isochron-generate").string(),
+                                           "fourier",
+                                           "--out",
+                                           demo.parent_path().string(),
+                                           "--size",
+                                           "64",
+                                           "--steps",
+                                           "24",
+                                           "--force"};
+    if (!runs_well(command))
+        throw index::Error("the demo data cannot be made in " + demo.parent_path().string());
+}
+
+} // namespace
+
+FileWindow::Offers offers_beside_files(BackgroundWork& reading) {
+    using Pictures = std::map<std::filesystem::path, std::string>;
+    const auto folder = index::user_state_folder();
+    if (!folder)
+        return {.demo = demo_data(), .picture = {}};
+    // Used by the background alone.
+    const auto pictures = std::make_shared<std::optional<Pictures>>();
+    return {.demo = demo_data(),
+            .picture = [&reading, pictures, folder](const std::filesystem::path& data) {
+                const auto read = std::make_shared<std::promise<render::Image>>();
+                reading.post([&reading, pictures, folder, read, data] {
+                    if (!*pictures)
+                        *pictures = newest_pictures(*folder);
+                    const auto found = (*pictures)->find(data);
+                    read->set_value(found == (*pictures)->end()
+                                        ? render::Image()
+                                        : picture_in(found->second).value_or(render::Image()));
+                    reading.wake();
+                    return std::string();
+                });
+                return read->get_future().share();
+            }};
+}
+
 std::string why_not_open(const std::filesystem::path& data) {
     try {
+        std::error_code unknown;
+        if (data == demo_data() && !std::filesystem::exists(data, unknown))
+            make_demo(data);
         BuildArguments arguments;
         arguments.files = {data.string()};
         if (is_index_name(arguments.files))
@@ -94,6 +182,7 @@ void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
             return std::string();
         });
     session.panel().offer_files([&memory] { return memory.recent(); });
+    session.panel().offer_beside_files(offers_beside_files(writing));
     if (!memory.introduced())
         session.panel().introduce();
 }

@@ -30,6 +30,10 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
 /// Options for movies that the panel asks for: they are drawn as this session draws.
 MovieOrders movie_orders(const ExploreOptions& options, interaction::RecordingHeader header);
 
+/// The demo, which `why_not_open` makes when somebody opens it, and the pictures of recent data.
+/// @param reading reads them in the background; outlives what is returned
+FileWindow::Offers offers_beside_files(BackgroundWork& reading);
+
 /// Remembers the data as recently opened, and shows the introduction if the user is new.
 /// @param data their name; empty: they are not remembered
 /// @param memory outlives the session's frames

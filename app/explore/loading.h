@@ -44,6 +44,12 @@ PageWindowOptions page_options(const Config& config);
 Waited wait_until(const std::function<bool()>& done, const stereo::Windows& windows,
                   const std::string& name, const std::string& line, const Config& config);
 
+/// Says in every window that the data are being loaded.
+/// @param others gets the events of these windows
+/// @param but_first leaves the first one out, as a page of its own comes there at once
+void show_loading(const stereo::Windows& windows, const std::string& name, const Config& config,
+                  std::vector<interaction::WindowEvent>& others, bool but_first);
+
 /// Says in the first window that data are being prepared, on the thread that prepares them: between
 /// two parts of the work it looks at the windows.
 class PreparingPage {
@@ -66,6 +72,10 @@ class PreparingPage {
     const std::string name_;
     PageWindow page_;
     bool canceled_ = false, left_ = false;
+    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
+
+/// `, about 3 s`: what is left of work that goes on as it did so far; empty as long as nobody knows.
+std::string time_left(float share, interaction::Seconds elapsed);
 
 } // namespace isochron::app

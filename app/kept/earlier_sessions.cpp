@@ -47,22 +47,12 @@ bool is_dated(std::string_view name, const fs::path& path) {
            name.substr(kForm.size()).find_first_not_of("-0123456789") == name.npos;
 }
 
-void drop_too_many(const fs::path& path) {
-    auto kept = sessions_in(path.parent_path(),
-                            [&](const std::string& name) { return is_dated(name, path); });
-    std::ranges::sort(kept, {}, [](const EarlierSession& each) {
-        return std::tuple(!each.session.only_looked, each.saved, each.path);
-    });
-    std::error_code ignored;
-    for (std::size_t i = 0; i + kMostEarlierSessions < kept.size(); ++i)
-        fs::remove(kept[i].path, ignored);
-}
-
 } // namespace
 
 std::string words_of(const EarlierSession& earlier) {
-    return fmt::format("{:%Y-%m-%d %H:%M:%S}{}", local(earlier.saved),
-                       earlier.session.only_looked ? ", only looked at" : "");
+    const std::string& name = earlier.session.name;
+    return fmt::format("{}{:%Y-%m-%d %H:%M:%S}{}", name.empty() ? name : name + ", ",
+                       local(earlier.saved), earlier.session.only_looked ? ", only looked at" : "");
 }
 
 bool is_session_of(std::string_view name, const fs::path& path) {
@@ -97,7 +87,48 @@ sessions_in(const fs::path& folder, const std::function<bool(const std::string& 
     return found;
 }
 
-void keep_earlier(const fs::path& path) {
+std::vector<EarlierSession> sessions_to_drop(std::vector<EarlierSession> all,
+                                             const fs::path& last) {
+    const std::size_t kept = all.size() + 1; // with the new one
+    std::erase_if(all, [&last](const EarlierSession& each) {
+        std::error_code error;
+        return each.path == last || is_lasting(each.session) ||
+               fs::exists(claim_of(each.path), error);
+    });
+    std::ranges::sort(all, {}, [](const EarlierSession& each) {
+        return std::tuple(!each.session.only_looked, each.saved, each.path);
+    });
+    all.resize(std::min(all.size(), kept - std::min(kept, kMostSessions)));
+    return all;
+}
+
+void drop_sessions(const std::vector<fs::path>& files) {
+    for (const fs::path& file : files) {
+        try {
+            std::error_code ignored;
+            if (!is_lasting(read_session(file)))
+                fs::remove(file, ignored);
+        } catch (const index::Error&) {       // gone meanwhile
+        } catch (const interaction::Error&) { // not ours any more
+        }
+    }
+}
+
+std::map<fs::path, std::string> newest_pictures(const fs::path& folder) {
+    std::map<fs::path, std::string> pictures;
+    const auto is_session = [](const std::string& name) {
+        return name.ends_with(".isochron-session");
+    };
+    for (EarlierSession& each : sessions_in(folder, is_session)) {
+        const std::string& data =
+            each.session.opened.empty() ? each.session.data : each.session.opened;
+        if (!each.session.picture.empty()) // the newest comes first
+            pictures.try_emplace(data, std::move(each.session.picture));
+    }
+    return pictures;
+}
+
+fs::path keep_earlier(const fs::path& path) {
     const std::string start =
         fmt::format("{}.{:%Y-%m-%dT%H-%M-%S}", path.stem().string(), local(time_of(path)));
     fs::path dated = path;
@@ -109,7 +140,7 @@ void keep_earlier(const fs::path& path) {
     if (error)
         throw index::Error(fmt::format("{}: the earlier session there cannot be renamed: {}",
                                        path.string(), error.message()));
-    drop_too_many(path);
+    return dated;
 }
 
 } // namespace isochron::app

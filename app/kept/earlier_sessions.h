@@ -7,16 +7,16 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace isochron::app {
 
-/// Most sessions that are kept beside the last one: enough for weeks of work on the same data, and
-/// a MiB or two. Beyond it the oldest goes of those in which somebody only looked, and only if there
-/// is none, the oldest of all: what somebody made is never dropped for a look.
-inline constexpr std::size_t kMostEarlierSessions = 20;
+/// Most sessions that are kept on the same data, unless more of them last: months of work, and some
+/// MiB.
+inline constexpr std::size_t kMostSessions = 50;
 
 struct EarlierSession {
     std::filesystem::path path;
@@ -24,7 +24,8 @@ struct EarlierSession {
     SavedSession session;
 };
 
-/// `2026-11-28 00:45:10`, in local time, and whether somebody only looked.
+/// `draft, 2026-11-28 00:45:10`: its name, when it was saved in local time, and whether somebody only
+/// looked.
 std::string words_of(const EarlierSession& earlier);
 
 /// Whether this is the name of a session that belongs to `path`: it has that name, or the one of a
@@ -35,8 +36,21 @@ bool is_session_of(std::string_view name, const std::filesystem::path& path);
 std::vector<EarlierSession> sessions_in(const std::filesystem::path& folder,
                                         const std::function<bool(const std::string& name)>& wanted);
 
+/// The sessions that make room for one more: the oldest of those in which somebody only looked, then
+/// the oldest of all. Those that last (`is_lasting`), the last one, and those of other windows stay,
+/// so there may be more than `kMostSessions`.
+/// @param all sessions on the data @param last file of the last one
+std::vector<EarlierSession> sessions_to_drop(std::vector<EarlierSession> all,
+                                             const std::filesystem::path& last);
+/// Removes these files, but not those of sessions that last since.
+void drop_sessions(const std::vector<std::filesystem::path>& files);
+
+/// The small pictures of the newest sessions on data, by the path that the user opened, or that of
+/// the index. @param folder of sessions; one that is not there has none
+std::map<std::filesystem::path, std::string> newest_pictures(const std::filesystem::path& folder);
+
 /// Gives the session in `path` a name with the date at which it was saved, for another one that is
-/// to be saved there. @throws index::Error when it stays where it is
-void keep_earlier(const std::filesystem::path& path);
+/// to be saved there. @return that name @throws index::Error when it stays where it is
+std::filesystem::path keep_earlier(const std::filesystem::path& path);
 
 } // namespace isochron::app

@@ -24,9 +24,13 @@ bool is_under(const fs::path& path, int file) {
 
 } // namespace
 
+fs::path claim_of(const fs::path& session) {
+    return session.string() + ".lock";
+}
+
 /// @return false: another program has it
 bool SessionClaim::take(const fs::path& path) {
-    lock_ = path.string() + ".lock";
+    lock_ = claim_of(path);
     for (;;) {
         file_ = open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
         if (file_ < 0)

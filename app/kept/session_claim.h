@@ -8,6 +8,9 @@ namespace isochron::app {
 /// Most windows that have a session each.
 inline constexpr int kMostWindows = 99;
 
+/// The lock beside a session file, which is there as long as a program has the file.
+std::filesystem::path claim_of(const std::filesystem::path& session);
+
 /// Two windows that show the same data would write the same file. The first of them has NAME, the
 /// second NAME-2, and so on, until each ends.
 class SessionClaim {

@@ -1,6 +1,7 @@
 // Saves and reads sessions.
 #include "app/kept/session_file.h"
 
+#include "app/kept/session_picture.h"
 #include "index/json_mistake.h"
 
 #include "index/system/input_file.h"
@@ -79,12 +80,30 @@ SavedSession session_from(const json& value) {
     if (const json* reading = members.find("reading_number"))
         saved.reading = static_cast<std::uint32_t>(interaction::natural(
             *reading, "reading_number", std::numeric_limits<std::uint32_t>::max()));
+    const auto words = [&](const char* key, std::string& text) {
+        if (const json* member = members.find(key))
+            text = interaction::text(*member, key);
+    };
+    words("name", saved.name);
+    words("opened", saved.opened);
+    words("picture", saved.picture);
+    if (auto picture = from_base64(saved.picture))
+        saved.picture = std::move(*picture);
+    else
+        throw interaction::Error("picture: expected base64");
     members.done({"format", "version", "program", "data", "data_hash", "state", "head", "arrays",
-                  "only_looked", "reading_number"});
+                  "only_looked", "reading_number", "name", "opened", "picture"});
     return saved;
 }
 
 } // namespace
+
+bool is_lasting(const SavedSession& session) {
+    const interaction::Commands& state = session.state;
+    return !session.name.empty() || (state.mark && state.mark->point) ||
+           (state.ruler && !state.ruler->places.empty()) ||
+           (state.bookmarks && !state.bookmarks->empty());
+}
 
 void save_session(const std::filesystem::path& path, const SavedSession& session) {
     json value{{"format", kFormat},
@@ -100,6 +119,12 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
         value["only_looked"] = true;
     if (session.reading != 0)
         value["reading_number"] = session.reading;
+    if (!session.name.empty())
+        value["name"] = session.name;
+    if (!session.opened.empty())
+        value["opened"] = session.opened;
+    if (!session.picture.empty())
+        value["picture"] = to_base64(session.picture);
     const std::string text = value.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));

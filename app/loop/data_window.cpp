@@ -15,6 +15,7 @@ std::optional<fs::path> choose_data(const stereo::Windows& windows,
     PageWindow window(windows, options.window);
     PanelLayer& layer = window.layer();
     layer.pages().offer_files([&options] { return options.recent; });
+    layer.pages().offer_beside_files(options.offers);
     layer.pages().open_files();
     std::string complaint;
     while (layer.pages().any() && window.goes_on()) {

@@ -16,6 +16,7 @@ namespace isochron::app {
 
 struct DataWindowOptions {
     std::vector<std::filesystem::path> recent; ///< the newest first
+    FileWindow::Offers offers = {};            ///< beside the user's files
     /// Why data cannot be opened, in one line; empty: they can.
     std::function<std::string(const std::filesystem::path&)> why_not_open;
     PageWindowOptions window = {};

@@ -189,9 +189,11 @@ void LiveLoop::run(Session& session) {
         running = goes_on(commands, input) && !next_data();
         if (!headset_.period() && !waited_)
             pacer.wait();
-        waited_ = running && may_wait(session.frames(), session.outputs().headset()) &&
-                  wait(both(session.outlook(), outlook(input, acts(happened))),
-                       session.outputs().windows());
+        const FrameOutlook next = both(session.outlook(), outlook(input, acts(happened)));
+        const bool prepared = !next.busy && !next.changed && session.prepare_some();
+        waited_ = running && !prepared &&
+                  may_wait(session.frames(), session.outputs().headset()) &&
+                  wait(next, session.outputs().windows());
         if (waited_)
             session.has_waited();
     }

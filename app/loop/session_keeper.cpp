@@ -1,8 +1,13 @@
-// Saves a session at intervals and at its end.
+// Saves a session at intervals, when its user wants it, and at its end.
 #include "app/loop/session_keeper.h"
 
 #include "app/kept/earlier_sessions.h"
+#include "app/kept/session_picture.h"
+#include "render/gl/gl.h"
 
+#include <fmt/format.h>
+
+#include <exception>
 #include <utility>
 
 namespace isochron::app {
@@ -22,27 +27,78 @@ bool only_looks_differ(const interaction::Commands& start, interaction::Commands
     return now == start;
 }
 
-void write_session(const fs::path& path, const SavedSession& session, bool& moves_earlier) {
-    std::error_code error; // save_session reports a folder that cannot be made
-    fs::create_directories(path.parent_path(), error);
-    if (moves_earlier && fs::is_regular_file(path, error))
-        keep_earlier(path);
-    save_session(path, session);
-    moves_earlier = false;
-}
-
 } // namespace
 
-SessionKeeper::SessionKeeper(fs::path path, SavedSession kept, bool resumed)
-    : path_(std::move(path)), start_(std::move(kept)), kept_(start_),
-      moves_earlier_(std::make_shared<bool>(!resumed)), head_(start_.head) {}
+void SessionKeeper::write(const fs::path& path, SavedSession session,
+                          const std::shared_ptr<const render::Image>& seen, Others& others) {
+    std::error_code error; // save_session reports a folder that cannot be made
+    fs::create_directories(path.parent_path(), error);
+    if (others.moves_earlier && fs::is_regular_file(path, error))
+        others.moved = keep_earlier(path);
+    if (seen) {
+        try {
+            session.picture = png_of(made_small(*seen));
+        } catch (const std::exception&) { // pictures need a library that may be missing
+        }
+    }
+    save_session(path, session);
+    others.moves_earlier = false;
+    drop_sessions(std::exchange(others.drops, {}));
+}
+
+SessionKeeper::SessionKeeper(fs::path path, SavedSession kept, bool resumed,
+                             std::vector<fs::path> drops)
+    : path_(std::move(path)), start_(std::move(kept)), kept_(start_), name_(start_.name),
+      others_(std::make_shared<Others>(Others{!resumed, {}, std::move(drops)})),
+      head_(start_.head) {}
 
 void SessionKeeper::after_frame(Session& session, const LiveFrame& frame) {
     head_ = frame.head;
-    if (frame.commands.save)
+    look_at(session, frame.drawn);
+    if (const auto other = session.panel().take_continued())
+        go_on_with(*other, session.state(), head_, session.left_arrays());
+    const auto name = session.panel().take_session_name();
+    if (name)
+        set_name(*name);
+    if (frame.commands.save || name)
         save_now(session.state(), head_, session.left_arrays());
     else if (is_due(frame.input.time))
         update(session.state(), head_, frame.input.time, session.left_arrays());
+    // Whoever saves from elsewhere cannot answer in the window.
+    if (frame.commands.save && !frame.from_panel.save && name_.empty())
+        session.panel().ask_session_name();
+}
+
+/// Takes the picture over once it is final, beside the panel.
+void SessionKeeper::look_at(const Session& session, const FrameReport& drawn) {
+    unseen_ |= drawn.redrawn;
+    if (!unseen_ || !drawn.final || session.outputs().displays() == 0)
+        return;
+    unseen_ = false;
+    try {
+        seen_ = std::make_shared<render::Image>(
+            session.outputs().display().read_eye(stereo::Eye::left));
+    } catch (const render::Error&) { // that eye is not shown
+    }
+}
+
+void SessionKeeper::set_name(const std::string& name) {
+    name_ = name;
+    goes_on_with_.clear();
+}
+
+void SessionKeeper::go_on_with(const OfferedSession& other, const ExplorerState& state,
+                               const interaction::StandingPlace& head, const Arrays& arrays) {
+    const bool changed = keep(state, head, arrays) && !kept_.only_looked;
+    writing_.post([path = path_, session = kept_, seen = seen_, others = others_, changed] {
+        if (changed)
+            write(path, session, seen, *others);
+        others->moves_earlier = true;
+        return std::string();
+    });
+    kept_.name.clear();
+    name_ = other.name;
+    goes_on_with_ = other.name.empty() ? fs::path() : other.file;
 }
 
 std::vector<std::string> SessionKeeper::finish(const Session& session) {
@@ -70,8 +126,8 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
     next_ = now + kInterval;
     if (!keep(state, head, arrays))
         return;
-    writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
-        write_session(path, session, *moves);
+    writing_.post([path = path_, session = kept_, seen = seen_, others = others_] {
+        write(path, session, seen, *others);
         return std::string();
     });
 }
@@ -79,9 +135,16 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
 void SessionKeeper::save_now(const ExplorerState& state, const interaction::StandingPlace& head,
                              const Arrays& arrays) {
     keep(state, head, arrays);
-    writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
-        write_session(path, session, *moves);
-        return "session saved: " + path.string();
+    kept_.name = name_;
+    writing_.post([path = path_, session = kept_, seen = seen_, others = others_,
+                   replaced = std::exchange(goes_on_with_, {})] {
+        write(path, session, seen, *others);
+        std::error_code ignored;
+        if (const fs::path& old = replaced == path ? others->moved : replaced; !old.empty())
+            fs::remove(old, ignored);
+        return session.name.empty()
+                   ? "session saved: " + path.string()
+                   : fmt::format("session saved as {}: {}", session.name, path.string());
     });
 }
 
@@ -89,7 +152,7 @@ void SessionKeeper::finish(const ExplorerState& state, const interaction::Standi
                            const Arrays& arrays) {
     writing_.finish();
     if (keep(state, head, arrays))
-        write_session(path_, kept_, *moves_earlier_);
+        write(path_, kept_, seen_, *others_);
 }
 
 } // namespace isochron::app

@@ -6,6 +6,7 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/icons.h"
 #include "app/panel/parts/rows.h"
+#include "app/panel/parts/session_field.h"
 #include "app/panel/parts/theme.h"
 #include "app/text.h"
 
@@ -52,6 +53,9 @@ void FileWindow::open(std::vector<fs::path> recent) {
 
 void FileWindow::show_recent() {
     listing_ = listed(recent_);
+    for (const fs::path& path : recent_)
+        if (offers_.picture && !pictures_.contains(path))
+            pictures_.emplace(path, offers_.picture(path));
     lately_ = fresh_ = true;
     filter_.clear();
     chosen_ = 0;
@@ -100,7 +104,8 @@ std::optional<fs::path> FileWindow::draw_path() {
     return typed ? go_or_take(typed_path(path_, folder_)) : std::nullopt;
 }
 
-void FileWindow::draw_places() {
+std::optional<fs::path> FileWindow::draw_places() {
+    std::optional<fs::path> taken;
     constexpr float kWidth = 118.0f;
     ImGui::BeginChild("places", {kWidth, 0.0f});
     std::error_code error;
@@ -110,6 +115,8 @@ void FileWindow::draw_places() {
     };
     if (!recent_.empty() && ImGui::Selectable("recent", lately_))
         show_recent();
+    if (!offers_.demo.empty() && ImGui::Selectable("demo data"))
+        taken = offers_.demo;
     place("working folder", fs::current_path(error));
     place("home", home_folder());
     place("file system", "/");
@@ -117,6 +124,41 @@ void FileWindow::draw_places() {
         if (fs::is_directory(mounted, error) && !fs::is_empty(mounted, error))
             place(mounted, mounted);
     ImGui::EndChild();
+    return taken;
+}
+
+/// The recent data, each with what was seen last: the name first, then where it lies.
+const ListedFile* FileWindow::draw_recent(const std::vector<const ListedFile*>& shown, bool moved) {
+    const ListedFile* opened = nullptr;
+    ImGui::BeginChild("recent data");
+    for (int i = 0; i < static_cast<int>(shown.size()); ++i) {
+        const ListedFile& line = *shown[static_cast<std::size_t>(i)];
+        ImGui::PushID(i);
+        const ImVec2 corner = ImGui::GetCursorPos();
+        const float height = small_picture_size().y, row = ImGui::GetTextLineHeightWithSpacing();
+        if (const LinePress press = table_line(i == chosen_, height); press != LinePress::none) {
+            chosen_ = i;
+            if (press == LinePress::twice)
+                opened = &line;
+        }
+        if (i == chosen_ && moved)
+            ImGui::SetScrollHereY();
+        ImGui::SetCursorPos(corner);
+        const auto picture = pictures_.find(line.path);
+        small_picture(picture == pictures_.end() ? std::shared_future<render::Image>()
+                                                 : picture->second);
+        const float left = corner.x + small_picture_size().x + 10.0f;
+        ImGui::SetCursorPos({left, corner.y + (height - 2 * row) / 2});
+        const float width = ImGui::GetContentRegionMax().x - left;
+        fitted_text(line.path.filename().string(), width, color_of(Ink::text));
+        ImGui::SetCursorPos({left, corner.y + height / 2});
+        fitted_text(line.path.parent_path().string(), width, color_of(Ink::dim));
+        ImGui::SetCursorPos({corner.x, corner.y + height + ImGui::GetStyle().ItemSpacing.y});
+        ImGui::PopID();
+    }
+    ImGui::Dummy({0.0f, 0.0f});
+    ImGui::EndChild();
+    return opened;
 }
 
 /// The lines as a table. @return the one that is to be opened
@@ -199,7 +241,7 @@ std::optional<fs::path> FileWindow::draw_lines() {
         note(listing_.lines.empty() ? "no readable data in this folder"
                                     : "no name here has these words",
              color_of(Ink::dim));
-    const ListedFile* opened = draw_table(shown, way != 0);
+    const ListedFile* opened = lately_ ? draw_recent(shown, way != 0) : draw_table(shown, way != 0);
     if (!shown.empty() && (asked || (typing && is_pressed(ImGuiKey_Enter))))
         opened = shown[static_cast<std::size_t>(std::min(chosen_, last))];
     if (!opened)
@@ -223,7 +265,8 @@ std::optional<fs::path> FileWindow::draw() {
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
     std::optional<fs::path> chosen = draw_path();
-    draw_places();
+    if (auto place = draw_places())
+        chosen = std::move(place);
     ImGui::SameLine();
     ImGui::BeginChild("contents");
     if (auto line = draw_lines())

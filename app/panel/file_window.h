@@ -2,10 +2,15 @@
 #pragma once
 
 #include "app/panel/file_listing.h"
+#include "render/gl/image.h"
 
 #include <filesystem>
+#include <functional>
+#include <future>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isochron::app {
@@ -15,6 +20,14 @@ class FileWindow {
     /// Opens the window with the recent data; without them, in the working folder.
     /// @param recent recently opened data, newest first
     void open(std::vector<std::filesystem::path> recent);
+    /// What the window offers beside the user's files.
+    struct Offers {
+        /// Data to try the program with, which whoever opens them may have to make; empty: none.
+        std::filesystem::path demo{};
+        /// Returns what was seen last of recent data; empty: nothing is known of any.
+        std::function<std::shared_future<render::Image>(const std::filesystem::path&)> picture{};
+    };
+    void offer(Offers offers) { offers_ = std::move(offers); }
     /// Opens it as it was when it closed.
     void open_again() { shown_ = fresh_ = true; }
     void close() { shown_ = false; }
@@ -33,8 +46,9 @@ class FileWindow {
     void show_recent();
     std::optional<std::filesystem::path> go_or_take(const std::filesystem::path& path);
     std::optional<std::filesystem::path> draw_path();
-    void draw_places();
+    std::optional<std::filesystem::path> draw_places();
     std::optional<std::filesystem::path> draw_lines();
+    const ListedFile* draw_recent(const std::vector<const ListedFile*>& shown, bool moved);
     const ListedFile* draw_table(const std::vector<const ListedFile*>& shown, bool moved);
 
     bool shown_ = false;
@@ -42,6 +56,9 @@ class FileWindow {
     bool all_ = false;    ///< files of all names are listed
     bool lately_ = false; ///< the recent data are listed, and no folder
     std::vector<std::filesystem::path> recent_;
+    Offers offers_;
+    std::map<std::filesystem::path, std::shared_future<render::Image>>
+        pictures_; ///< of recent data
     std::filesystem::path folder_;
     std::string path_;   ///< the text of the path
     std::string filter_; ///< words that the names of the listed lines have

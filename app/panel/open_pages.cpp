@@ -32,6 +32,10 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     // At once: what comes after it may open the next page.
     const bool escapes = pressed && key->key == Key::escape && !popup;
     // The fields of these two pages have the keyboard all the time.
+    if (escapes && asks_name_) {
+        asks_name_ = false;
+        return true;
+    }
     if (escapes && search_.is_open()) {
         search_.close();
         return true;
@@ -149,8 +153,10 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
             tour_.start();
     }
     lay_out_files();
-    if (const auto found = search_.draw(model, picture))
+    if (const auto found = search_.draw(model, picture)) {
         commands = run(*found, model.place == PanelPlace::in_room);
+        go_on_with(model, found->session);
+    }
     if (lists_arrays_)
         interaction::merge(commands, lay_out_arrays(model, picture));
     const bool took = std::exchange(takes_way_out_, false) && model.notes.empty;
@@ -160,19 +166,22 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
     if (any() || model.place != PanelPlace::over)
         return commands;
     interaction::merge(commands, way_out(model, picture));
-    if (model.ways.undo) // the session has changed: going on now would take that back
-        earlier_.clear();
-    if (!earlier_.empty()) {
+    if (model.ways.undo || model.sessions.empty()) // going on now would take back what was changed
+        offers_earlier_ = false;
+    if (asks_name_) {
+        lay_out_name(picture, top);
+    } else if (offers_earlier_) {
         std::size_t chosen = 0;
-        const Answer answer = earlier_card(picture, top, earlier_, chosen);
-        if (answer == Answer::yes)
-            commands = earlier_[chosen].commands;
-        if (answer != Answer::none)
-            earlier_.clear();
+        const Answer answer = earlier_card(picture, top, model.sessions, chosen);
+        if (answer == Answer::yes) {
+            commands = model.sessions[chosen].commands;
+            go_on_with(model, chosen);
+        }
+        offers_earlier_ = answer == Answer::none;
     }
     tour_.draw(model, picture);
     introduce(picture, time);
-    const std::size_t cards = 8 * tour_.step() + 4 * (earlier_.empty() ? 0 : 1) +
+    const std::size_t cards = 16 * tour_.step() + (asks_name_ ? 8 : 0) + (offers_earlier_ ? 4 : 0) +
                               (newcomer_ ? 2 : 0) + (model.notes.empty ? 1 : 0);
     turned_ = std::exchange(cards_, cards) != cards;
     return commands;
@@ -181,9 +190,26 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
 /// Says why nothing is seen, and offers the way out. @return the commands of the way out
 interaction::Commands OpenPages::way_out(const PanelModel& model, const PanelBox& picture) {
     constexpr float kBelowEarlier = 190.0f; // below the card that offers earlier sessions
-    const bool chosen = empty_card(model, picture, earlier_.empty() ? 0.0f : kBelowEarlier);
+    const bool chosen =
+        empty_card(model, picture, offers_earlier_ || asks_name_ ? kBelowEarlier : 0.0f);
     offers_way_out_ = model.notes.empty && !model.notes.empty->way.empty() && !model.asked.leaving;
     return chosen ? model.notes.empty->commands : interaction::Commands();
+}
+
+void OpenPages::go_on_with(const PanelModel& model, const std::optional<std::size_t>& session) {
+    if (session && *session < model.sessions.size())
+        continued_ = model.sessions[*session];
+}
+
+void OpenPages::lay_out_name(const PanelBox& picture, float top) {
+    const Answer answer = name_card(picture, top, name_);
+    if (answer == Answer::none)
+        return;
+    asks_name_ = false;
+    const std::size_t first = name_.find_first_not_of(' '), last = name_.find_last_not_of(' ');
+    if (answer == Answer::yes && first != name_.npos)
+        session_name_ = name_.substr(first, last - first + 1);
+    name_.clear();
 }
 
 /// The hint for newcomers, who may ask for the tour there.

@@ -25,8 +25,15 @@ class OpenPages {
     /// Shows the introduction's lines from now on, until the user begins.
     void introduce() { newcomer_ = true; }
     /// Offers to go on with a session before, until the user answers or changes something.
-    /// @param earlier the session before, then those before it
-    void offer_earlier(std::vector<OfferedSession> earlier) { earlier_ = std::move(earlier); }
+    void offer_earlier() { offers_earlier_ = true; }
+    /// The session with which the user goes on; returned once.
+    std::optional<OfferedSession> take_continued() { return std::exchange(continued_, {}); }
+    /// The user goes on with this session. @param session empty: with none
+    void go_on_with(const PanelModel& model, const std::optional<std::size_t>& session);
+    /// Asks for the name of this session.
+    void ask_session_name() { asks_name_ = true; }
+    /// The name that the user has given; returned once.
+    std::optional<std::string> take_session_name() { return std::exchange(session_name_, {}); }
     /// The user has pressed a key or a button.
     void begin() { begun_ = true; }
     /// Whether the introduction has gone since the last call.
@@ -37,6 +44,7 @@ class OpenPages {
         recent_ = std::move(recent);
     }
     bool offers_files() const { return static_cast<bool>(recent_); }
+    void offer_beside_files(FileWindow::Offers offers) { files_.offer(std::move(offers)); }
     /// Opens the page where the user chooses data.
     void open_files() { files_.open(recent_()); }
     void open_files_again() { files_.open_again(); } ///< at the folder where the page was left
@@ -58,9 +66,9 @@ class OpenPages {
     void open_search() { search_.open(); }
     void close_search() { search_.close(); }
     /// A page with a field that takes what is typed.
-    bool takes_text() const { return search_.is_open() || files_.is_open(); }
+    bool takes_text() const { return search_.is_open() || files_.is_open() || asks_name_; }
     /// A page with a list, through which the arrow keys go.
-    bool has_list() const { return takes_text() || lists_arrays_; }
+    bool has_list() const { return search_.is_open() || files_.is_open() || lists_arrays_; }
     /// The key events of the command that the user found; returned once.
     std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
     bool has_presses() const { return !presses_.empty(); }
@@ -70,7 +78,8 @@ class OpenPages {
 
     /// What the user found that is not on a page: a section to point at, the figures, a movie.
     struct FoundControl {
-        std::optional<std::size_t> section; ///< section of the panel; kSections: the bar of the time
+        std::optional<std::size_t>
+            section; ///< section of the panel; kSections: the bar of the time
         bool statistics = false;
         std::optional<MovieWish> movie;
     };
@@ -102,6 +111,7 @@ class OpenPages {
   private:
     void introduce(const PanelBox& picture, interaction::Seconds time);
     interaction::Commands way_out(const PanelModel& model, const PanelBox& picture);
+    void lay_out_name(const PanelBox& picture, float top);
     bool turn_with_control(interaction::Key key, bool shift);
     interaction::Commands run(const SearchLine& found, bool in_room);
     interaction::Commands lay_out_arrays(const PanelModel& model, const PanelBox& picture);
@@ -124,8 +134,12 @@ class OpenPages {
     Tour tour_;
     bool offers_way_out_ = false, takes_way_out_ = false;
     bool turned_ = false;
-    std::size_t cards_ = 0;               ///< number of cards in the last layout
-    std::vector<OfferedSession> earlier_; ///< the sessions before, while they are offered
+    std::size_t cards_ = 0;       ///< number of cards in the last layout
+    bool offers_earlier_ = false; ///< the sessions before are offered
+    std::optional<OfferedSession> continued_;
+    bool asks_name_ = false; ///< the question for the session's name is open
+    std::string name_;       ///< in its field
+    std::optional<std::string> session_name_;
     std::optional<interaction::Seconds> introduced_at_; ///< when the introduction appeared
 };
 

@@ -18,6 +18,10 @@ std::optional<MovieWish> OperatorPanel::take_wanted_movie() {
     return console_ ? console_->take_wanted_movie() : over_.take_wanted_movie();
 }
 
+std::optional<OfferedSession> OperatorPanel::take_continued() {
+    return console_ ? console_->take_continued() : over_.pages().take_continued();
+}
+
 std::vector<interaction::WindowEvent>
 OperatorPanel::feed(std::span<const interaction::WindowEvent> events, bool shown) {
     if (!console_)

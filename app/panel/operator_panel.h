@@ -27,11 +27,19 @@ class OperatorPanel {
         return over_.pages().introduced();
     } ///< true once, when the introduction has gone
     /// See OpenPages.
-    void offer_earlier(std::vector<OfferedSession> earlier) {
-        over_.pages().offer_earlier(std::move(earlier));
+    void offer_earlier() { over_.pages().offer_earlier(); }
+    std::optional<OfferedSession> take_continued();
+    /// A panel in its own window has no room for the question.
+    void ask_session_name() {
+        if (!console_)
+            over_.pages().ask_session_name();
     }
+    std::optional<std::string> take_session_name() { return over_.pages().take_session_name(); }
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {
         over_.pages().offer_files(std::move(recent));
+    }
+    void offer_beside_files(FileWindow::Offers offers) {
+        over_.pages().offer_beside_files(std::move(offers));
     }
     std::optional<std::filesystem::path> take_chosen() { return over_.pages().take_chosen(); }
     void offer_arrays(std::vector<ListedArray> others) {

@@ -27,6 +27,7 @@ class Console {
     std::vector<interaction::WindowEvent> take_events();
 
     std::optional<MovieWish> take_wanted_movie() { return layer_.take_wanted_movie(); }
+    std::optional<OfferedSession> take_continued() { return layer_.pages().take_continued(); }
 
     /// Lays out the panel over the whole window, and draws it if it looks different.
     /// @return commands of the operator

@@ -8,11 +8,14 @@
 #include "index/file/read_use.h"
 #include "interaction/control_context.h"
 #include "interaction/input/actions.h"
+#include "render/gl/image.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
@@ -73,6 +76,16 @@ struct PanelWork {
     const StepSurvey* survey = nullptr;         ///< survey of the shown step; null: none yet
 };
 
+/// A session on the same data that the user can go on with.
+struct OfferedSession {
+    std::string words; ///< its name, when it was saved, and whether it is dropped next
+    interaction::Commands commands{}; ///< sets all that it had
+    std::string name{};               ///< given by the user; empty: none
+    std::filesystem::path file{};
+    std::shared_future<render::Image>
+        picture{}; ///< what was seen last, once it is read; may be none
+};
+
 /// What the user is told.
 struct PanelNotes {
     std::string failure{};    ///< failure of the worker; empty when all is well
@@ -97,6 +110,7 @@ struct PanelModel {
     PanelNotes notes{};
     bool recording = false;
     MovieState movies{};
+    std::span<const OfferedSession> sessions{}; ///< the last one first
     const std::vector<interaction::ControlGroup>& controls;
     std::vector<interaction::DeviceKind> at_hand{}; ///< connected kinds of devices
     interaction::Ways ways{};
@@ -109,7 +123,8 @@ struct PanelPages {
     bool offers_files = false;  ///< the user can open other data
     bool offers_arrays = false; ///< the files have arrays that cannot be shown with these
     bool files = false, help = false, search = false, arrays = false; ///< opened in this frame
-    std::optional<MovieWish> movie{}; ///< movie that the user asked for in this frame
+    std::optional<MovieWish> movie{};     ///< movie that the user asked for in this frame
+    std::optional<std::size_t> session{}; ///< session that they go on with
 };
 
 } // namespace isochron::app

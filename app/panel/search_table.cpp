@@ -821,6 +821,13 @@ void add_data(Lines& lines) {
             lines.add({.name = "array=" + model.arrays.names[i],
                        .words = "array: " + model.arrays.names[i],
                        .commands = model.arrays.way_to(i)});
+    for (std::size_t i = 0; i < model.sessions.size(); ++i)
+        lines.add({.name = "session=" + model.sessions[i].file.filename().string(),
+                   .words = "session: " + model.sessions[i].words,
+                   .others = "continue, resume, restore state, load session, earlier work, go on",
+                   .commands = model.sessions[i].commands,
+                   .session = i,
+                   .in_room = false});
 }
 
 } // namespace

@@ -61,7 +61,8 @@ struct SearchLine {
     std::optional<std::size_t> section{}; ///< section of the panel; kSections: the bar of the time
     SearchPage page = SearchPage::none;
     std::optional<MovieWish> movie{};
-    bool in_room = true; ///< a hand in the room can have it, too
+    std::optional<std::size_t> session{}; ///< number of the session that goes on
+    bool in_room = true;                  ///< a hand in the room can have it, too
 };
 
 /// All lines, in the order in which an empty search lists them.

@@ -8,7 +8,6 @@
 #include "app/scene/look.h"
 #include "app/scene/orientation.h"
 #include "app/scene/overlay_colors.h"
-#include "app/scene/small_surface.h"
 #include "interaction/navigation/navigation.h"
 #include "render/gl/driver.h"
 #include "render/gl/shader.h"
@@ -19,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -110,9 +110,9 @@ render::BoxLines box_in(const render::View& view, const Picture& picture,
 
 Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& config)
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
-      kept_(gl),
-      cell_pass_(gl, {.shape = config.rendering.cell_shape}, render::prelude_for(info.grid)),
-      line_pass_(gl), text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
+      kept_(gl), shape_(config.rendering.cell_shape),
+      cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
+      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
       moving_(gl, info.grid), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
@@ -201,22 +201,84 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     return done;
 }
 
+std::vector<std::size_t> Scene::begin_in_few_ways(const Picture& picture) {
+    CellDrawing drawing{.grid = info_.grid,
+                        .shapes = {.shape = shape_},
+                        .prelude = render::prelude_for(info_.grid),
+                        .meshes = cells_.may_have_meshes(),
+                        .picture = picture,
+                        .appearance = appearance_of(picture)};
+    drawing.appearance.values.reset(); // whose texture belongs to this context
+    few_.emplace(gl_, std::move(drawing));
+    const std::size_t parts = few_->drawn.size();
+    cell_pass_.use_points(false); // quads serve everywhere
+    std::vector<std::size_t> needed;
+    bool quad = false; // in one size
+    for (std::size_t part = 1; part < parts; ++part) {
+        const CellWarmUp& ways = few_->warm_up;
+        const bool is_quad = ways.draws(part, render::Footprint::quad, false, false);
+        bool surface = false;
+        for (const bool translucent : {false, true})
+            surface |=
+                shows(picture, translucent) && ways.draws(part, render::Footprint::surface,
+                                                          translucent, picture.scale.has_value());
+        if (surface || (is_quad && !std::exchange(quad, true)))
+            needed.push_back(part);
+    }
+    return needed;
+}
+
+void Scene::prepare(std::size_t part, std::span<const render::View> views) {
+    render::CellAppearance& appearance = few_->drawing.appearance;
+    if (appearance.near_fade && !views.empty())
+        appearance.near_fade->between_eyes =
+            head_of(views.front(), few_->drawing.picture.audience.viewers);
+    const bool later = few_->drawn.front() || part == 0; // after the first picture
+    cell_pass_.use_points(later);
+    few_->warm_up.draw(part, cell_pass_, moving_, views, few_->drawing);
+    cell_pass_.use_points(false);
+    if (part == 0) {
+        background_pass_.link();
+        veil_pass_.link();
+        panel_pass_.link();
+    }
+    // Quads are drawn as points only later.
+    few_->drawn[part] = later || !few_->warm_up.draws(part, render::Footprint::quad, false, false);
+    if (parts_left().empty()) {
+        few_.reset();
+        cell_pass_.use_points(true);
+    }
+}
+
+std::vector<std::size_t> Scene::parts_left() const {
+    std::vector<std::size_t> left;
+    for (std::size_t part = 0; few_ && part < few_->drawn.size(); ++part)
+        if (!few_->drawn[part])
+            left.push_back(part);
+    return left;
+}
+
+bool Scene::is_ready(render::Footprint footprint, bool opaque, bool translucent,
+                     bool by_value) const {
+    const auto ready = [&](bool lets_light_through) {
+        for (const std::size_t part : parts_left())
+            if (few_->warm_up.draws(part, footprint, lets_light_through, by_value))
+                return false;
+        return true;
+    };
+    return !few_ || footprint == render::Footprint::quad ||
+           ((!opaque || ready(false)) && (!translucent || ready(true)));
+}
+
 float Scene::warm_up(const Picture& picture, std::span<const render::View> views,
                      std::size_t part) {
-    render::CellAppearance appearance = appearance_of(picture);
-    if (appearance.near_fade && !views.empty())
-        appearance.near_fade->between_eyes = head_of(views.front(), picture.audience.viewers);
     if (part == 0) {
-        small_.emplace(gl_, info_.grid, matrix(picture.room_from_physical),
-                       cells_.may_have_meshes());
-        moving_.warm_up(picture, views, appearance.linear_light);
-    } else {
-        small_->draw(part - 1, cell_pass_, views, appearance);
+        begin_in_few_ways(picture);
+        few_->drawn[0] = true; // all of them come now, with points
     }
-    const std::size_t ways = small_->ways();
-    if (part == ways)
-        small_.reset();
-    return static_cast<float>(part + 1) / static_cast<float>(ways + 1);
+    const std::size_t parts = few_->drawn.size();
+    prepare(part, views);
+    return static_cast<float>(part + 1) / static_cast<float>(parts);
 }
 
 std::size_t Scene::work(const Picture& picture, std::size_t views) {

@@ -8,10 +8,10 @@
 #include "app/config/config.h"
 #include "app/scene/callouts.h"
 #include "app/scene/cell_sets.h"
+#include "app/scene/cell_warm_up.h"
 #include "app/scene/cells_picture.h"
 #include "app/scene/moving_cells.h"
 #include "app/scene/picture.h"
-#include "app/scene/small_surface.h"
 #include "index/volume/volume_series.h"
 #include "render/drawing/cell_pass.h"
 #include "render/gl/view.h"
@@ -59,6 +59,21 @@ class Scene {
     /// stands beside cells is drawn by `draw`.
     /// @param part number of the part, from 0 @return the share that is done; 1: that was the last
     float warm_up(const Picture& picture, std::span<const render::View> views, std::size_t part);
+
+    /// From now on cells are drawn only in ways that `prepare` has drawn: first those of this picture,
+    /// in a few parts that `parts_left` no longer has once they are drawn.
+    /// @return parts that the picture needs
+    std::vector<std::size_t> begin_in_few_ways(const Picture& picture);
+    /// Draws a cell in the way of this part.
+    void prepare(std::size_t part, std::span<const render::View> views);
+    /// The parts that were not drawn; none once cells are drawn in all ways.
+    std::vector<std::size_t> parts_left() const;
+    /// How cells are drawn, for a context beside this one; while there are parts left.
+    const CellDrawing& cell_drawing() const { return few_->drawing; }
+    /// Whether cells can be drawn so without a program that is still to be compiled.
+    bool is_ready(render::Footprint footprint, bool opaque, bool translucent, bool by_value) const;
+    /// Whether the last picture can be moved, and cells be drawn in few pixels.
+    bool is_ready_to_move() const { return !few_ || few_->drawn[0]; }
     /// Work of drawing the cells into so many views, in the units of `ScenePart::cells`.
     std::size_t work(const Picture& picture, std::size_t views);
     /// Does some of the work that comes before the parts of a picture.
@@ -106,8 +121,17 @@ class Scene {
     std::optional<ColorScale> mapped_; ///< the last scale whose map was needed
     std::optional<render::Texture> map_;
     CellsPicture kept_;
+    const render::CellShape shape_;
     render::CellPass cell_pass_;
-    std::optional<SmallSurface> small_; ///< while it warms up
+    /// The ways in which cells are drawn, while not all are ready.
+    struct FewWays {
+        CellDrawing drawing;
+        CellWarmUp warm_up;
+        std::vector<bool> drawn; ///< by part
+        FewWays(const render::Gl& gl, CellDrawing how)
+            : drawing(std::move(how)), warm_up(gl, drawing), drawn(warm_up.parts()) {}
+    };
+    std::optional<FewWays> few_;
     render::LinePass line_pass_;
     render::TextPass text_pass_;
     render::PanelPass panel_pass_;

@@ -30,17 +30,6 @@ index::ExtractionPtr small_surface(const index::Grid& grid);
 /// volume, many pixels large, and as large as for a viewer inside the volume.
 class SmallSurface {
   public:
-    /// @param volume of which it stands in the middle @param gl outlives it
-    /// @param meshes whether surfaces may have meshes
-    SmallSurface(const render::Gl& gl, const index::Grid& volume,
-                 const glm::dmat4& room_from_physical, bool meshes);
-
-    std::size_t ways() const { return ways_.size(); }
-    /// @param way number of one, from 0
-    void draw(std::size_t way, render::CellPass& pass, std::span<const render::View> views,
-              const render::CellAppearance& configured) const;
-
-  private:
     struct Way {
         render::Footprint footprint;
         float size; ///< times that of a voxel
@@ -48,6 +37,18 @@ class SmallSurface {
         bool by_value; ///< colored by a map
     };
 
+    /// @param volume of which it stands in the middle @param gl outlives it
+    /// @param meshes whether surfaces may have meshes
+    SmallSurface(const render::Gl& gl, const index::Grid& volume,
+                 const glm::dmat4& room_from_physical, bool meshes);
+
+    std::size_t ways() const { return ways_.size(); }
+    const Way& way(std::size_t number) const { return ways_[number]; }
+    /// @param way number of one, from 0
+    void draw(std::size_t way, render::CellPass& pass, std::span<const render::View> views,
+              const render::CellAppearance& configured) const;
+
+  private:
     render::CellBuffers cells_;
     render::Texture map_;
     render::Placement far_;

@@ -9,9 +9,17 @@
 namespace isochron::app {
 namespace {
 
+constexpr auto kAllFootprints = render::FootprintSet::up_to(render::kBestFootprint);
+
 bool is_translucent(const ExplorerState& state) {
     return std::ranges::any_of(state.isosurfaces, [](const interaction::Isosurface& surface) {
         return surface.opacity < 1.0f;
+    });
+}
+
+bool has_opaque(const ExplorerState& state) {
+    return std::ranges::any_of(state.isosurfaces, [](const interaction::Isosurface& surface) {
+        return surface.opacity >= 1.0f;
     });
 }
 
@@ -52,8 +60,20 @@ bool PictureChoice::is_only_laid_out(const Frame& frame, const Picture& now) con
     return same == drawn;
 }
 
+/// Those of the footprints whose programs are ready for the surfaces of this state.
+render::FootprintSet PictureChoice::ready(const Frame& frame, render::FootprintSet all) const {
+    const bool by_value = frame.state.coloring.by != interaction::ColorBy::surface;
+    const bool translucent = is_translucent(frame.state), opaque = has_opaque(frame.state);
+    for (const auto footprint :
+         {render::Footprint::gaussian, render::Footprint::mesh, render::Footprint::surface})
+        if (!scene_.is_ready(footprint, opaque, translucent, by_value))
+            all.remove(footprint);
+    return all;
+}
+
 PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) const {
-    Options options{changed, sets_.footprints(), sets_.possible_footprints()};
+    Options options{changed, ready(frame, sets_.footprints()),
+                    ready(frame, sets_.possible_footprints())};
     if (frame.report.cells > frame.sharing.surface_limit())
         for (render::FootprintSet* set : {&options.available, &options.possible})
             set->remove(render::Footprint::surface);
@@ -64,6 +84,8 @@ PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) 
 FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
     FramePlan plan = quality_.choose(frame.state, options.changed, frame.choosing(),
                                      options.available, options.possible, frame.report);
+    if (!scene_.is_ready_to_move())
+        plan.resolution = 0;
     choose_mesh(frame, plan);
     // Pace says when work begins, not what is shown: what is there stays until something changes.
     if (frame.is_live() && !options.changed && !plan.state.in_parts() &&
@@ -80,7 +102,7 @@ FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
 /// at rest is made.
 void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
     if (!frame.is_live() || frame.state.quality != interaction::QualityMode::automatic ||
-        !sets_.may_have_meshes())
+        !sets_.may_have_meshes() || !ready(frame, kAllFootprints).has(render::Footprint::mesh))
         return;
     const auto use = supply_.finest_in_motion(frame);
     MeshesAtHand meshes;
@@ -119,9 +141,9 @@ bool PictureChoice::moves_exact(const Frame& frame, const Picture& now,
     const bool as_good = all_triangles || (all_cells && supply_.cells_look_small());
     // Where a panel comes or goes, the picture is only shown in another size: nothing is as good.
     const bool stays = exact && stand_as(*exact, now);
-    return exact && supply_.may_be_partial(frame) && (stays || !as_good) &&
-           plan.footprint < render::Footprint::surface && now.audience.eyes.empty() &&
-           may_be_moved(*exact, now, frame.report.asked);
+    return exact && scene_.is_ready_to_move() && supply_.may_be_partial(frame) &&
+           (stays || !as_good) && plan.footprint < render::Footprint::surface &&
+           now.audience.eyes.empty() && may_be_moved(*exact, now, frame.report.asked);
 }
 
 /// Whether the exact picture that is moved should be drawn anew for where the eyes are.
@@ -228,7 +250,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
         supply_.request(frame);
         supply_.take_newest(frame);
         pictures_.show_cells(now, frame.state);
-        const render::FootprintSet available = sets_.footprints();
+        const render::FootprintSet available = ready(frame, sets_.footprints());
         plan = wanted(frame, {options.changed, available, available});
         plan.detail = frame.plan.detail;
         agree(frame, plan);

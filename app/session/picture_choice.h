@@ -34,6 +34,7 @@ class PictureChoice {
     void learn_costs(const Frame& frame);
     bool only_gets_finer(const Frame& frame, const Picture& now) const;
     bool is_only_laid_out(const Frame& frame, const Picture& now) const;
+    render::FootprintSet ready(const Frame& frame, render::FootprintSet all) const;
     Options options(const Frame& frame, bool changed) const;
     FramePlan wanted(const Frame& frame, const Options& options);
     void choose_mesh(const Frame& frame, FramePlan& plan);

@@ -9,6 +9,7 @@
 #include "interaction/tools/tool_table.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <utility>
 
@@ -190,6 +191,41 @@ void Session::warm_up(const std::function<bool(float)>& goes_on) {
             });
 }
 
+void Session::prepare_first(const std::function<bool(float)>& goes_on,
+                            std::unique_ptr<stereo::GlContext> beside) {
+    Picture picture = pictures_.first(state_);
+    outputs_.draw(picture.audience,
+                  [&, picture](const ScenePlace&, std::span<const render::View> views) {
+                      scene_.draw(picture, views);
+                  },
+                  {});
+    pictures_.show_cells(picture, state_); // and how they are colored
+    const std::vector<std::size_t> needed = scene_.begin_in_few_ways(picture);
+    Preparation::Target target{
+        .views = {}, .size = glm::ivec2(1), .options = display_options(outputs_.gl(), config_)};
+    Outputs::PartPlace place;
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+        if (!goes_on(static_cast<float>(i) / static_cast<float>(needed.size())))
+            return;
+        outputs_.draw_part(picture.audience, place,
+                           [&](const ScenePlace&, std::span<const render::View> views) {
+                               target.views.assign(views.begin(), views.end());
+                               scene_.prepare(needed[i], views);
+                               return i + 1 == needed.size();
+                           });
+    }
+    for (const render::View& view : target.views)
+        target.size = glm::max(target.size, view.corner + view.size);
+    preparation_.emplace(outputs_.gl(), scene_, std::move(target), std::move(beside));
+}
+
+bool Session::prepare_some() {
+    const bool has = preparation_ && preparation_->advance();
+    if (preparation_ && preparation_->is_done())
+        preparation_.reset();
+    return has;
+}
+
 void Session::draw_eyes(const Frame& frame, const Picture& now,
                         const interaction::InputState& input, const SessionPanel::Facts& facts) {
     const Outputs::Overlay overlay =
@@ -319,6 +355,8 @@ void Session::set_wake(const std::function<void()>& wake) {
     picker_.set_wake(wake);
     nothing_.set_wake(wake);
     outputs_.pictures().set_wake(wake);
+    if (preparation_)
+        preparation_->set_wake(wake);
 }
 
 FrameOutlook Session::outlook() const {

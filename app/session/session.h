@@ -25,6 +25,7 @@
 #include "app/session/picker.h"
 #include "app/session/picture_choice.h"
 #include "app/session/picture_maker.h"
+#include "app/session/preparation.h"
 #include "app/session/session_panel.h"
 #include "app/session/shown_arrays.h"
 #include "app/session/window_contents.h"
@@ -106,6 +107,14 @@ class Session {
     /// Draws everything once off screen, in small parts: drivers compile shaders when they are first
     /// used. @param goes_on asked before each part, with the share that is done: false ends it
     void warm_up(const std::function<bool(float)>& goes_on = [](float) { return true; });
+    /// Instead of `warm_up`, for one window with one viewport: draws off screen what the first picture
+    /// needs, and leaves all else to `prepare_some`.
+    /// @param goes_on as of `warm_up` @param beside a context for a thread, see `Preparation`
+    void prepare_first(const std::function<bool(float)>& goes_on,
+                       std::unique_ptr<stereo::GlContext> beside);
+    /// Draws some of the rest off screen, between two frames. @return whether it has
+    bool prepare_some();
+    bool prepares() const { return preparation_.has_value(); } ///< there is some left
     /// Makes one frame, from commands to the presented picture.
     /// @param latch returns where the heads are when the views are made; empty: as in `input`
     const FrameReport& frame(const interaction::InputState& input,
@@ -139,6 +148,10 @@ class Session {
     void set_recording(bool recording) { panel_.set_recording(recording); }
     /// Sets what the panel shows about movies from now on.
     void set_movies(const MovieState& movies) { panel_.set_movies(movies); }
+    /// Sets the sessions that the user can go on with, the last one first.
+    void set_sessions(std::vector<OfferedSession> sessions) {
+        panel_.set_sessions(std::move(sessions));
+    }
     /// Times of the known steps.
     const interaction::StepTimes& times() const { return times_; }
 
@@ -211,6 +224,7 @@ class Session {
     bool waited_ = false; ///< see `has_waited`
     bool told_of_lifting_ = false; ///< the user knows that the background is lifted
     CaptureWait captures_;
+    std::optional<Preparation> preparation_; ///< while it goes on
     std::function<interaction::Seconds()> clock_;
     PictureNote note_; ///< note on the last frame: the data's names and the devices
 };

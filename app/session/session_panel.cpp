@@ -45,6 +45,8 @@ SessionPanel::feed(std::span<const interaction::WindowEvent> events, const Explo
 PanelModel SessionPanel::told(PanelModel model, PanelPlace place) const {
     model.recording = recording_;
     model.movies = movies_;
+    if (place != PanelPlace::in_room)
+        model.sessions = sessions_;
     model.notes.message = message_;
     model.notes.messages = messages_;
     model.notes.standing = outputs_.headset() && outputs_.shows_windows()

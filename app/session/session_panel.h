@@ -43,6 +43,8 @@ class SessionPanel {
     void set_standing(std::string note) { standing_ = std::move(note); }
     void set_recording(bool recording) { recording_ = recording; }
     void set_movies(const MovieState& movies) { movies_ = movies; }
+    /// Sets the sessions that the user can go on with, the last one first.
+    void set_sessions(std::vector<OfferedSession> sessions) { sessions_ = std::move(sessions); }
 
     /// The commands since the last call that a replay could not compute from the devices.
     interaction::Commands take_commands();
@@ -98,6 +100,7 @@ class SessionPanel {
     std::size_t messages_ = 0;
     bool recording_ = false;
     MovieState movies_;
+    std::vector<OfferedSession> sessions_;
 };
 
 } // namespace isochron::app

@@ -2,7 +2,6 @@
 #include "render/cells/cell_compute.h"
 
 #include "render/gl/limits.h"
-#include "render/gl/shader.h"
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
@@ -70,11 +69,11 @@ float gradient_scale(float range) {
 CellCompute::CellCompute(const Gl& gl, const index::Grid& grid, const AxisTable& axes,
                          index::ValueType held)
     : gl_(&gl), grid_(grid), axes_(&axes), at_once_(work_at_once(Limits(gl), kMostBytes)),
-      pages_(link_program(gl, {shader_file("block_pages.comp")})),
-      places_(link_program(gl, {shader_file("cell_places.comp")})),
-      styles_(link_program(gl, {shader_file("cell_styles.comp")})),
-      planes_(link_program(gl, {shader_file("cell_planes.comp")}, prelude_of(grid, held))),
-      corners_(link_program(gl, {shader_file("cell_corners.comp")}, prelude_of(grid, held))),
+      pages_(gl, {shader_file("block_pages.comp")}),
+      places_(gl, {shader_file("cell_places.comp")}),
+      styles_(gl, {shader_file("cell_styles.comp")}),
+      planes_(gl, {shader_file("cell_planes.comp")}, prelude_of(grid, held)),
+      corners_(gl, {shader_file("cell_corners.comp")}, prelude_of(grid, held)),
       volume_(gl), work_(gl) {}
 
 void CellCompute::use_volume(const index::Extraction& set, const BlockPool& blocks) const {
@@ -109,7 +108,7 @@ void CellCompute::bind(GLuint binding, const DeviceArray& array, std::size_t fir
 }
 
 template <class Prepare>
-void CellCompute::run(const Program& program, DrawPart items, Work work, Prepare&& prepare) const {
+void CellCompute::run(const LazyProgram& program, DrawPart items, Work work, Prepare&& prepare) const {
     static_assert(sizeof(Work) == 32 + 4 * index::kMostSurfaces && index::kMostSurfaces % 4 == 0);
     gl_->UseProgram(program.name());
     std::size_t begin = items.first;

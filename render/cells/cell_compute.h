@@ -6,6 +6,7 @@
 #include "render/cells/block_pool.h"
 #include "render/cells/draw_part.h"
 #include "render/cells/slot_assignment.h"
+#include "render/gl/shader.h"
 
 #include <array>
 #include <cstddef>
@@ -66,9 +67,9 @@ class CellCompute {
     /// Runs a program for some items, in ranges that one dispatch can do;
     /// `prepare(begin, end)` binds the data of each range. @param work its range is filled in here
     template <class Prepare>
-    void run(const Program& program, DrawPart items, Work work, Prepare&& prepare) const;
+    void run(const LazyProgram& program, DrawPart items, Work work, Prepare&& prepare) const;
     template <class Prepare>
-    void run(const Program& program, std::size_t count, Work work, Prepare&& prepare) const {
+    void run(const LazyProgram& program, std::size_t count, Work work, Prepare&& prepare) const {
         run(program, DrawPart{0, count}, work, std::forward<Prepare>(prepare));
     }
 
@@ -76,7 +77,7 @@ class CellCompute {
     index::Grid grid_;
     const AxisTable* axes_;
     std::size_t at_once_; ///< most items in one dispatch
-    Program pages_, places_, styles_, planes_, corners_;
+    LazyProgram pages_, places_, styles_, planes_, corners_;
     Buffer volume_, work_;
 };
 

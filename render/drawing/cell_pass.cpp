@@ -58,9 +58,15 @@ CellPass::Programs CellPass::programs(std::string_view fragment_shader,
                                       const std::string& prelude) const {
     const std::vector sources{shader_file("cell.vert"), shader_file(fragment_shader)};
     const std::string all = grid_prelude_ + prelude;
-    Programs programs{link_program(*gl_, sources, all), std::nullopt};
+    // Splats alone have a uniform that stays.
+    const auto linked = [gl = gl_, falloff = gaussian_falloff(),
+                         round = fragment_shader == "cell_gaussian.frag"](GLuint program) {
+        if (round)
+            gl->ProgramUniform1f(program, 0, falloff);
+    };
+    Programs programs{LazyProgram(*gl_, sources, all, linked), std::nullopt};
     if (two_views_at_once_)
-        programs.two = link_program(*gl_, sources, std::string(kTwoEyes) + all);
+        programs.two.emplace(*gl_, sources, std::string(kTwoEyes) + all, linked);
     return programs;
 }
 
@@ -91,12 +97,6 @@ CellPass::CellPass(const Gl& gl, const FootprintShapes& shapes, const std::strin
     gl.TextureParameteri(no_colors_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     if (shapes.shape == CellShape::voxel)
         quad_programs_.squares = programs("cell_quad.frag", "#define POINTS\n#define SQUARE\n");
-    const float falloff = gaussian_falloff();
-    for (const Programs* programs : {&gaussian_programs_.quads, &gaussian_programs_.points}) {
-        gl.ProgramUniform1f(programs->one.name(), 0, falloff);
-        if (programs->two)
-            gl.ProgramUniform1f(programs->two->name(), 0, falloff);
-    }
 }
 
 /// log2 of a splat's opacity on its outline, relative to its middle.
@@ -339,7 +339,7 @@ CellPass::Form CellPass::form_of(std::span<const View> views, const Placement& p
     const bool square = footprint == Footprint::quad && !cut;
     Form form = square ? Form::squares : Form::points;
     for (const View& view : views) {
-        if (!points_serve(view, placement, radius, reach, largest_point_))
+        if (!points_ || !points_serve(view, placement, radius, reach, largest_point_))
             return Form::quads;
         if (square && !footprints_are_squares(view, placement, radius))
             form = Form::points;

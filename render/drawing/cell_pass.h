@@ -14,6 +14,7 @@
 #include "render/drawing/mesh_pass.h"
 #include "render/drawing/surface_pass.h"
 #include "render/gl/quad_indices.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <array>
@@ -71,15 +72,17 @@ class CellPass {
     /// otherwise.
     void draw_hidden_cells() { all_cells_ = true; }
     /// For comparisons: draws quads even where points would show the same faster.
-    void draw_without_points() { largest_point_ = 0.0f; }
+    void draw_without_points() { use_points(false); }
+    /// Whether cells may be drawn as points, where these show the same.
+    void use_points(bool points) { points_ = points; }
 
     const OrderCache& orders() const { return sequences_.orders(); }
 
   private:
     /// Each program for one view and for two.
     struct Programs {
-        Program one;
-        std::optional<Program> two;
+        LazyProgram one;
+        std::optional<LazyProgram> two;
     };
     /// Programs for the same footprint drawn as quads, as points, and as points that it fills.
     struct FootprintPrograms {
@@ -149,7 +152,8 @@ class CellPass {
     /// GL this saves far more time than it takes. A GPU is faster with all cells in any order.
     bool seen_only_;
     bool all_cells_ = false; ///< no culling, but still nearest first
-    float largest_point_;    ///< pixels; 0: draw no points
+    float largest_point_;    ///< [pixel]
+    bool points_ = true;     ///< see `use_points`
     FootprintPrograms quad_programs_, gaussian_programs_;
     MeshPass mesh_;
     SurfacePass surface_;

@@ -2,7 +2,6 @@
 #include "render/drawing/mesh_pass.h"
 
 #include "index/surface/mesh_cases.h"
-#include "render/gl/shader.h"
 
 #include <algorithm>
 #include <limits>
@@ -23,8 +22,8 @@ MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
     gl.EnableVertexArrayAttrib(vertex_array_.name(), kColors);
     for (const Kind kind : {Kind::plain, Kind::colored, Kind::blended})
         for (const Way way : {Way::plain, Way::near, Way::small})
-            programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)] =
-                make_program(kind, way, grid_prelude);
+            programs_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(way)].emplace(
+                make_program(kind, way, grid_prelude));
     gl.EnableVertexArrayAttrib(vertex_array_.name(), 0);
     gl.VertexArrayAttribIFormat(vertex_array_.name(), 0, 4, GL_UNSIGNED_INT, 0);
     gl.VertexArrayAttribBinding(vertex_array_.name(), 0, 0);
@@ -32,14 +31,14 @@ MeshPass::MeshPass(const Gl& gl, const std::string& grid_prelude)
     gl.VertexArrayAttribBinding(vertex_array_.name(), kColors, kColors);
 }
 
-Program MeshPass::make_program(Kind kind, Way way, const std::string& grid_prelude) const {
+LazyProgram MeshPass::make_program(Kind kind, Way way, const std::string& grid_prelude) const {
     const std::string prelude = grid_prelude + (kind == Kind::plain ? "" : "#define COLORS\n") +
                                 (kind == Kind::blended ? "#define BLENDED\n" : "") +
                                 (way == Way::near    ? "#define NEAR\n"
                                  : way == Way::small ? "#define LIT_AT_VERTICES\n"
                                                      : "#define SHARP_HIGHLIGHTS\n");
     const std::vector sources{shader_file("mesh.vert"), shader_file("mesh.frag")};
-    return link_program(*gl_, sources, prelude);
+    return LazyProgram(*gl_, sources, prelude);
 }
 
 GLuint MeshPass::program(Kind kind, const MeshLook& look) const {

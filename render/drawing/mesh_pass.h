@@ -5,6 +5,7 @@
 #include "render/cells/draw_part.h"
 #include "render/drawing/mesh_look.h"
 #include "render/drawing/mesh_order.h"
+#include "render/gl/shader.h"
 
 #include <glm/vec4.hpp>
 #include <string>
@@ -46,7 +47,7 @@ class MeshPass {
   private:
     enum class Kind : std::uint8_t { plain, colored, blended };
     enum class Way : std::uint8_t { plain, near, small }; ///< which shader a MeshLook asks for
-    Program make_program(Kind kind, Way way, const std::string& grid_prelude) const;
+    LazyProgram make_program(Kind kind, Way way, const std::string& grid_prelude) const;
     GLuint program(Kind kind, const MeshLook& look) const;
     void put_near_first(const CellBuffers& cells, std::size_t level, PlaneOrder order);
     void find_cells(const CellBuffers& cells);
@@ -57,7 +58,7 @@ class MeshPass {
                         std::size_t count, std::size_t base) const;
 
     const Gl* gl_;
-    std::array<std::array<std::optional<Program>, 3>, 3> programs_; ///< [kind][way]
+    std::array<std::array<std::optional<LazyProgram>, 3>, 3> programs_; ///< [kind][way]
     VertexArray vertex_array_;
     Buffer no_color_;           ///< one color coordinate, 0
     Buffer near_first_, order_; ///< vertex indices, also to be blended

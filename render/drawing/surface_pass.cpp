@@ -1,8 +1,6 @@
 // Programs and GL state for drawing cells by ray casting.
 #include "render/drawing/surface_pass.h"
 
-#include "render/gl/shader.h"
-
 #include <string>
 
 namespace isochron::render {
@@ -15,12 +13,12 @@ SurfacePass::SurfacePass(const Gl& gl, bool two_views_at_once, const std::string
             for (const bool blended : {false, true})
                 for (const bool two : {false, true})
                     if (!two || two_views_at_once)
-                        programs_[colored][each_sample][blended][two] =
-                            link_program(gl, sources,
-                                         grid_prelude + std::string(two ? kTwoEyes : "") +
-                                             (blended ? "#define BLENDED\n" : "") +
-                                             (each_sample ? "#define EACH_SAMPLE\n" : "") +
-                                             (colored ? "#define COLORS\n" : ""));
+                        programs_[colored][each_sample][blended][two].emplace(
+                            gl, sources,
+                            grid_prelude + std::string(two ? kTwoEyes : "") +
+                                (blended ? "#define BLENDED\n" : "") +
+                                (each_sample ? "#define EACH_SAMPLE\n" : "") +
+                                (colored ? "#define COLORS\n" : ""));
 }
 
 void SurfacePass::draw(const QuadIndices& quads, const Corners& corners, bool blended,

@@ -3,6 +3,7 @@
 
 #include "render/cells/draw_part.h"
 #include "render/gl/quad_indices.h"
+#include "render/gl/shader.h"
 
 #include <array>
 #include <cstddef>
@@ -13,9 +14,8 @@ namespace isochron::render {
 
 class SurfacePass {
   public:
-    /// @param two_views_at_once also makes the programs that draw two views in one pass
+    /// @param two_views_at_once also has the programs that draw two views in one pass
     /// @param grid_prelude see CellPass
-    /// @throws Error when a shader does not compile
     SurfacePass(const Gl& gl, bool two_views_at_once, const std::string& grid_prelude);
 
     /// Draws with the frame, cells, orders and viewports that CellPass has bound, and its depth and
@@ -35,7 +35,7 @@ class SurfacePass {
 
   private:
     /// [blended][views - 1]
-    using Programs = std::array<std::array<std::optional<Program>, 2>, 2>;
+    using Programs = std::array<std::array<std::optional<LazyProgram>, 2>, 2>;
 
     const Gl* gl_;
     /// [with colors at vertices][one ray per pixel; one ray per sample]

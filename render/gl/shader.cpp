@@ -2,7 +2,6 @@
 #include "render/gl/shader.h"
 
 #include "index/volume/query.h"
-#include "render/gl/link_watch.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,6 +14,8 @@
 namespace isochron::render {
 
 namespace {
+
+thread_local std::size_t links = 0; ///< programs that this thread has linked
 
 struct ShaderKind {
     static constexpr const char* kName = "shader";
@@ -151,28 +152,21 @@ Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
         throw Error(
             fmt::format("{}: shaders do not link: {}", fmt::join(names, ", "), log.c_str()));
     }
-    LinkWatch::tell();
+    ++links;
     return program;
 }
 
-namespace {
-
-/// The watch of this thread; null: none.
-thread_local const LinkWatch* watching = nullptr;
-
-} // namespace
-
-LinkWatch::LinkWatch(std::function<void()> linked) : linked_(std::move(linked)) {
-    watching = this;
+GLuint LazyProgram::name() const {
+    if (!program_) {
+        program_.emplace(link_program(*gl_, sources_, prelude_));
+        if (linked_)
+            linked_(program_->name());
+    }
+    return program_->name();
 }
 
-LinkWatch::~LinkWatch() {
-    watching = nullptr;
-}
-
-void LinkWatch::tell() {
-    if (watching)
-        watching->linked_();
+std::size_t linked_programs() {
+    return links;
 }
 
 } // namespace isochron::render

@@ -8,7 +8,12 @@
 
 #include "render/gl/gl_objects.h"
 
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace isochron::render {
@@ -39,6 +44,31 @@ inline constexpr std::string_view kTwoEyes =
 /// @throws Error with the file's name and the driver's log
 Program link_program(const Gl& gl, const std::vector<ShaderSource>& sources,
                      std::string_view prelude = {});
+
+/// Programs that were linked on this thread so far.
+std::size_t linked_programs();
+
+/// A program that is linked when it is first used: a picture uses a dozen of some sixty, and drivers
+/// take a tenth of a second for one.
+class LazyProgram {
+  public:
+    /// As `link_program`, later. @param linked called once with the program's name, to set uniforms
+    /// that stay; empty: nothing is set
+    LazyProgram(const Gl& gl, std::vector<ShaderSource> sources, std::string_view prelude = {},
+                std::function<void(GLuint)> linked = {})
+        : gl_(&gl), sources_(std::move(sources)), prelude_(prelude), linked_(std::move(linked)) {}
+
+    /// @throws Error as `link_program`, on the first call
+    GLuint name() const;
+    const Gl& gl() const { return *gl_; }
+
+  private:
+    const Gl* gl_;
+    std::vector<ShaderSource> sources_;
+    std::string prelude_;
+    std::function<void(GLuint)> linked_;
+    mutable std::optional<Program> program_;
+};
 
 /// Whether the context has the extension (`GL_ARB_shader_viewport_layer_array`).
 bool has_extension(const Gl& gl, std::string_view name);

@@ -1,7 +1,6 @@
 // One triangle behind all else.
 #include "render/passes/background_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/srgb.h"
 #include "render/gl/viewport.h"
 
@@ -12,7 +11,7 @@ namespace isochron::render {
 
 BackgroundPass::BackgroundPass(const Gl& gl)
     : gl_(&gl),
-      program_(link_program(gl, {shader_file("full_screen.vert"), shader_file("background.frag")})),
+      program_(gl, {shader_file("full_screen.vert"), shader_file("background.frag")}),
       no_attributes_(gl) {}
 
 void BackgroundPass::draw(const View& view, const BackgroundColors& colors) const {

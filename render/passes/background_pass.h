@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <glm/vec3.hpp>
@@ -21,10 +22,12 @@ class BackgroundPass {
     explicit BackgroundPass(const Gl& gl);
     /// Covers the view's viewport of the bound framebuffer; before all else.
     void draw(const View& view, const BackgroundColors& colors) const;
+    /// Links its program, which would else be linked when it is first used.
+    void link() const { program_.name(); }
 
   private:
     const Gl* gl_;
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
 };
 

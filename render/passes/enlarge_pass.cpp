@@ -2,7 +2,6 @@
 #include "render/passes/enlarge_pass.h"
 
 #include "render/gl/gl_memory.h"
-#include "render/gl/shader.h"
 #include "render/gl/viewport.h"
 #include "render/passes/pixel_box.h"
 
@@ -39,7 +38,7 @@ EnlargePass::Target::Target(const Gl& gl, glm::ivec2 pixels, bool linear_light)
 
 EnlargePass::EnlargePass(const Gl& gl)
     : gl_(&gl),
-      program_(link_program(gl, {shader_file("full_screen.vert"), shader_file("enlarge.frag")})),
+      program_(gl, {shader_file("full_screen.vert"), shader_file("enlarge.frag")}),
       no_attributes_(gl) {}
 
 void EnlargePass::begin(std::span<const View> views, float share, bool linear) {

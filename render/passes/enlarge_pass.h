@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -42,7 +43,7 @@ class EnlargePass {
     };
 
     const Gl* gl_;
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
     std::optional<Target> target_;
     std::vector<View> few_;

@@ -15,11 +15,7 @@
 
 namespace isochron::render {
 
-LayerPass::LayerPass(const Gl& gl) : gl_(&gl), no_attributes_(gl) {
-    // More than two surfaces are rare: their shaders are compiled when they are needed.
-    program(1);
-    program(2);
-}
+LayerPass::LayerPass(const Gl& gl) : gl_(&gl), no_attributes_(gl) {}
 
 const Program& LayerPass::program(std::size_t layers) {
     std::optional<Program>& program = programs_[layers - 1];

@@ -1,7 +1,6 @@
 // Buffers and GL state for drawing lines.
 #include "render/passes/line_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 
@@ -27,7 +26,7 @@ BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::v
 }
 
 LinePass::LinePass(const Gl& gl)
-    : gl_(&gl), program_(link_program(gl, {shader_file("line.vert"), shader_file("line.frag")})),
+    : gl_(&gl), program_(gl, {shader_file("line.vert"), shader_file("line.frag")}),
       quads_(gl), segments_(gl, "lines", 3), frame_(gl) {}
 
 void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::span<const Line> lines,

@@ -3,6 +3,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/gl/quad_indices.h"
+#include "render/gl/shader.h"
 #include "render/gl/texel_buffer.h"
 #include "render/gl/view.h"
 
@@ -43,7 +44,7 @@ class LinePass {
 
   private:
     const Gl* gl_;
-    Program program_;
+    LazyProgram program_;
     QuadIndices quads_;
     TexelBuffer segments_;
     Buffer frame_;

@@ -1,7 +1,6 @@
 // Uniforms and GL state for drawing a panel.
 #include "render/passes/panel_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 
@@ -29,7 +28,7 @@ bool hides(const PanelQuad& panel, const glm::vec3& eye, const glm::vec3& point)
 }
 
 PanelPass::PanelPass(const Gl& gl)
-    : program_(link_program(gl, {shader_file("picture.vert"), shader_file("room_panel.frag")})),
+    : program_(gl, {shader_file("picture.vert"), shader_file("room_panel.frag")}),
       no_attributes_(gl) {}
 
 void PanelPass::draw(const View& view, const PanelQuad& panel) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <glm/vec2.hpp>
@@ -32,9 +33,11 @@ class PanelPass {
     /// writes depth for opaque parts. Draw panels before splats, which write no depth. Leaves depth
     /// test and depth writes on, blending and culling off.
     void draw(const View& view, const PanelQuad& panel) const;
+    /// Links its program, which would else be linked when it is first used.
+    void link() const { program_.name(); }
 
   private:
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
 };
 

@@ -1,14 +1,13 @@
 // GL state for drawing a textured rectangle.
 #include "render/passes/picture_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 
 namespace isochron::render {
 
 PicturePass::PicturePass(const Gl& gl)
-    : program_(link_program(gl, {shader_file("picture.vert"), shader_file("picture.frag")})),
+    : program_(gl, {shader_file("picture.vert"), shader_file("picture.frag")}),
       no_attributes_(gl) {}
 
 void PicturePass::draw(const View& view, const std::array<glm::vec3, 4>& corners, GLuint texture,

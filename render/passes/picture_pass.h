@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <glm/vec3.hpp>
@@ -24,7 +25,7 @@ class PicturePass {
               float opacity) const;
 
   private:
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
 };
 

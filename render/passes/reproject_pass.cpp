@@ -1,7 +1,6 @@
 // Draws a picture that was drawn for other eyes, moved by its depth.
 #include "render/passes/reproject_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/viewport.h"
 #include "render/passes/pixel_box.h"
 
@@ -39,7 +38,7 @@ glm::vec2 depths_of_box(const glm::dmat4& pixels) {
 
 ReprojectPass::ReprojectPass(const Gl& gl)
     : gl_(&gl),
-      program_(link_program(gl, {shader_file("full_screen.vert"), shader_file("reproject.frag")})),
+      program_(gl, {shader_file("full_screen.vert"), shader_file("reproject.frag")}),
       no_attributes_(gl) {}
 
 void ReprojectPass::draw(const View& view, const PictureWithDepth& picture,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -29,7 +30,7 @@ class ReprojectPass {
 
   private:
     const Gl* gl_;
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
 };
 

@@ -1,7 +1,6 @@
 // Models of triangles, and buffers and GL state for drawing them.
 #include "render/passes/solid_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/viewport.h"
 
 #include <glm/gtc/constants.hpp>
@@ -65,7 +64,7 @@ std::vector<Triangle> pyramid(const std::array<glm::vec3, 4>& base, glm::vec3 ti
 }
 
 SolidPass::SolidPass(const Gl& gl)
-    : program_(link_program(gl, {shader_file("solid.vert"), shader_file("solid.frag")})),
+    : program_(gl, {shader_file("solid.vert"), shader_file("solid.frag")}),
       no_attributes_(gl), corners_(gl, "triangles", 4) {}
 
 void SolidPass::draw(const View& view, const glm::mat4& room_from_model,

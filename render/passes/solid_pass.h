@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/texel_buffer.h"
 #include "render/gl/view.h"
 
@@ -38,7 +39,7 @@ class SolidPass {
               std::span<const Triangle> triangles);
 
   private:
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
     TexelBuffer corners_;
 };

@@ -2,7 +2,6 @@
 #include "render/passes/text_pass.h"
 
 #include "render/gl/limits.h"
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 
@@ -14,7 +13,7 @@ namespace isochron::render {
 
 TextPass::TextPass(const Gl& gl, GlyphAtlas atlas)
     : gl_(&gl), atlas_(std::move(atlas)),
-      program_(link_program(gl, {shader_file("text.vert"), shader_file("text.frag")})), quads_(gl),
+      program_(gl, {shader_file("text.vert"), shader_file("text.frag")}), quads_(gl),
       placed_(gl, "characters", sizeof(ScreenQuad) / sizeof(glm::vec4)), frame_(gl),
       glyphs_(gl, GL_TEXTURE_2D) {
     // Glyphs are rasterized larger than they are drawn, so that text is smooth at any size and

@@ -8,6 +8,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/gl/quad_indices.h"
+#include "render/gl/shader.h"
 #include "render/gl/texel_buffer.h"
 #include "render/gl/view.h"
 #include "render/passes/glyph_atlas.h"
@@ -70,7 +71,7 @@ class TextPass {
   private:
     const Gl* gl_;
     GlyphAtlas atlas_;
-    Program program_;
+    LazyProgram program_;
     QuadIndices quads_;
     TexelBuffer placed_;
     Buffer frame_;

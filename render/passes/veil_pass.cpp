@@ -1,7 +1,6 @@
 // Darkens a view by one triangle that covers it.
 #include "render/passes/veil_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 
@@ -9,7 +8,7 @@ namespace isochron::render {
 
 VeilPass::VeilPass(const Gl& gl)
     : gl_(&gl),
-      program_(link_program(gl, {shader_file("full_screen.vert"), shader_file("veil.frag")})),
+      program_(gl, {shader_file("full_screen.vert"), shader_file("veil.frag")}),
       no_attributes_(gl) {}
 
 void VeilPass::draw(const View& view, const Veil& veil) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 namespace isochron::render {
@@ -21,10 +22,12 @@ class VeilPass {
     /// Draws over the view's viewport of the bound framebuffer, at any depth; does nothing if the
     /// veil is zero. Leaves the depth test on and blending off.
     void draw(const View& view, const Veil& veil) const;
+    /// Links its program, which would else be linked when it is first used.
+    void link() const { program_.name(); }
 
   private:
     const Gl* gl_;
-    Program program_;
+    LazyProgram program_;
     VertexArray no_attributes_;
 };
 

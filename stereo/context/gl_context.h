@@ -31,6 +31,7 @@ struct ContextOptions {
     bool fullscreen = false;
     int monitor = 0;
     bool vsync = true;
+    bool visible = true;                 ///< false: a window that is never shown
     bool border = true;                  ///< whether the desktop may frame the window
     bool stereo_buffers = false;         ///< require a left and a right buffer
     ContextApi api = ContextApi::native; ///< for making a window's context
@@ -41,6 +42,8 @@ class GlContext {
   public:
     virtual ~GlContext() = default;
     virtual void make_current() = 0;
+    /// It is current on this thread no longer, so that another thread may make it current.
+    virtual void leave() {}
     virtual render::GlLoader loader() const = 0;
     virtual glm::ivec2 framebuffer_size() const = 0; ///< pixels; changes when a window is resized
     virtual bool has_window() const = 0;             ///< false: nothing to present to

@@ -167,6 +167,7 @@ class EglContext final : public OffscreenContext {
             throw render::Error(
                 fmt::format("eglMakeCurrent failed (EGL error {:#x})", egl_->error()));
     }
+    void leave() override { release(); }
     render::GlLoader loader() const override {
         return [get = egl_->proc_address](const char* name) {
             return reinterpret_cast<void*>(get(name));

@@ -199,7 +199,8 @@ class GlfwContext final : public GlContext {
         set_callbacks();
         if (!monitor && options.position != glm::ivec2(-1))
             glfwSetWindowPos(window_, options.position.x, options.position.y);
-        glfwShowWindow(window_);
+        if (options.visible)
+            glfwShowWindow(window_);
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(options.vsync ? 1 : 0);
         stereo_buffers_ = options.stereo_buffers;
@@ -211,6 +212,7 @@ class GlfwContext final : public GlContext {
     GlfwContext& operator=(const GlfwContext&) = delete;
 
     void make_current() override { glfwMakeContextCurrent(window_); }
+    void leave() override { glfwMakeContextCurrent(nullptr); }
     render::GlLoader loader() const override {
         return [](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); };
     }

@@ -7,7 +7,6 @@
 #include "app/scene/font.h"
 #include "interaction/controls/controls.h"
 #include "render/gl/limits.h"
-#include "render/gl/shader.h"
 
 #include <glm/common.hpp>
 #include <imgui.h>
@@ -33,8 +32,7 @@ constexpr Seconds kMessageShown{4.0};
 
 PanelLayer::PanelLayer(const render::Gl& gl, float scale)
     : gl_(gl), imgui_(ImGui::CreateContext()), scale_(scale),
-      program_(render::link_program(
-          gl, {render::shader_file("panel.vert"), render::shader_file("panel.frag")})),
+      program_(gl, {render::shader_file("panel.vert"), render::shader_file("panel.frag")}),
       vertex_array_(gl), vertices_(gl), elements_(gl) {
     ImGui::SetCurrentContext(imgui_);
     ImGuiIO& io = ImGui::GetIO();
@@ -225,15 +223,15 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         pages_.open_arrays();
     if (asked.movie)
         wanted_movie_ = asked.movie;
+    pages_.go_on_with(model, asked.session);
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
     merge(commands, say(model, time));
     const OpenPages::FoundControl found = pages_.take_found();
     if (found.section) {
         view_.pointed = found.section;
-        commands.panel = model.place == PanelPlace::over && !model.asked.panel
-                             ? std::optional(true)
-                             : commands.panel;
+        commands.panel = model.place == PanelPlace::over && !model.asked.panel ? std::optional(true)
+                                                                               : commands.panel;
     }
     view_.statistics = view_.statistics || found.statistics;
     if (found.movie)
@@ -324,10 +322,30 @@ std::size_t PanelLayer::hash_of_layout() const {
         const ImDrawList& list = *data.CmdLists[n];
         add(list.VtxBuffer.Data, list.VtxBuffer.size_in_bytes());
         add(list.IdxBuffer.Data, list.IdxBuffer.size_in_bytes());
-        for (const ImDrawCmd& command : list.CmdBuffer)
+        for (const ImDrawCmd& command : list.CmdBuffer) {
             add(&command.ClipRect, sizeof command.ClipRect);
+            add(&command.TextureId, sizeof command.TextureId);
+        }
     }
     return digest;
+}
+
+/// The texture of a small picture, or the font's for none.
+GLuint PanelLayer::texture_of(const void* picture) {
+    if (!picture)
+        return font_->name();
+    const auto& image = *static_cast<const render::Image*>(picture);
+    auto& texture = pictures_[&image];
+    if (!texture) {
+        texture.emplace(gl_, GL_TEXTURE_2D);
+        gl_.TextureStorage2D(texture->name(), 1, GL_RGBA8, image.width, image.height);
+        gl_.TextureSubImage2D(texture->name(), 0, 0, 0, image.width, image.height, GL_RGBA,
+                              GL_UNSIGNED_BYTE, image.rgba.data());
+        gl_.TextureParameteri(texture->name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        gl_.TextureParameteri(texture->name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl_.TextureParameteri(texture->name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    return texture->name();
 }
 
 void PanelLayer::draw(glm::ivec2 picture, glm::ivec2 corner) {
@@ -341,7 +359,6 @@ void PanelLayer::draw(glm::ivec2 picture, glm::ivec2 corner) {
     gl_.UseProgram(program_.name());
     gl_.ProgramUniform2f(program_.name(), gl_.GetUniformLocation(program_.name(), "display_size"),
                          data.DisplaySize.x, data.DisplaySize.y);
-    gl_.BindTextureUnit(0, font_->name());
     gl_.BindVertexArray(vertex_array_.name());
     static_assert(sizeof(ImDrawIdx) == 2);
     for (int n = 0; n < data.CmdListsCount; ++n) {
@@ -358,6 +375,7 @@ void PanelLayer::draw(glm::ivec2 picture, glm::ivec2 corner) {
             const int height = static_cast<int>(scale_ * (clip.w - clip.y));
             if (width <= 0 || height <= 0)
                 continue;
+            gl_.BindTextureUnit(0, texture_of(command.TextureId));
             gl_.Scissor(corner.x + left, corner.y + picture.y - bottom, width, height);
             gl_.DrawElementsBaseVertex(
                 GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,

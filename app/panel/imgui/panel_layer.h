@@ -9,12 +9,14 @@
 #include "interaction/input/window_event.h"
 #include "interaction/pose.h"
 #include "render/gl/gl_objects.h"
+#include "render/gl/shader.h"
 
 #include <glm/vec2.hpp>
 
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -104,6 +106,7 @@ class PanelLayer {
 
   private:
     void make_font_texture();
+    GLuint texture_of(const void* picture);
     void end_frame();
     std::size_t hash_of_layout() const;
     bool has_popup() const;
@@ -133,10 +136,12 @@ class PanelLayer {
     OpenPages pages_;
     RoomKeys room_keys_; ///< keys of the panel in the room
     std::optional<MovieWish> wanted_movie_;
-    render::Program program_;
+    render::LazyProgram program_;
     render::VertexArray vertex_array_;
     render::Buffer vertices_, elements_;
     std::optional<render::Texture> font_;
+    /// Textures of small pictures, which stay as they are as long as the panel shows them.
+    std::map<const render::Image*, std::optional<render::Texture>> pictures_;
 };
 
 } // namespace isochron::app

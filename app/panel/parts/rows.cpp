@@ -178,8 +178,9 @@ bool tick_field(const char* id, bool& on, const char* words) {
     return changed;
 }
 
-LinePress table_line(bool chosen) {
-    ImGui::Selectable("##line", chosen, ImGuiSelectableFlags_SpanAllColumns);
+LinePress table_line(bool chosen, float height) {
+    ImGui::Selectable("##line", chosen, height > 0 ? 0 : ImGuiSelectableFlags_SpanAllColumns,
+                      {0.0f, height});
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) ||
         !ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         return LinePress::none;

@@ -54,7 +54,8 @@ enum class LinePress { none, once, twice };
 /// A line over all columns of its table: a press chooses it, a second one soon after opens it, and
 /// a third one is a first one again. A press counts also in the frame in which a field of the same
 /// window takes the keyboard, where ImGui's own lines miss it.
-LinePress table_line(bool chosen);
+/// @param height panel pixels; 0: that of a line of text
+LinePress table_line(bool chosen, float height = 0.0f);
 
 /// The format of a number with its unit, with the unit's percent signs escaped.
 std::string format_with(const std::string& unit);

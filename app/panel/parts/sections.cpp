@@ -1,5 +1,6 @@
 // The panel's sections: data, surfaces, color and view.
 #include "app/panel/parts/sections.h"
+#include "app/panel/parts/session_field.h"
 
 #include "app/config/first_placement.h"
 #include "app/panel/panel_help.h"
@@ -62,6 +63,14 @@ void data_section(const PanelModel& model, PanelPages& pages, Commands& commands
     text_row("size", fmt::format("{:.3g} x {:.3g} x {:.3g}{}", size.x, size.y, size.z,
                                  with_space(info.length_unit)));
     text_row("grid", grid_words(info));
+    if (model.sessions.empty())
+        return;
+    row("sessions");
+    if (const auto chosen = session_field(
+            "##sessions", fmt::format("{} to go on with", model.sessions.size()), model.sessions)) {
+        pages.session = chosen;
+        interaction::merge(commands, model.sessions[*chosen].commands);
+    }
 }
 
 /// A row with the names of an enumeration.

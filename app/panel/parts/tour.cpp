@@ -2,8 +2,10 @@
 // the offer to go on with the session before.
 #include "app/panel/parts/tour.h"
 
+#include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/rows.h"
+#include "app/panel/parts/session_field.h"
 #include "app/panel/parts/theme.h"
 
 #include <fmt/format.h>
@@ -103,25 +105,41 @@ Answer hint_card(const PanelBox& picture, bool& held) {
     return answer;
 }
 
-Answer earlier_card(const PanelBox& picture, float top, const std::vector<OfferedSession>& earlier,
+Answer earlier_card(const PanelBox& picture, float top, std::span<const OfferedSession> earlier,
                     std::size_t& chosen) {
-    begin_card("###earlier", picture, 330.0f, top, 0.0f);
+    begin_card("###earlier", picture, 360.0f, top, 0.0f);
+    small_picture(earlier.front().picture);
+    ImGui::SameLine();
+    ImGui::BeginGroup();
     note("These data were explored before.", color_of(Ink::text));
+    note(earlier.front().words, color_of(Ink::dim));
+    ImGui::EndGroup();
     Answer answer = answer_of("Continue where you left off", "Start anew");
     if (earlier.size() > 1) {
-        std::vector<std::string> words;
-        for (const OfferedSession& each : earlier)
-            words.push_back(each.words);
         ImGui::SetNextItemWidth(-1.0f);
-        const auto other = choice_field("##earlier sessions", words.front(), words,
-                                        "All sessions on these data, by their ends");
-        if (other) {
+        if (const auto other = session_field("##earlier sessions",
+                                             fmt::format("{} sessions", earlier.size()), earlier)) {
             chosen = *other;
             answer = Answer::yes;
         }
     }
     end_card();
     return answer;
+}
+
+Answer name_card(const PanelBox& picture, float top, std::string& name) {
+    begin_card("###session name", picture, 360.0f, top, 0.0f);
+    note("The session is saved. With a name it is kept for ever.", color_of(Ink::text));
+    if (!ImGui::IsAnyItemActive()) { // it has the keyboard as long as the question is open
+        ImGui::SetWindowFocus();
+        ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::SetNextItemWidth(-1.0f);
+    text_field("##name", "name of this session", name);
+    const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+    const Answer answer = answer_of("Name it", "No name");
+    end_card();
+    return answer == Answer::none && entered ? Answer::yes : answer;
 }
 
 void Tour::draw(const PanelModel& model, const PanelBox& picture) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,12 @@ enum class Answer : std::uint8_t { none, yes, no };
 /// The hint for newcomers, with the offer of the tour.
 /// @param held the pointer is on it, so that a press there is an answer
 Answer hint_card(const PanelBox& picture, bool& held);
-/// A session on the same data that the user can go on with.
-struct OfferedSession {
-    std::string words;              ///< when it was saved
-    interaction::Commands commands; ///< sets all that it had
-};
 /// The offer to go on with one of the sessions before: the first one, or another one of the list.
 /// @param chosen number of the session that the user wants
-Answer earlier_card(const PanelBox& picture, float top, const std::vector<OfferedSession>& earlier,
+Answer earlier_card(const PanelBox& picture, float top, std::span<const OfferedSession> earlier,
                     std::size_t& chosen);
+/// The question for the name of this session. @return yes: `name` is its name
+Answer name_card(const PanelBox& picture, float top, std::string& name);
 
 /// Each step says what to do, and notices when it is done.
 class Tour {

@@ -3,18 +3,21 @@
 #include "app/kept/earlier_sessions.h"
 #include "app/kept/session_claim.h"
 #include "app/kept/session_file.h"
+#include "app/kept/session_picture.h"
 #include "app/loop/session_keeper.h"
 #include "index/error.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/support/session_fixture.h"
 #include "tests/support/test_seed.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <set>
 
 namespace isochron::app {
@@ -99,6 +102,9 @@ TEST(SessionFile, WhatIsNoneIsRefusedInOneLine) {
     EXPECT_EQ(left("[]"), "no error");
     EXPECT_THAT(left("[{\"array\": \"p\"}]"), HasSubstr("expected array, isosurfaces, picked"));
     EXPECT_THAT(left("{}"), HasSubstr("arrays"));
+    EXPECT_THAT(complaint(with("{\n", "{\n\"picture\": \"!\",\n")), HasSubstr("base64"));
+    EXPECT_EQ(complaint(with("{\n", "{\n\"name\": \"draft\", \"opened\": \"/data\",\n")),
+              "no error");
 }
 
 TEST(SessionKeeper, SavesWhatHasChangedAndKeepsWhatWasThere) {
@@ -156,34 +162,227 @@ void explore_once(const std::filesystem::path& path, const ExplorerState& end) {
     keeper.finish(end, start.head);
 }
 
+/// A session of its own on one day, which drops what `sessions_to_drop` says.
+void explore_on_day(const std::filesystem::path& path, const ExplorerState& end, std::size_t day,
+                    const std::string& name = {}) {
+    std::vector<std::filesystem::path> drops;
+    for (const EarlierSession& each : sessions_to_drop(sessions_of(path), path))
+        drops.push_back(each.path);
+    SavedSession start = kept_of({});
+    start.only_looked = true;
+    {
+        SessionKeeper keeper(path, start, false, drops);
+        if (!name.empty()) {
+            keeper.set_name(name);
+            keeper.save_now(end, start.head);
+        }
+        keeper.finish(end, start.head);
+    }
+    make_older(path, day);
+}
+
 TEST(SessionKeeper, LosesNoWorkByAnyNumberOfLooks) {
     TestFolder folder;
     const auto path = folder.path() / "a.isochron-session";
     ExplorerState work, look;
     work.set_isovalue(7.5);
-    explore_once(path, work);
-    make_older(path, 0);
-    for (std::size_t i = 0; i < kMostEarlierSessions + 5; ++i) {
+    explore_on_day(path, work, 0);
+    for (std::size_t i = 0; i < kMostSessions + 5; ++i) {
         look.instant = index::Instant(1 + i % 2);
         look.room_from_physical.translation.x += 0.1;
-        explore_once(path, look);
-        make_older(path, 100 + i);
+        explore_on_day(path, look, 100 + i);
+        const std::size_t most = std::min(i + 2, kMostSessions);
+        ASSERT_EQ(sessions_of(path).size(), most) << i;
     }
     EXPECT_TRUE(read_session(path).only_looked);
-    const auto all = sessions_of(path);
-    EXPECT_EQ(all.size(), kMostEarlierSessions + 1);
     const auto with_work = [&] {
         return std::ranges::count(sessions_of(path), false,
                                   [](const auto& each) { return each.session.only_looked; });
     };
     EXPECT_EQ(with_work(), 1);
-    for (std::size_t i = 0; i < kMostEarlierSessions + 5; ++i) {
+    for (std::size_t i = 0; i < kMostSessions + 5; ++i) {
         work.set_isovalue(static_cast<double>(i));
-        explore_once(path, work);
-        make_older(path, 200 + i);
+        explore_on_day(path, work, 200 + i);
     }
-    EXPECT_EQ(with_work(), kMostEarlierSessions + 1) << "the newest ones, and no look";
-    EXPECT_EQ(back_from(sessions_of(path).front().path).isovalue(), kMostEarlierSessions + 4);
+    EXPECT_EQ(with_work(), kMostSessions) << "the newest ones, and no look";
+    EXPECT_EQ(back_from(sessions_of(path).front().path).isovalue(), kMostSessions + 4);
+}
+
+TEST(SessionKeeper, DropsNoneThatHasANameOrMarks) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState state;
+    explore_on_day(path, state, 0, "draft");
+    const std::vector<std::function<void(ExplorerState&)>> marks{
+        [](ExplorerState& one) { one.mark.point.emplace(); },
+        [](ExplorerState& one) { one.ruler.places.emplace_back(1.0); },
+        [](ExplorerState& one) {
+            one.bookmarks.push_back({.name = "x", .instant = index::Instant(1)});
+        }};
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        ExplorerState marked;
+        marks[i](marked);
+        explore_on_day(path, marked, 1 + i);
+    }
+    for (std::size_t i = 0; i < kMostSessions + 10; ++i) {
+        state.set_isovalue(static_cast<double>(i));
+        explore_on_day(path, state, 10 + i);
+    }
+    const auto all = sessions_of(path);
+    EXPECT_EQ(all.size(), kMostSessions);
+    EXPECT_EQ(std::ranges::count_if(all, [](const auto& each) { return is_lasting(each.session); }),
+              4);
+    for (std::size_t i = 0; i < kMostSessions + 2; ++i)
+        explore_on_day(path, state, 100 + i, fmt::format("draft {}", i));
+    EXPECT_EQ(sessions_of(path).size(), kMostSessions + 6) << "all of them last";
+}
+
+TEST(SessionKeeper, DropsNoneOfAnotherWindowAndNoneThatGotANameMeanwhile) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState state;
+    for (std::size_t i = 0; i < kMostSessions; ++i) {
+        state.set_isovalue(static_cast<double>(i));
+        explore_on_day(path, state, i);
+    }
+    const auto oldest = sessions_of(path).back().path;
+    ASSERT_EQ(sessions_to_drop(sessions_of(path), path).front().path, oldest);
+    {
+        const SessionClaim other(oldest);
+        EXPECT_NE(sessions_to_drop(sessions_of(path), path).front().path, oldest);
+    }
+    SavedSession named = read_session(oldest);
+    named.name = "draft";
+    save_session(oldest, named);
+    drop_sessions({oldest, folder.path() / "gone.isochron-session"});
+    EXPECT_TRUE(std::filesystem::exists(oldest));
+}
+
+TEST(SessionKeeper, TwoLooksWithoutAnAnswerLeaveEachSessionUnderItsOwnName) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState work, look;
+    work.set_isovalue(7.5);
+    explore_on_day(path, work, 1);
+    for (std::size_t day : {2, 3}) {
+        look.room_from_physical.translation.x += 0.1;
+        explore_on_day(path, look, day);
+    }
+    const auto all = sessions_of(path);
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(back_from(all.back().path).isovalue(), 7.5);
+    EXPECT_EQ(words_of(all.back()).find("looked"), std::string::npos);
+}
+
+TEST(SessionKeeper, SavesUnderItsNameAndTakesThePlaceOfTheSessionWithThatName) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState first, second;
+    first.set_isovalue(7.5);
+    second.set_isovalue(8.5);
+    explore_on_day(path, first, 0, "draft");
+    explore_on_day(path, second, 1);
+    const auto draft = sessions_of(path).back();
+    ASSERT_EQ(draft.session.name, "draft");
+    const SavedSession start = kept_of({});
+    SessionKeeper keeper(path, start, false);
+    keeper.go_on_with({.words = {}, .name = "draft", .file = draft.path}, ExplorerState(),
+                      start.head);
+    keeper.update(first, start.head, interaction::Seconds(31));
+    first.set_isovalue(7.75);
+    keeper.finish(first, start.head);
+    EXPECT_EQ(sessions_of(path).size(), 3u) << "nobody has asked to save to it";
+    EXPECT_EQ(read_session(path).name, "");
+    keeper.save_now(first, start.head);
+    keeper.finish(first, start.head);
+    const auto all = sessions_of(path);
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all.front().session.name, "draft");
+    EXPECT_EQ(back_from(all.front().path).isovalue(), 7.75);
+    EXPECT_EQ(back_from(all.back().path).isovalue(), 8.5);
+    EXPECT_THAT(keeper.messages(), testing::Contains("session saved as draft: " + path.string()));
+}
+
+TEST(SessionKeeper, GoingOnWithAnotherSessionKeepsTheWorkBefore) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState work, other;
+    work.set_isovalue(7.5);
+    other.set_isovalue(3.5);
+    const SavedSession start = kept_of({});
+    SessionKeeper keeper(path, start, false);
+    keeper.set_name("mine");
+    keeper.save_now(work, start.head);
+    work.set_isovalue(7.75);
+    keeper.go_on_with({.words = {}, .file = "other"}, work, start.head);
+    keeper.finish(other, start.head);
+    const auto all = sessions_of(path);
+    ASSERT_EQ(all.size(), 2u);
+    for (const EarlierSession& each : all) {
+        EXPECT_EQ(back_from(each.path).isovalue(), each.path == path ? 3.5 : 7.75);
+        EXPECT_EQ(each.session.name, each.path == path ? "" : "mine");
+    }
+}
+
+TEST(SessionKeeper, ACrashBetweenTheFilesLosesNoSession) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    ExplorerState state;
+    for (std::size_t i = 0; i < kMostSessions; ++i) {
+        state.set_isovalue(static_cast<double>(i));
+        explore_on_day(path, state, i);
+    }
+    const auto before = sessions_of(path);
+    // The last one has its date, and the new one is not there yet.
+    keep_earlier(path);
+    EXPECT_EQ(sessions_of(path).size(), before.size());
+    // The new one is there, and none has been dropped.
+    save_session(path, kept_of(state));
+    EXPECT_EQ(sessions_of(path).size(), kMostSessions + 1);
+    explore_on_day(path, {}, kMostSessions, "next");
+    EXPECT_EQ(sessions_of(path).size(), kMostSessions) << "two were dropped";
+}
+
+TEST(SessionKeeper, KeepsASmallPictureOfWhatWasSeen) {
+    TestFolder folder;
+    const auto path = folder.path() / "a.isochron-session";
+    render::Image seen{.width = 640, .height = 480, .rgba = {}};
+    for (int i = 0; i < 640 * 480; ++i)
+        seen.rgba.insert(seen.rgba.end(),
+                         {static_cast<std::uint8_t>(i % 640 < 320 ? 200 : 40),
+                          static_cast<std::uint8_t>(i / 640 < 240 ? 10 : 90), 7, 255});
+    SavedSession start = kept_of({});
+    SessionKeeper keeper(path, start, false);
+    keeper.show(std::make_shared<render::Image>(seen));
+    ExplorerState state;
+    state.grid = true;
+    keeper.finish(state, start.head);
+    const auto picture = picture_in(read_session(path).picture);
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->width, 133); // 640 x 480 in 160 x 100
+    EXPECT_EQ(picture->height, 100);
+    EXPECT_EQ(std::vector(picture->at(10, 10), picture->at(10, 10) + 3),
+              (std::vector<std::uint8_t>{200, 10, 7}));
+    EXPECT_EQ(std::vector(picture->at(120, 90), picture->at(120, 90) + 3),
+              (std::vector<std::uint8_t>{40, 90, 7}));
+    EXPECT_LT(std::filesystem::file_size(path), 100'000u);
+}
+
+TEST(SessionPicture, Base64IsThatOfTheStandard) {
+    const std::vector<std::pair<std::string, std::string>> rows{// RFC 4648, section 10
+                                                                {"", ""},
+                                                                {"f", "Zg=="},
+                                                                {"fo", "Zm8="},
+                                                                {"foo", "Zm9v"},
+                                                                {"foob", "Zm9vYg=="},
+                                                                {"fooba", "Zm9vYmE="},
+                                                                {"foobar", "Zm9vYmFy"}};
+    for (const auto& [bytes, text] : rows) {
+        EXPECT_EQ(to_base64(bytes), text);
+        EXPECT_EQ(from_base64(text), bytes);
+    }
+    for (const char* const wrong : {"Zg=", "Z===", "Zg==Zg==", "Zm9!", "====", "Z"})
+        EXPECT_EQ(from_base64(wrong), std::nullopt) << wrong;
 }
 
 TEST(SessionKeeper, WhatGoesOnWithWorkIsWork) {

@@ -39,6 +39,7 @@ class LayerTest : public testing::Test {
                                .arrays = arrays_,
                                .notes = notes_,
                                .movies = {.offered = true},
+                               .sessions = sessions_,
                                .controls = controls_},
                               time_);
     }
@@ -104,6 +105,7 @@ class LayerTest : public testing::Test {
     std::vector<std::uint32_t> gaps_;
     PanelArrays arrays_;
     PanelNotes notes_;
+    std::vector<OfferedSession> sessions_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

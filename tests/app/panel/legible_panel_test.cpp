@@ -258,9 +258,12 @@ TEST_P(LegiblePanel, WithTheMenusOfItsBars) {
 }
 
 TEST_P(LegiblePanelOverAPicture, WithTheTourAndTheOfferOfTheSessionBefore) {
-    layer_.pages().offer_earlier({{"2026-11-28 10:00:00", {}}, {"2026-11-27 09:00:00", {}}});
+    sessions_ = {{.words = "draft, 2026-11-28 10:00:00"}, {.words = "2026-11-27 09:00:00"}};
+    layer_.pages().offer_earlier();
     layer_.pages().introduce();
     expect_legible("with the offers");
+    layer_.pages().ask_session_name();
+    expect_legible("with the question for a name");
 }
 
 const auto kOver =

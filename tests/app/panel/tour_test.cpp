@@ -67,24 +67,64 @@ TEST_F(TourTest, CanBeLeftAtAnyStepAndTakenAgainFromTheHelp) {
 }
 
 TEST_F(TourTest, GoesOnWithTheSessionBeforeOnlyIfTheUserSaysSo) {
-    std::vector<OfferedSession> earlier(1);
-    earlier.front().commands.instant.emplace(7);
-    layer_.pages().offer_earlier(earlier);
+    sessions_.push_back({.words = "draft, on Friday", .name = "draft"});
+    sessions_.front().commands.instant.emplace(7);
+    layer_.pages().offer_earlier();
     EXPECT_TRUE(shows("Start anew"));
+    EXPECT_TRUE(shows("draft, on Friday"));
     EXPECT_EQ(click_on("Continue where you left off").instant, index::Instant(7));
     EXPECT_FALSE(shows("Start anew"));
-    layer_.pages().offer_earlier(earlier);
+    const auto continued = layer_.pages().take_continued();
+    ASSERT_TRUE(continued);
+    EXPECT_EQ(continued->name, "draft");
+    layer_.pages().offer_earlier();
     EXPECT_EQ(click_on("Start anew"), Commands());
     EXPECT_FALSE(shows("Start anew"));
+    EXPECT_FALSE(layer_.pages().take_continued());
 }
 
-TEST_F(TourTest, GoesOnWithAnySessionOfTheList) {
-    std::vector<OfferedSession> earlier{{"on Friday", {}}, {"on Thursday", {}}};
-    earlier.back().commands.instant.emplace(3);
-    layer_.pages().offer_earlier(earlier);
-    click_on("on Friday");
+TEST_F(TourTest, GoesOnWithAnySessionOfTheListsInCardAndPanel) {
+    sessions_ = {{.words = "on Friday"}, {.words = "on Thursday"}};
+    sessions_.back().commands.instant.emplace(3);
+    layer_.pages().offer_earlier();
+    click_on("2 sessions");
     EXPECT_EQ(click_on("on Thursday").instant, index::Instant(3));
     EXPECT_FALSE(shows("Start anew"));
+    EXPECT_EQ(layer_.pages().take_continued()->words, "on Thursday");
+    click_on("2 to go on with");
+    EXPECT_EQ(click_on("on Thursday").instant, index::Instant(3));
+    EXPECT_EQ(layer_.pages().take_continued()->words, "on Thursday");
+}
+
+TEST_F(TourTest, ASessionIsFoundByTheSearch) {
+    sessions_ = {{.words = "on Friday"},
+                 {.words = "flow paper, on Thursday", .name = "flow paper"}};
+    sessions_.back().commands.instant.emplace(3);
+    press(interaction::Key{'K'}, static_cast<std::uint8_t>(interaction::Modifier::control));
+    type("continue flow");
+    frame({interaction::KeyEvent{interaction::Key::enter, true}});
+    frame({interaction::KeyEvent{interaction::Key::enter, false}});
+    EXPECT_EQ(layer_.pages().take_continued().value_or(OfferedSession{}).name, "flow paper");
+}
+
+TEST_F(TourTest, AskedForItsNameASessionGetsWhatIsTyped) {
+    layer_.pages().ask_session_name();
+    frame();
+    type("  flow paper ");
+    EXPECT_TRUE(shows("Name it"));
+    press(interaction::Key::enter);
+    EXPECT_EQ(layer_.pages().take_session_name(), "flow paper");
+    EXPECT_FALSE(shows("Name it"));
+    for (const bool types : {true, false}) { // Escape, and no name
+        layer_.pages().ask_session_name();
+        frame();
+        if (types)
+            type("other");
+        press(types ? interaction::Key::escape : interaction::Key::enter);
+        frame();
+        EXPECT_FALSE(shows("Name it"));
+        EXPECT_EQ(layer_.pages().take_session_name(), std::nullopt);
+    }
 }
 
 } // namespace

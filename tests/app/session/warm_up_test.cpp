@@ -4,12 +4,12 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
-#include "render/gl/link_watch.h"
+#include "render/gl/shader.h"
 
 #include <algorithm>
-#include <optional>
+#include <cstdio>
+#include <memory>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -89,18 +89,7 @@ TEST_P(WarmUp, UsesEveryProgramThatCellsNeedFromFarAndFromWithin) {
 }
 
 TEST_P(WarmUp, LooksAtTheUserAfterEveryFewDrawsAndEndsWhenAsked) {
-    int links = 0;
-    std::optional<Session> made;
-    {
-        const render::LinkWatch watch([&] { ++links; });
-        made.emplace(small_config(), file_, noting_);
-    }
-    EXPECT_GE(links, 20) << "looks while the session is made";
-    {
-        const render::LinkWatch watch([&] { throw std::runtime_error("the user leaves"); });
-        EXPECT_THROW(Session(small_config(), file_, noting_), std::runtime_error);
-    }
-    Session& session = *made;
+    Session session(small_config(), file_, noting_);
     std::vector<float> shares;
     std::vector<std::size_t> begun; // programs whose first use falls between two looks
     programs.used.clear();
@@ -118,6 +107,83 @@ TEST_P(WarmUp, LooksAtTheUserAfterEveryFewDrawsAndEndsWhenAsked) {
     std::size_t looks = 0;
     session.warm_up([&](float) { return ++looks < 3; });
     EXPECT_EQ(looks, 3u);
+}
+
+/// Whatever a user does after the first picture, no frame links a program: it shows what is ready, and
+/// the rest is linked between frames.
+TEST_P(WarmUp, TheFirstPictureLinksADozenProgramsAndNoLaterFrameLinksAny) {
+    struct Row {
+        const char* what;
+        float opacity;
+        bool by_value;
+        bool beside; ///< another thread draws ahead
+    };
+    for (const Row& row :
+         {Row{"opaque", 1.0f, false, true}, Row{"translucent", 0.5f, false, false},
+          Row{"colored", 1.0f, true, false}, Row{"colored and translucent", 0.5f, true, true}}) {
+        SCOPED_TRACE(row.what);
+        Config config = small_config();
+        config.quality.settled = render::Footprint::surface;
+        const std::size_t none = render::linked_programs();
+        Session session(config, file_, noting_);
+        ExplorerState start = session.state();
+        start.isosurfaces = {{2.0, {0.9f, 0.3f, 0.2f}, row.opacity}};
+        if (row.by_value)
+            start.coloring.by = interaction::ColorBy::first_crossing;
+        session.set_state(start);
+        std::unique_ptr<stereo::GlContext> beside;
+        if (row.beside && GetParam() == stereo::ContextKind::egl) {
+            beside = stereo::make_context(GetParam(), {.size = {1, 1}});
+            beside->leave();
+            noting_.make_current();
+        }
+        std::size_t looks = 0;
+        session.prepare_first([&](float) { return ++looks > 0; }, std::move(beside));
+        EXPECT_GE(looks, 2u);
+        int number = 0;
+        const auto frame = [&](const interaction::Commands& commands, float way) {
+            interaction::InputState input = head_at_rest(number++ / 60.0);
+            input.devices[0].pose->position.z = -way;
+            return session.frame(input, commands, Waiting::never);
+        };
+        ASSERT_TRUE(test_support::eventually([&] { return frame({}, 0).final; }));
+        const std::size_t first = render::linked_programs() - none;
+        std::printf("%s: %zu programs before the first picture\n", row.what, first);
+        EXPECT_LE(first, 16u);
+        std::size_t between = 0, in_frames = 0;
+        const auto watched = [&](const interaction::Commands& commands, float way) {
+            const std::size_t before = render::linked_programs();
+            const bool final = frame(commands, way).final;
+            in_frames += render::linked_programs() - before;
+            return final;
+        };
+        const auto wander = [&] { // all that leads to other programs, again and again
+            for (const float opacity : {1.0f, 0.4f})
+                for (const bool by_value : {false, true}) {
+                    interaction::Commands commands;
+                    commands.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, opacity}}};
+                    commands.coloring.emplace().by = by_value ? interaction::ColorBy::first_crossing
+                                                              : interaction::ColorBy::surface;
+                    for (int i = 0; i < 4; ++i)
+                        watched(std::exchange(commands, {}), i % 2 ? 0.02f : 0.7f);
+                    watched({}, 3.0f);
+                    watched({}, 0.0f);
+                }
+        };
+        wander();
+        EXPECT_EQ(in_frames, 0u) << "before any other program is ready";
+        ASSERT_TRUE(test_support::eventually([&] {
+            const std::size_t before = render::linked_programs();
+            session.prepare_some();
+            between += render::linked_programs() - before;
+            wander();
+            return !session.prepares();
+        }));
+        EXPECT_GE(between, 10u);
+        EXPECT_EQ(in_frames, 0u);
+        EXPECT_TRUE(test_support::eventually([&] { return watched({}, 0.0f); }));
+        EXPECT_EQ(in_frames, 0u) << "the exact picture, once all are ready";
+    }
 }
 
 TEST_P(WarmUp, CellsOfAnyNumberAndColorNeedNothingCompiled) {

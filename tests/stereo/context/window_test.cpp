@@ -1,7 +1,6 @@
 // Windows on the test's own X server: their contents, and what a user does to them.
 #include "stereo/context/display_loss.h"
 #include "stereo/display.h"
-#include "stereo/loading_picture.h"
 #include "tests/stereo/each_eye.h"
 #include "tests/support/eventually.h"
 #include "tests/support/virtual_display.h"
@@ -215,28 +214,6 @@ TEST_F(WindowTest, TwoWindowsShareOneInitialization) {
     EXPECT_FALSE(first->should_close());
     first->make_current();
     EXPECT_THAT(first->description(), testing::StartsWith("GLFW, OpenGL 4."));
-}
-
-TEST_F(WindowTest, SaysThatItLoadsBeforeThereIsAShader) {
-    Installation installation;
-    installation.windows.resize(1);
-    installation.windows[0].size = {400, 200};
-    installation.windows[0].position = {0, 0};
-    const Windows windows = open_windows(ContextKind::glfw, installation, {.title = "loading"});
-    show_loading(windows, glm::vec3(0));
-    const auto lit = [&](int x, int y) { return screen_.pixel(x, y)[0] > 128; };
-    ASSERT_TRUE(eventually(windows[0], [&] { return lit(163, 92) || lit(161, 92); }));
-    int letters = 0;
-    bool before = false;
-    for (int x = 140; x < 260; ++x) { // seven, with a gap between each and the next
-        bool now = false;
-        for (int y = 90; y < 112; ++y)
-            now = now || lit(x, y);
-        letters += now && !before;
-        before = now;
-    }
-    EXPECT_EQ(letters, 7);
-    EXPECT_FALSE(lit(20, 20));
 }
 
 TEST(Window, WithoutADisplayTheErrorSaysSoAndNamesWhatWorks) {

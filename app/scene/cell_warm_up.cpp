@@ -1,0 +1,35 @@
+// Draws a cell once in every way in which cells are drawn.
+#include "app/scene/cell_warm_up.h"
+
+#include <algorithm>
+
+namespace isochron::app {
+
+CellWarmUp::CellWarmUp(const render::Gl& gl, const CellDrawing& drawing)
+    : small_(gl, drawing.grid, matrix(drawing.picture.room_from_physical), drawing.meshes) {}
+
+void CellWarmUp::draw(std::size_t part, render::CellPass& cells, MovingCells& moving,
+                      std::span<const render::View> views, const CellDrawing& drawing) const {
+    if (part == 0)
+        moving.warm_up(drawing.picture, views, drawing.appearance.linear_light);
+    else
+        small_.draw(part - 1, cells, views, drawing.appearance);
+}
+
+bool CellWarmUp::draws(std::size_t part, render::Footprint footprint, bool translucent,
+                       bool by_value) const {
+    if (part == 0)
+        return false;
+    const SmallSurface::Way& way = small_.way(part - 1);
+    return way.footprint == footprint &&
+           (!render::has_layers(footprint) ||
+            ((way.opacity < 1) == translucent && way.by_value == by_value));
+}
+
+bool shows(const Picture& picture, bool translucent) {
+    return std::ranges::any_of(picture.isosurfaces, [&](const interaction::Isosurface& surface) {
+        return (surface.opacity < 1) == translucent;
+    });
+}
+
+} // namespace isochron::app

@@ -9,6 +9,7 @@
 
 #include "app/choice/cell_supply.h"
 #include "app/choice/partial_pictures.h"
+#include "app/choice/settled_samples.h"
 #include "app/cluster/frame_sharing.h"
 #include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
@@ -180,6 +181,7 @@ class Session {
     void show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
                     const SessionPanel::Facts& facts);
     void draw_aids();
+    bool is_settled(const Frame& frame) const;
     PanelModel panel_model(const FrameReport& report) const;
     FrameAnswer answer() const;
 
@@ -201,6 +203,7 @@ class Session {
     PictureMaker pictures_;
     PictureChoice choice_;
     PartialPictures partial_;
+    SettledSamples samples_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< plan of the last frame
     std::optional<Picture> drawn_; ///< last picture

@@ -68,10 +68,13 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "reversed", .may_lack = true}, r.reversed...);
     visit(Field{.key = "bands", .low = 0, .high = kMostBands, .may_lack = true}, r.bands...);
     visit(Field{.key = "logarithmic", .may_lack = true}, r.logarithmic...);
-    visit(
-        Field{
-            .key = "colors", .low = 0, .high = 0xffffff, .most = kMostMapColors, .may_lack = true, .in_files = false},
-        r.colors...);
+    visit(Field{.key = "colors",
+                .low = 0,
+                .high = 0xffffff,
+                .most = kMostMapColors,
+                .may_lack = true,
+                .in_files = false},
+          r.colors...);
     visit(Field{.key = "percentiles", .low = 0, .high = 100, .may_lack = true}, r.percentiles...);
 }
 
@@ -103,6 +106,10 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "rate", .low = kSlowestMovie, .high = kFastestMovie}, r.rate...);
     visit(Field{.key = "folder", .most = kLongestArrayName}, r.folder...);
     visit(Field{.key = "surfaces", .may_lack = true}, r.surfaces...);
+    visit(Field{.key = "background", .may_lack = true}, r.background...);
+    visit(Field{.key = "caption", .may_lack = true}, r.caption...);
+    visit(Field{.key = "scale", .low = 1, .high = kLargestScale, .may_lack = true}, r.scale...);
+    visit(Field{.key = "dpi", .low = 0, .high = kMostDpi, .may_lack = true}, r.dpi...);
 }
 
 template <class Visit, Of<ExportWork>... Records>

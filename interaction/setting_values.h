@@ -134,11 +134,12 @@ enum class Background : std::uint8_t {
     dark,     ///< the configuration's color
     light,    ///< nearly white, as paper
     gradient, ///< from a dark floor to a lighter sky, which stands still in the room
-    gray      ///< lifted so far that surfaces of dark colors are seen against it
+    gray,     ///< lifted so far that surfaces of dark colors are seen against it
+    white     ///< #ffffff, as the paper of a journal
 };
 template <>
-inline constexpr std::array<std::string_view, 4> kNames<Background>{"dark", "light", "gradient",
-                                                                    "gray"};
+inline constexpr std::array<std::string_view, 5> kNames<Background>{"dark", "light", "gradient",
+                                                                    "gray", "white"};
 
 /// How surfaces shine.
 enum class Material : std::uint8_t {
@@ -181,6 +182,16 @@ struct SurfaceExport {
     bool operator==(const SurfaceExport&) const = default;
 };
 
+/// What is behind the data in pictures that are written.
+enum class WrittenBackground : std::uint8_t {
+    shown,      ///< what the window shows
+    white,      ///< #ffffff, with dark words and lines
+    transparent ///< nothing, with dark words and lines; white in movies and files without opacity
+};
+template <>
+inline constexpr std::array<std::string_view, 3> kNames<WrittenBackground>{"shown", "white",
+                                                                           "transparent"};
+
 /// What a picture or movie that is written shows beside the data, and how it is written.
 struct WrittenPictures {
     bool legend = true;
@@ -191,9 +202,14 @@ struct WrittenPictures {
     double rate = 30.0;      ///< pictures a second of a movie, kSlowestMovie to kFastestMovie
     std::string folder = {}; ///< empty: the folder that the program was started in
     SurfaceExport surfaces;  ///< how surfaces are exported to the same folder
+    WrittenBackground background = WrittenBackground::shown;
+    bool caption = false; ///< array, isovalues and time
+    double scale = 1.0; ///< of a picture's width and height, 1 to kLargestScale; words grow with it
+    double dpi = 0.0;   ///< pixels an inch that a picture's file says, to kMostDpi; 0: nothing
     bool operator==(const WrittenPictures&) const = default;
 };
 inline constexpr std::uint32_t kLargestPicture = 16384; ///< [pixel] along each side
+inline constexpr double kLargestScale = 8.0, kMostDpi = 10000.0;
 inline constexpr double kSlowestMovie = 1.0, kFastestMovie = 240.0;
 
 /// The export that goes on in the background, or is asked for.

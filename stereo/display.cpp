@@ -10,6 +10,7 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace isochron::stereo {
@@ -39,7 +40,8 @@ Display::Display(const render::Gl& gl, GlContext& drawing, GlContext& context, W
                  const DisplayOptions& options)
     : gl_(&gl), context_(&context), window_(std::move(window)), options_(options), multiplex_(gl),
       presenter_(gl, drawing, context), composed_(gl, at_least_one(context.framebuffer_size())),
-      targets_(window_.viewports.size()), next_(window_.viewports.size()) {
+      targets_(window_.viewports.size()), next_(window_.viewports.size()),
+      sums_(window_.viewports.size()) {
     composed_.clear(kBlack);
 }
 
@@ -50,6 +52,7 @@ void Display::draw(std::span<const ViewerPose> viewers, StereoMode mode, const S
         return;
     mode_ = mode;
     margins_ = next_margins_;
+    end_mean();
     composed_.resize(size);
     if (upright(mode) != StereoMode::quadbuffer)
         right_buffer_.reset();
@@ -58,7 +61,9 @@ void Display::draw(std::span<const ViewerPose> viewers, StereoMode mode, const S
     else
         right_buffer_.emplace(*gl_, size);
     for (std::size_t i = 0; i < targets_.size(); ++i)
-        draw_viewport(i, viewers[window_.viewports[i].viewer], scene);
+        draw_viewport(targets_[i], i, viewers[window_.viewports[i].viewer], scene);
+    if (options_.passes > 1)
+        draw_mean(viewers, scene);
     compose(overlay);
 }
 
@@ -77,6 +82,9 @@ std::vector<render::View> Display::views_in_target(std::size_t number,
     for (const Eye eye : eyes_of(mode_)) {
         views.push_back(view_in(window_.viewports[number], viewer, eye));
         views.back().corner = corner_in_target(views.size() - 1, views.back().size);
+        if (in_mean() > 0)
+            views.back() = views.back().moved_by(render::sample_place(
+                in_mean(), 1.0f / std::sqrt(static_cast<float>(options_.samples))));
     }
     return views;
 }
@@ -101,10 +109,46 @@ void Display::show_parts(const Overlay& overlay) {
     draw_overlay_again(overlay);
 }
 
-void Display::draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene) {
+void Display::begin_mean() {
+    for (std::size_t i = 0; i < targets_.size(); ++i) {
+        if (!targets_[i])
+            return end_mean(); // the window is minimized
+        if (!sums_[i])
+            sums_[i].emplace(*gl_);
+        sums_[i]->begin(*targets_[i]);
+    }
+    in_mean_ = 1;
+}
+
+void Display::add_to_mean() {
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        sums_[i]->add(*next_[i]);
+    ++in_mean_;
+}
+
+void Display::complete_mean() {
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        sums_[i]->write_mean(*next_[i]);
+}
+
+/// Goes on from the pictures that are drawn, the first of the mean.
+void Display::draw_mean(std::span<const ViewerPose> viewers, const Scene& scene) {
+    begin_mean();
+    while (in_mean() < options_.passes) {
+        for (std::size_t i = 0; i < targets_.size(); ++i)
+            draw_viewport(next_[i], i, viewers[window_.viewports[i].viewer], scene);
+        add_to_mean();
+    }
+    complete_mean();
+    for (std::size_t i = 0; i < targets_.size(); ++i)
+        std::swap(targets_[i], next_[i]);
+    end_mean();
+}
+
+void Display::draw_viewport(std::optional<render::RenderTarget>& target, std::size_t number,
+                            const ViewerPose& viewer, const Scene& scene) {
     const std::vector<render::View> views = views_in_target(number, viewer);
-    draw_views(*gl_, targets_[number], views.back().corner + views.back().size, options_, views,
-               scene);
+    draw_views(*gl_, target, views.back().corner + views.back().size, options_, views, scene);
 }
 
 std::vector<render::View> Display::views_in_window(std::span<const ViewerPose> viewers) const {

@@ -8,6 +8,7 @@
 
 #include "render/gl/image.h"
 #include "render/gl/render_target.h"
+#include "render/passes/sample_sum.h"
 #include "stereo/context/gl_context.h"
 #include "stereo/display_options.h"
 #include "stereo/installation.h"
@@ -81,6 +82,17 @@ class Display {
     /// Shows the next pictures of all viewports, which must be complete.
     void show_parts(const Overlay& overlay);
 
+    /// Begins the mean of several pictures of all viewports with what is shown; and ends it.
+    void begin_mean();
+    void end_mean() { in_mean_ = 0; }
+    /// Pictures in the mean; 0: there is none. While there is one, each next picture is moved by so
+    /// much of a pixel that it takes another sample.
+    int in_mean() const { return in_mean_; }
+    /// Adds the next pictures of all viewports, which must be complete.
+    void add_to_mean();
+    /// Makes the mean the next pictures of all viewports, to be shown by `show_parts`.
+    void complete_mean();
+
     /// Composes the last pictures of the eyes again, with a new overlay: for frames in which
     /// nothing else has changed.
     void draw_overlay_again(const Overlay& overlay);
@@ -138,7 +150,9 @@ class Display {
     Region region_of(const Viewport& viewport, Eye place) const;
     render::View view_in(const Viewport& viewport, const ViewerPose& viewer, Eye eye) const;
     std::vector<render::View> views_in_target(std::size_t number, const ViewerPose& viewer) const;
-    void draw_viewport(std::size_t number, const ViewerPose& viewer, const Scene& scene);
+    void draw_viewport(std::optional<render::RenderTarget>& target, std::size_t number,
+                       const ViewerPose& viewer, const Scene& scene);
+    void draw_mean(std::span<const ViewerPose> viewers, const Scene& scene);
     /// The eye's picture to show in the place of `place`.
     EyePicture shown_at(Eye place, std::size_t viewport) const;
     bool fills_window() const; ///< the eyes' regions cover every pixel of the window
@@ -157,6 +171,8 @@ class Display {
     std::vector<std::optional<render::RenderTarget>> targets_; ///< by viewport, from its first draw
     /// By viewport: the next picture, drawn in parts.
     std::vector<std::optional<render::RenderTarget>> next_;
+    std::vector<std::optional<render::SampleSum>> sums_; ///< by viewport, from its first mean
+    int in_mean_ = 0;
 };
 
 } // namespace isochron::stereo

@@ -13,7 +13,10 @@ namespace isochron::stereo {
 struct DisplayOptions {
     float near_plane = 0.05f, far_plane = 50.0f; ///< [m] along a screen's normal
     glm::vec3 background{0.0f};                  ///< sRGB, 0 to 1
+    bool transparent = false;                    ///< there is no background
     int samples = 1; ///< per pixel of an eye; they are resolved before the eyes are composed
+    /// Pictures, each moved by part of a pixel, whose mean `Display::draw` makes.
+    int passes = 1;
 };
 
 /// Draws all eyes of one viewport, in the order of `eyes_of`. Their pictures lie in one target, so

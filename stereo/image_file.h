@@ -15,7 +15,8 @@ namespace isochron::stereo {
 /// .jpg or .jpeg.
 bool is_picture_name(const std::filesystem::path& path);
 
-/// Writes the colors without alpha, as windows are opaque: .png, .tif and .tiff as they are (sRGB,
+/// Writes the colors, and alpha where a picture is not opaque and the format has it (.png, .tiff; the
+/// others are over white): .png, .tif and .tiff as they are (sRGB,
 /// 8 bits), .jpg and .jpeg with the losses of JPEG, .exr converted to linear light (half floats).
 /// The file appears complete or not at all. The first call loads OpenImageIO, which takes a fifth
 /// of a second.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +64,13 @@ struct Margins {
 
 inline constexpr int kNextMonitor = -1;
 
+/// How large a window becomes that is framed and not fullscreen.
+enum class SizeOnDesktop : std::uint8_t {
+    exactly, ///< as it says
+    fitting, ///< no larger than the first monitor has room
+    scaled   ///< alike, where its size counts pixels of a display with 96 pixels an inch
+};
+
 struct Window {
     std::string name = "window"; ///< no two windows share one
     glm::ivec2 size{1280, 720};  ///< pixels
@@ -71,8 +79,9 @@ struct Window {
     /// Monitor that a fullscreen window covers, from 0; kNextMonitor: the first that no other
     /// window of the process covers.
     int monitor = kNextMonitor;
-    int node = 0;       ///< node of a cluster whose process opens it
-    bool border = true; ///< whether the desktop may frame it
+    int node = 0;                                 ///< node of a cluster whose process opens it
+    bool border = true;                           ///< whether the desktop may frame it
+    SizeOnDesktop sized = SizeOnDesktop::exactly; ///< not configured
     StereoMode stereo = StereoMode::mono;
     std::vector<Viewport> viewports{Viewport{}};
     FileLine line{};

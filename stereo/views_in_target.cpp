@@ -24,7 +24,7 @@ bool draw_views_on(const render::Gl& gl, std::optional<render::RenderTarget>& ta
             target->resize(size);
         else
             target.emplace(gl, size, options.samples);
-        target->clear(glm::vec4(options.background, 1.0f));
+        target->clear(options.transparent ? glm::vec4(0.0f) : glm::vec4(options.background, 1.0f));
     }
     target->bind();
     gl.Enable(GL_SCISSOR_TEST);

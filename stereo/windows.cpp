@@ -21,6 +21,8 @@ ContextOptions options_of(const Window& window, int monitor, const Installation&
             .monitor = monitor,
             .vsync = options.vsync && !first,
             .border = window.border,
+            .fits = window.sized != SizeOnDesktop::exactly,
+            .scales = window.sized == SizeOnDesktop::scaled,
             .stereo_buffers = upright(mode) == StereoMode::quadbuffer,
             .api = options.api,
             .share = first};

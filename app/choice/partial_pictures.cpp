@@ -30,8 +30,7 @@ std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& 
     if (parts_->place.window == 0 && parts_->place.viewport == 0)
         parts_->picture = wanted;
     if (!parts_->whole) {
-        parts_->pace.begin_frame(quality_.part_budget());
-        draw_pieces(*parts_);
+        parts_->draw(scene_, outputs_, quality_.part_budget());
     }
     whole_ = parts_->whole;
     if (!whole_ || !frame.plan.state.parts_are_whole())
@@ -52,45 +51,6 @@ void PartialPictures::give_up_others(const Picture& drawn) {
         same.footprint = parts_->picture.footprint;
     if (parts_ && !same_cells(parts_->picture, same))
         parts_.reset();
-}
-
-/// Draws pieces of a picture while this frame has time for them, or until it is whole.
-void PartialPictures::draw_pieces(Parts& parts) {
-    StopWatch watch;
-    while (const std::size_t work = parts.whole ? 0 : parts.pace.next()) {
-        std::size_t done = scene_.prepare_parts(parts.picture, work);
-        if (done > 0) {
-            outputs_.gl().Finish(); // so that its time is known
-            const Milliseconds time = watch.lap();
-            parts.prepared += time;
-            parts.pace.took(done, time);
-            continue;
-        }
-        parts.whole =
-            outputs_.draw_part(parts.picture.audience, parts.place,
-                               [&](const ScenePlace&, std::span<const render::View> views) {
-                                   return draw_part(parts, views, work, done);
-                               });
-        parts.pace.took(done, watch.lap());
-    }
-}
-
-/// Draws the next part of a viewport: what comes before the cells, some of the cells, or what comes
-/// after them. @param done work that was done, of at most `work` @return whether it was the last
-bool PartialPictures::draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
-                                std::size_t& done) {
-    ScenePart part{
-        .begins = parts.place.begins, .cells = {parts.done, 0}, .ends = false, .keeps = true};
-    const std::size_t all = scene_.work(parts.picture, views.size());
-    if (part.begins) {
-        parts.done = 0;
-    } else if (parts.done < all) {
-        part.cells.count = done = std::min(work, all - parts.done);
-    } else {
-        part.ends = true;
-    }
-    parts.done += scene_.draw(parts.picture, views, part);
-    return part.ends;
 }
 
 void PartialPictures::draw_ahead(const Frame& frame, const Picture& now, const StopWatch& begun) {
@@ -125,8 +85,7 @@ void PartialPictures::draw_ahead_within(Milliseconds left, const Frame& frame, c
         ahead_->picture.moved = false;
     }
     parts_.reset(); // they are drawn in the same place
-    ahead_->pace.begin_frame(left);
-    draw_pieces(*ahead_);
+    ahead_->draw(scene_, outputs_, left);
     if (!ahead_->whole)
         return;
     quality_.learn_parts(render::Footprint::surface, sets.shown()->cells(),

@@ -3,14 +3,12 @@
 #pragma once
 
 #include "app/choice/frame.h"
+#include "app/choice/picture_in_pieces.h"
 #include "app/frame/stop_watch.h"
 #include "app/output/outputs.h"
-#include "app/quality/part_pace.h"
 #include "app/scene/scene.h"
 
-#include <cstddef>
 #include <optional>
-#include <span>
 
 namespace isochron::app {
 
@@ -48,27 +46,13 @@ class PartialPictures {
     bool are_made() const { return (parts_ && !parts_->whole) || ahead_; }
 
   private:
-    /// A picture that is drawn over several frames, and how far it has come.
-    struct Parts {
-        explicit Parts(const Picture& wanted) : picture(wanted) {}
-        Picture picture;
-        PartPace pace;
-        Outputs::PartPlace place;
-        std::size_t done = 0;     ///< units of work done at `place`
-        Milliseconds prepared{0}; ///< time spent on what serves other views, too
-        bool whole = false;
-    };
-
     void draw_ahead_within(Milliseconds left, const Frame& frame, const Picture& now);
-    void draw_pieces(Parts& parts);
-    bool draw_part(Parts& parts, std::span<const render::View> views, std::size_t work,
-                   std::size_t& done);
 
     Scene& scene_;
     Outputs& outputs_;
     FrameQuality& quality_;
-    std::optional<Parts> parts_; ///< the next picture, if it is made in parts
-    std::optional<Parts> ahead_; ///< one for where the eyes were a moment ago
+    std::optional<PictureInPieces> parts_; ///< the next picture, if it is made in parts
+    std::optional<PictureInPieces> ahead_; ///< one for where the eyes were a moment ago
     bool whole_ = false;
 };
 

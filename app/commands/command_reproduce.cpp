@@ -68,6 +68,7 @@ Config config_for(const ReproduceOptions& options, const PictureNote& note) {
     Config config = parse_config(note.configuration, options.picture + " (configuration)");
     config.rendering.context = *stereo::context_kind_from_name(options.context);
     config.pictures.samples = note.samples;
+    config.pictures.passes = note.passes;
     config.pictures.ray = note.ray;
     config.pictures.caption = note.caption;
     config.pictures.text = static_cast<float>(note.text);

@@ -81,8 +81,14 @@ struct PictureConfig {
     int samples = 0;      ///< 0: 4, and no fewer than on the displays
     bool ray = false;     ///< they show the wand's ray, too
     bool caption = false; ///< they show isovalue and time
+    /// Background and pixels an inch in the place of the session's. No keys of a file.
+    interaction::WrittenBackground background = interaction::WrittenBackground::shown;
+    double dpi = 0;
     /// Height of words, see `text_height`; a window at a desk has its own. No key of a file.
     float text = 0;
+    /// Pictures, each of other samples, whose mean a picture to keep is; 0: as many as a settled
+    /// window takes (`Outputs::passes`). No key of a file.
+    int passes = 1;
     /// No window shows the pictures: each is drawn once, directly as the picture to keep. No key
     /// of a file.
     bool only_kept = false;

@@ -51,6 +51,8 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
     if (config.rendering.context != stereo::ContextKind::glfw)
         throw UsageError("file is required: the data to show, an index or volume files");
     config.openxr.enabled = false; // nobody chooses a file in a headset
+    if (may_keep_window_size(options, config))
+        recall_window_size(config);
     const stereo::Windows windows = open_windows(options, config, job, nullptr);
     display = stereo::open_display();
     const auto wake = std::make_shared<stereo::Wake>();
@@ -148,6 +150,8 @@ void Exploration::open_data() {
     if (!options_.data && options_.sources.files.empty())
         throw UsageError("file is required in a job: an index made by `isochron build`");
     config_ = configure(options_);
+    if (job_.size() == 1)
+        config_.pictures.passes = 0; // what is written is what is seen
     if (job_.size() == 1 && may_keep_window_size(options_, config_))
         recall_window_size(config_);
     if (job_.leads())

@@ -55,6 +55,13 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
                  "Also show the ray of the wand and what the cursor points at");
     command.flag("--caption", source.caption,
                  "Add isovalue, time, axes and a scale bar to the pictures");
+    command
+        .option("--picture-background", source.background,
+                "Background of the pictures instead of the recorded one; movies have white in the "
+                "place of transparent")
+        .one_of(interaction::all_names<interaction::WrittenBackground>());
+    command.option("--dpi", source.dpi, "Pixels an inch that picture files say (default: nothing)")
+        .between(1.0, interaction::kMostDpi);
     add_shape_option(command, source.shape);
     command
         .option("--config", source.config,
@@ -86,6 +93,10 @@ Config config_of(const ReplaySource& options, const interaction::RecordingHeader
     config.pictures.samples = options.samples.value_or(config.pictures.samples);
     config.pictures.ray = config.pictures.ray || options.ray;
     config.pictures.caption = config.pictures.caption || options.caption;
+    if (options.background)
+        config.pictures.background =
+            *interaction::value_named<interaction::WrittenBackground>(*options.background);
+    config.pictures.dpi = options.dpi.value_or(0);
     for (stereo::Window& window : config.installation.windows) {
         if (!options.size.empty() && !options.emulate)
             window.size = {options.size[0], options.size[1]};

@@ -22,6 +22,8 @@ struct ReplaySource {
     std::optional<std::string> data, config, context, stereo, quality, footprint, shape;
     bool any_data = false, emulate = false, live = false, ray = false, caption = false;
     std::optional<int> samples;
+    std::optional<std::string> background;
+    std::optional<double> dpi;
     std::vector<int> size;
 };
 

@@ -36,6 +36,8 @@ void recall_window_size(Config& config) {
     constexpr std::uint64_t kLongest = 64;
     const auto file = file_of_size();
     std::error_code error;
+    stereo::Window& window = config.installation.windows.front();
+    window.sized = stereo::SizeOnDesktop::scaled;
     if (!file || !std::filesystem::is_regular_file(*file, error))
         return;
     try {
@@ -43,8 +45,10 @@ void recall_window_size(Config& config) {
         glm::ivec2 size(0);
         text >> size.x >> size.y;
         if (text && size.x >= kSmallestSide && size.y >= kSmallestSide && size.x <= kLargestSide &&
-            size.y <= kLargestSide)
-            config.installation.windows.front().size = size;
+            size.y <= kLargestSide) {
+            window.size = size;
+            window.sized = stereo::SizeOnDesktop::fitting;
+        }
     } catch (const index::Error&) { // then the configuration says how large it is
     }
 }

@@ -57,6 +57,7 @@ stereo::DisplayOptions picture_options(const render::Gl& gl, const Config& confi
                                        glm::ivec2 window) {
     stereo::DisplayOptions options = display_options(gl, config);
     options.samples = picture_samples_of(config, gl, window);
+    options.passes = std::max(1, config.pictures.passes);
     return options;
 }
 

@@ -17,6 +17,9 @@ namespace isochron::app {
 /// drawing (`render::expect_enough`)
 stereo::DisplayOptions display_options(const render::Gl& gl, const Config& config);
 
+/// Samples of each pixel of a settled picture in a window.
+inline constexpr int kSettledSamples = 16;
+
 /// The options for a picture to keep.
 /// @param window size of the picture's window, pixels
 /// @throws render::Error when this GL has fewer samples than configured for pictures

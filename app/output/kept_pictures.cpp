@@ -4,25 +4,30 @@
 namespace isochron::app {
 
 stereo::DisplayOptions KeptPictures::options(std::size_t window) const {
-    return picture_options(gl, config, shown[window].size());
+    const glm::ivec2 size = shown[window].size();
+    return drawn_with ? drawn_with(size) : picture_options(gl, config, size);
 }
 
 bool KeptPictures::serves(std::size_t window) const {
-    return !differ && shown[window].fills() &&
-           options(window).samples == display_options(gl, config).samples;
+    const stereo::DisplayOptions wanted = options(window);
+    return !differ && shown[window].fills() && (settled || wanted.passes == 1) &&
+           wanted.samples == display_options(gl, config).samples;
 }
 
-void KeptPictures::each(const TakePicture& take) const {
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        if (serves(i)) {
-            shown[i].draw_overlay_again({});
-            take(i, shown[i]);
-            continue;
-        }
-        stereo::Display picture(gl, windows.drawing(), windows[i], shown[i].window(), options(i));
-        draw(picture);
-        take(i, picture);
+void KeptPictures::each(const TakePicture& take_one) const {
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        take(i, take_one);
+}
+
+void KeptPictures::take(std::size_t window, const TakePicture& take_one) const {
+    if (serves(window)) {
+        shown[window].draw_overlay_again({});
+        return take_one(window, shown[window]);
     }
+    stereo::Display picture(gl, windows.drawing(), windows[window], shown[window].window(),
+                            options(window));
+    draw(picture);
+    take_one(window, picture);
 }
 
 render::Image KeptPictures::of_room() const {

@@ -35,9 +35,13 @@ struct KeptPictures {
     std::optional<RoomView>& room;      ///< room of an emulated installation
     /// Draws the last frame of a window once more, into `display`.
     std::function<void(stereo::Display& display)> draw;
-    bool differ = false; ///< pictures to keep differ from the shown ones, by caption or aids
+    /// Options for a picture of so many pixels; empty: `picture_options`.
+    std::function<stereo::DisplayOptions(glm::ivec2 size)> drawn_with;
+    bool settled = false; ///< the shown pictures are means of all samples
+    bool differ = false;  ///< pictures to keep differ from the shown ones, by caption or aids
 
-    void each(const TakePicture& take) const;
+    void each(const TakePicture& take_one) const;
+    void take(std::size_t window, const TakePicture& take_one) const;
     /// The picture of the emulated room, which must exist, with its walls.
     render::Image of_room() const;
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -28,12 +30,30 @@ glm::ivec2 size_beside_panel(const stereo::Display& display) {
     }
 }
 
+/// Whether a window shows the picture of one eye, and nothing else.
+bool is_one_eye(const stereo::Display& display) {
+    const auto& viewports = display.window().viewports;
+    return viewports.size() == 1 && !viewports.front().upside_down &&
+           viewports.front().size == glm::vec2(1.0f) && stereo::eyes_of(display.mode()).size() == 1;
+}
+
+interaction::WrittenPictures written_in(const PictureNote& frame) {
+    return frame.state.pictures.value_or(interaction::WrittenPictures{});
+}
+
+int passes_of(const Config& config, const render::Gl& gl) {
+    const bool automatic = config.pictures.passes == 0 && config.rendering.samples == 0 &&
+                           config.pictures.samples == 0;
+    return automatic ? std::max(1, kSettledSamples / display_options(gl, config).samples) : 1;
+}
+
 } // namespace
 
 Outputs::Outputs(const Config& config, stereo::Windows windows,
                  std::unique_ptr<stereo::Headset> headset)
     : config_(config), windows_(std::move(windows)),
-      gl_(windows_.drawing().loader(), config_.rendering.drawn_by), in_flight_(gl_),
+      gl_(windows_.drawing().loader(), config_.rendering.drawn_by),
+      passes_(headset || windows_.room() ? 1 : passes_of(config_, gl_)), in_flight_(gl_),
       displays_(headset && config_.openxr.options.windowless
                     ? std::deque<stereo::Display>()
                     : make_displays(gl_, windows_, config_)),
@@ -186,6 +206,38 @@ void Outputs::show_parts(const Overlay& overlay) {
         displays_[i].show_parts(overlay_of(i, overlay));
 }
 
+void Outputs::begin_mean() {
+    for (stereo::Display& display : displays_)
+        display.begin_mean();
+    render::expect_memory(gl(), "the samples of a picture");
+}
+
+void Outputs::end_mean() {
+    for (stereo::Display& display : displays_)
+        display.end_mean();
+}
+
+void Outputs::add_to_mean() {
+    for (stereo::Display& display : displays_)
+        display.add_to_mean();
+}
+
+void Outputs::complete_mean() {
+    for (stereo::Display& display : displays_)
+        display.complete_mean();
+}
+
+/// A picture to keep of a settled window is of the window's samples.
+stereo::DisplayOptions Outputs::kept_options(glm::ivec2 size, const PictureNote& frame) const {
+    stereo::DisplayOptions options = picture_options(gl_, config_, size);
+    options.transparent = have_opacity(frame);
+    if (is_settled()) {
+        options.samples = display_options(gl_, config_).samples;
+        options.passes = passes_;
+    }
+    return options;
+}
+
 void Outputs::draw_again(const Audience& audience, const Overlay& overlay) {
     drawn_.audience = audience;
     lacks_overlay_ = false;
@@ -225,7 +277,8 @@ KeptPictures Outputs::kept_pictures(const PictureNote& frame) {
     const auto draw = [this](stereo::Display& display) {
         draw_window(display, drawn_.scene, {}, true);
     };
-    return {gl_, windows_, config_, displays_, room_, draw, kept_differ(frame)};
+    const auto options = [this, frame](glm::ivec2 size) { return kept_options(size, frame); };
+    return {gl_, windows_, config_, displays_, room_, draw, options, is_settled(), !frame.as_seen};
 }
 
 /// The picture to keep of the headset's mirror.
@@ -234,7 +287,7 @@ render::Image Outputs::headset_picture(const PictureNote& frame) {
     const stereo::DisplayOptions options =
         picture_options(gl_, config_, windows_[0].framebuffer_size());
     if (eyes.empty() ||
-        (options.samples == display_options(gl_, config_).samples && !kept_differ(frame))) {
+        (options.samples == display_options(gl_, config_).samples && frame.as_seen)) {
         headset_display_->mirror({});
         return headset_display_->read_window();
     }
@@ -247,14 +300,6 @@ render::Image Outputs::headset_picture(const PictureNote& frame) {
     return picture.read_window();
 }
 
-bool Outputs::kept_differ(const PictureNote& frame) const {
-    const auto parts = frame.state.pictures.value_or(interaction::WrittenPictures{});
-    if (!parts.legend || !parts.box || !parts.marks || drawn_.audience.lifted)
-        return true;
-    return !config_.pictures.only_kept &&
-           (config_.pictures.caption || (drawn_.audience.aids && !config_.pictures.ray));
-}
-
 PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
     frame.program = kProgram;
     frame.drawn_with = windows_.drawing().description();
@@ -264,7 +309,9 @@ PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
     for (std::size_t i = 0; !room_ && i < displays_.size(); ++i)
         if (windows_.number(i) == part.window)
             frame.size = displays_[i].size();
-    frame.samples = picture_options(gl_, config_, frame.size).samples;
+    const stereo::DisplayOptions options = kept_options(frame.size, frame);
+    frame.samples = options.samples;
+    frame.passes = options.passes;
     frame.ray = config_.pictures.ray;
     frame.caption = config_.pictures.caption;
     frame.shape = render::name_of(config_.rendering.cell_shape);
@@ -273,10 +320,28 @@ PictureNote Outputs::noted(PictureNote frame, const PicturePart& part) const {
 
 /// The size that the user has chosen for pictures of a single window; empty: none.
 std::optional<glm::ivec2> Outputs::asked_size(const PictureNote& frame) const {
-    const auto how = frame.state.pictures.value_or(interaction::WrittenPictures{});
-    if (displays_.size() != 1 || how.width == 0 || how.height == 0)
+    const interaction::WrittenPictures how = written_in(frame);
+    const bool own = how.width > 0 && how.height > 0;
+    if (displays_.size() != 1 || (!own && how.scale == 1))
         return std::nullopt;
-    return glm::ivec2(how.width, how.height);
+    const glm::ivec2 size =
+        own ? glm::ivec2(how.width, how.height) : size_beside_panel(displays_.front());
+    constexpr int kMost = static_cast<int>(interaction::kLargestPicture);
+    return glm::clamp(glm::ivec2(glm::round(how.scale * glm::dvec2(size))), 1, kMost);
+}
+
+/// Whether pictures to keep are drawn over nothing.
+bool Outputs::have_opacity(const PictureNote& frame) const {
+    return written_in(frame).background == interaction::WrittenBackground::transparent && !room_ &&
+           !headset_;
+}
+
+render::Image Outputs::finished(render::Image image, const PictureNote& frame) const {
+    image.dpi = written_in(frame).dpi;
+    image.opaque = !have_opacity(frame);
+    if (!image.opaque)
+        render::unmix_black(image);
+    return image;
 }
 
 void Outputs::set_screenshots(const std::filesystem::path& folder) {
@@ -296,28 +361,38 @@ void Outputs::take_screenshots(const PictureNote& frame) {
 void Outputs::each_picture(const PictureNote& frame, const TakeNotedPicture& take) {
     const DrawsOnly draws;
     const auto give = [&](const PicturePart& part, const std::string& suffix, render::Image image) {
-        take(suffix, std::move(image), text_of(noted(frame, part)));
+        take(suffix, finished(std::move(image), frame), text_of(noted(frame, part)));
     };
     if (room_)
         return give({.shows = "room"}, "", kept_pictures(frame).of_room());
     if (!shows_windows())
         return give({.shows = "headset"}, "", headset_picture(frame));
     const PictureNames names = picture_names(config_.installation);
-    kept_pictures(frame).each([&](std::size_t i, const stereo::Display& display) {
+    const KeptPictures kept = kept_pictures(frame);
+    const std::optional<glm::ivec2> asked = asked_size(frame);
+    for (std::size_t i = 0; i < displays_.size(); ++i) {
         const std::size_t number = windows_.number(i);
-        const PicturePart part{.window = number};
-        const std::optional<glm::ivec2> asked = asked_size(frame);
-        if (displays_[i].fills() && !asked)
-            return give(part, names.windows[number].suffix, display.read_window());
+        const std::string& suffix = names.windows[number].suffix;
+        if (displays_[i].fills() && !asked) {
+            kept.take(i, [&](std::size_t, const stereo::Display& display) {
+                give({.window = number}, suffix, display.read_window());
+            });
+            continue;
+        }
         // Beside a panel the data are seen in what the panel leaves free: that is the picture.
-        PictureNote seen = noted(frame, part);
+        PictureNote seen = noted(frame, {.window = number});
         seen.size = asked.value_or(size_beside_panel(displays_[i]));
+        if (frame.as_seen && !asked && is_settled() && is_one_eye(displays_[i])) {
+            const stereo::Eye eye = stereo::eyes_of(displays_[i].mode()).front();
+            take(suffix, finished(displays_[i].read_eye(eye), frame), text_of(seen));
+            continue;
+        }
         const auto context = stereo::offscreen_beside(windows_.drawing(), seen.size);
-        stereo::Display picture(gl_, windows_.drawing(), *context, display.window(),
-                                picture_options(gl_, config_, seen.size));
+        stereo::Display picture(gl_, windows_.drawing(), *context, displays_[i].window(),
+                                kept_options(seen.size, frame));
         draw_window(picture, drawn_.scene, {}, true);
-        take(names.windows[number].suffix, picture.read_window(), text_of(seen));
-    });
+        take(suffix, finished(picture.read_window(), frame), text_of(seen));
+    }
 }
 
 void Outputs::write_image(render::Image image, const std::filesystem::path& path,

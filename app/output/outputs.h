@@ -125,6 +125,15 @@ class Outputs {
     bool draw_part(const Audience& audience, PartPlace& place, const PartScene& scene);
     /// Shows the picture that was drawn in parts.
     void show_parts(const Overlay& overlay);
+    /// Pictures in the mean that a settled window shows, where nobody has chosen the number of samples;
+    /// else 1: it shows one picture.
+    int passes() const { return passes_; }
+    /// As `stereo::Display` has them, for all windows.
+    void begin_mean();
+    void end_mean();
+    int in_mean() const { return displays_.empty() ? 0 : displays_.front().in_mean(); }
+    void add_to_mean();
+    void complete_mean();
     /// Whether the windows hold what they showed last, with the overlay. Pictures to keep have none.
     bool can_stay() const { return !headset_ && !room_ && !lacks_overlay_; }
     /// Keeps the windows as they are, instead of the other calls, where `can_stay` and nothing has
@@ -153,6 +162,8 @@ class Outputs {
                                                 const std::string& note)>;
     /// Draws these pictures. @param frame as of `take_screenshots`
     void each_picture(const PictureNote& frame, const TakeNotedPicture& take);
+    /// A picture that was read, as it is written. @param frame as of `take_screenshots`
+    render::Image finished(render::Image image, const PictureNote& frame) const;
     /// Writes a picture in the background. @param note stored in the file; empty: none
     void write_image(render::Image image, const std::filesystem::path& path,
                      const std::string& note = {});
@@ -176,12 +187,16 @@ class Outputs {
     void end_headset_frame(bool again);
     render::Image headset_picture(const PictureNote& frame);
     std::optional<glm::ivec2> asked_size(const PictureNote& frame) const;
-    bool
-    kept_differ(const PictureNote& frame) const; ///< pictures to keep differ from the shown ones
+
+    bool have_opacity(const PictureNote& frame) const;
+    /// Whether the windows show the mean of all samples.
+    bool is_settled() const { return passes_ > 1 && in_mean() == passes_; }
+    stereo::DisplayOptions kept_options(glm::ivec2 size, const PictureNote& frame) const;
 
     const Config& config_;
     stereo::Windows windows_;
     render::Gl gl_;
+    const int passes_;
     render::FramesInFlight in_flight_;
     std::deque<stereo::Display> displays_; ///< by window
     std::optional<RoomView> room_;

@@ -85,6 +85,8 @@ PictureNote note_from_json(const json& value) {
     note.part = part_from(members.at("part"));
     note.size = size_from(members.at("size"));
     note.samples = static_cast<int>(interaction::natural(members.at("samples"), "samples", 64));
+    if (const json* passes = members.find("passes"))
+        note.passes = static_cast<int>(interaction::natural(*passes, "passes", 64));
     note.footprint = text("footprint");
     note.shape = text("shape");
     note.ray = interaction::boolean(members.at("ray"), "ray");
@@ -98,9 +100,10 @@ PictureNote note_from_json(const json& value) {
     note.latched = frame.latched;
     if (const json* movie = members.find("movie"))
         note.movie = movie_from(*movie);
-    members.done({"format", "version", "program", "drawn_with", "configuration", "data",
-                  "data_hash", "part", "size", "samples", "footprint", "shape", "ray", "caption",
-                  "text", "state", "frame", "movie", "recorded_on"});
+    members.done({"format", "version",   "program", "drawn_with", "configuration",
+                  "data",   "data_hash", "part",    "size",       "samples",
+                  "passes", "footprint", "shape",   "ray",        "caption",
+                  "text",   "state",     "frame",   "movie",      "recorded_on"});
     return note;
 }
 
@@ -153,6 +156,8 @@ std::string text_of(const PictureNote& note) {
                                                                          .from_panel = {},
                                                                          .latched = note.latched},
                                               nullptr)}};
+    if (note.passes > 1)
+        value["passes"] = note.passes;
     if (note.text > 0)
         value["text"] = note.text;
     if (note.movie)

@@ -40,6 +40,7 @@ struct PictureNote {
     PicturePart part;
     glm::ivec2 size{0};    ///< size of the window or room, pixels
     int samples = 1;       ///< samples of each pixel
+    int passes = 1;        ///< pictures, each of other samples, whose mean it is
     std::string footprint; ///< name of the footprint that cells are drawn with
     std::string shape;     ///< shape of quads and splats
     bool ray = false;      ///< shows the wand's ray and the mark under the cursor
@@ -49,6 +50,8 @@ struct PictureNote {
     interaction::InputState input;    ///< devices
     interaction::InputState latched;  ///< heads for the views; without devices: those in `input`
     std::optional<MovieNote> movie{}; ///< empty: a single picture
+    /// The windows show just what is kept. It is not part of the text.
+    bool as_seen = true;
     bool operator==(const PictureNote&) const = default;
 };
 

@@ -20,7 +20,8 @@ void each_part(Outputs& outputs, bool each_eye, const PictureNames& names, const
         const PictureNames::Window& named = names.windows[number];
         const auto take_part = [&](const std::string& shows, std::size_t viewport,
                                    const std::string& suffix, render::Image image) {
-            take(outputs.noted(frame, {shows, number, viewport}), suffix, std::move(image));
+            take(outputs.noted(frame, {shows, number, viewport}), suffix,
+                 outputs.finished(std::move(image), frame));
         };
         if (each_eye) {
             for (std::size_t v = 0; v < named.viewports.size(); ++v)

@@ -13,7 +13,7 @@
 namespace isochron::app {
 namespace {
 
-constexpr float kFontPixels = 20;
+constexpr int kFontPixels = 20;
 
 float cross(glm::vec2 a, glm::vec2 b) {
     return a.x * b.y - a.y * b.x;

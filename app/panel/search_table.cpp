@@ -107,6 +107,7 @@ constexpr OtherNames kOtherNames[] = {
                          "for printing, white"},
     {"background=dark", "black background, dark mode, dark theme, night mode, black"},
     {"background=gradient", "gradient background, sky, two colors"},
+    {"background=white", "pure white, paper, print, publication, #ffffff"},
     {"background=gray", "grey background, neutral background, too dark, brighter"},
     {"lift_background", "dark colors, dark surface, too dark, cannot see dark colors, black on black, "
                         "brighter background, contrast, original background"},
@@ -246,6 +247,12 @@ constexpr OtherNames kOtherNames[] = {
      "save screenshot, tiff, jpeg"},
     {"picture_size", "resolution of pictures, dpi, figure 300 dpi, image size, image resolution, "
                      "width and height, supersample, print size, 4k, figure for a paper, pixels"},
+    {"picture_background=white", "white background in pictures, for print, publication"},
+    {"picture_background=transparent",
+     "transparent background, transparent picture, alpha channel, no background"},
+    {"picture_scale", "magnification, scale factor, larger picture, times as large"},
+    {"picture_dpi", "dots per inch, pixels per inch, ppi, 300 dpi, print resolution"},
+    {"caption", "annotation, title of the picture, text annotation, time stamp, timestamp"},
     {"legend",
      "color bar, colorbar, scalar bar, color legend, color key, hide legend, color scale"},
     {"scale_bar", "scalebar, length bar, axes, orientation axes, axes triad, orientation marker, "
@@ -755,6 +762,38 @@ void add_pictures(Lines& lines) {
     part("box_in_pictures", "box in pictures that are saved", &WrittenPictures::box);
     part("marks_in_pictures", "mark, ruler and clip plane in pictures that are saved",
          &WrittenPictures::marks);
+    part("caption", "caption in pictures that are saved", &WrittenPictures::caption);
+    for (const std::string_view name : interaction::kNames<interaction::WrittenBackground>) {
+        const auto background = *interaction::value_named<interaction::WrittenBackground>(name);
+        lines.add(
+            {.name = fmt::format("picture_background={}", name),
+             .words = fmt::format(
+                 "background of pictures that are saved: {}",
+                 background == interaction::WrittenBackground::shown ? "as in the window" : name),
+             .value = now.background == background ? "on" : "",
+             .commands =
+                 changed([=](WrittenPictures& pictures) { pictures.background = background; })});
+    }
+    const auto number_of = [&](const char* name, const char* words, double WrittenPictures::*member,
+                               double low, double high) {
+        lines
+            .add({.name = name,
+                  .words = words,
+                  .value = fmt::format("{:.4g}", now.*member),
+                  .commands = changed([=](WrittenPictures& pictures) {
+                      pictures.*member = WrittenPictures{}.*member;
+                  })})
+            .with_number = [=](double number) {
+            const double value = std::clamp(number, low, high);
+            return NumberEffect{
+                fmt::format("{:.4g}", value),
+                changed([=](WrittenPictures& pictures) { pictures.*member = value; })};
+        };
+    };
+    number_of("picture_scale", "scale of pictures that are saved", &WrittenPictures::scale, 1,
+              interaction::kLargestScale);
+    number_of("picture_dpi", "dpi of pictures that are saved", &WrittenPictures::dpi, 0,
+              interaction::kMostDpi);
     const std::string size =
         now.width > 0 ? fmt::format("{} x {}", now.width, now.height) : "as in the window";
     lines

@@ -15,8 +15,6 @@
 namespace isochron::app {
 namespace {
 
-constexpr glm::vec4 kTickColor(0.72f, 0.76f, 0.82f, 0.9f);
-constexpr glm::vec4 kTextColor(0.86f, 0.89f, 0.93f, 1.0f);
 constexpr float kTickLength = 0.02f; ///< share of the longest side
 constexpr int kMostTicks = 6;        ///< along the longest side
 constexpr float kLeftness = 0.35f;   ///< weight of being left, relative to being low
@@ -41,6 +39,50 @@ glm::vec3 side_lengths(const render::Placement& placement) {
         lengths[axis] =
             placement.extent[axis] * glm::length(glm::vec3(placement.room_from_index[axis]));
     return lengths;
+}
+
+/// The part of a line that lies in all views, as shares of its length; empty: none of it does.
+std::optional<std::array<double, 2>> seen_part(const glm::vec3& from, const glm::vec3& to,
+                                               const render::Placement& placement,
+                                               std::span<const render::View> views) {
+    constexpr double kInside = 0.97; // share of a view's width and height
+    double low = 0, high = 1;
+    for (const render::View& view : views) {
+        const glm::mat4 clip =
+            view.steady().clip_from_eye * view.eye_from_room * placement.room_from_index;
+        const glm::dvec4 a(clip * glm::vec4(from, 1)), b(clip * glm::vec4(to, 1));
+        for (const int axis : {0, 1})
+            for (const double side : {-1.0, 1.0}) {
+                const double at_a = kInside * a.w + side * a[axis];
+                const double at_b = kInside * b.w + side * b[axis];
+                if (at_a <= 0 && at_b <= 0)
+                    return std::nullopt;
+                if (at_a < 0)
+                    low = std::max(low, at_a / (at_a - at_b));
+                if (at_b < 0)
+                    high = std::min(high, at_a / (at_a - at_b));
+            }
+    }
+    return low < high ? std::optional(std::array{low, high}) : std::nullopt;
+}
+
+/// Ticks of an axis, of which at least two are in the part that is seen.
+Ticks ticks_of(const AxisScale& scale, const std::array<double, 2>& seen, int most) {
+    const auto at = [&](double share) { return scale.low + share * (scale.high - scale.low); };
+    const auto [low, high] = std::minmax(scale.low, scale.high);
+    const auto [first, last] = std::minmax(at(seen[0]), at(seen[1]));
+    Ticks ticks = nice_ticks(low, high, most);
+    constexpr int kNearlyAlways = 8;
+    for (int finer = 2; finer <= kNearlyAlways; ++finer) {
+        const double rim = 1e-9 * (last - first);
+        const auto count = std::ranges::count_if(ticks.values, [&](double value) {
+            return value >= first - rim && value <= last + rim;
+        });
+        if (count >= 2)
+            break;
+        ticks = nice_ticks(first, last, finer);
+    }
+    return ticks;
 }
 
 /// A direction in the viewer's picture (x right, y up), of length 1; labels lean that way, away
@@ -99,7 +141,7 @@ std::optional<EdgeSides> labeled_edge(int axis, const render::Placement& placeme
 }
 
 Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
-              const interaction::Pose& head) {
+              const interaction::Pose& head, std::span<const render::View> views) {
     Axes axes;
     const glm::vec3 lengths = side_lengths(placement);
     const float longest = std::max({lengths.x, lengths.y, lengths.z});
@@ -114,12 +156,17 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
         if (std::abs(info.grid.direction[axis].z) > 0.5 && std::abs(higher - 1) > 1e-4)
             scale.title += fmt::format(", {:.3g}x", higher);
         const int most = std::max(2, static_cast<int>(kMostTicks * lengths[axis] / longest));
-        const auto [low, high] = std::minmax(scale.low, scale.high);
-        const Ticks ticks = nice_ticks(low, high, most);
         const glm::vec3 middle = edge_middle(axis, *sides, placement.extent);
         const glm::vec3 outwards = glm::normalize(in_room(placement, middle) -
                                                   in_room(placement, 0.5f * placement.extent));
         const glm::vec3 tick = index_from_room * (kTickLength * longest * outwards);
+        glm::vec3 begin = middle, end = middle;
+        begin[axis] = 0.0f;
+        end[axis] = placement.extent[axis];
+        const auto seen = seen_part(begin + 1.4f * tick, end + 1.4f * tick, placement, views);
+        if (!seen)
+            continue;
+        const Ticks ticks = ticks_of(scale, *seen, most);
         const glm::vec2 away = on_view(outwards, head);
         const glm::vec2 anchor =
             0.5f - 0.5f * away; // the side of the text that is next to the tick
@@ -129,22 +176,21 @@ Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
             glm::vec3 at = middle;
             at[axis] = placement.extent[axis] *
                        static_cast<float>((value - scale.low) / (scale.high - scale.low));
-            axes.ticks.push_back({at, at + tick, kTickColor});
+            axes.ticks.push_back({at, at + tick});
             const std::string text = tick_text(value, ticks.step);
             widest = std::max(widest, text.size());
-            labels.numbers.push_back({.label = {.text = text,
-                                                .at = at + 1.4f * tick,
-                                                .anchor = anchor,
-                                                .color = kTextColor},
-                                      .multiple = std::llround(value / ticks.step)});
+            labels.numbers.push_back(
+                {.label = {.text = text, .at = at + 1.4f * tick, .anchor = anchor},
+                 .multiple = std::llround(value / ticks.step)});
         }
-        // The title stands beyond the numbers.
+        // The title stands beyond the numbers: below, above or beside them, whichever is nearer.
         const glm::vec2 room(0.6f * static_cast<float>(widest) + 0.8f, 1.3f);
+        const glm::vec2 ways = room / glm::max(glm::abs(away), glm::vec2(1e-3f));
+        const auto share = static_cast<float>(0.5 * ((*seen)[0] + (*seen)[1]));
         labels.title = {.text = scale.title,
-                        .at = middle + 1.4f * tick,
+                        .at = glm::mix(begin, end, share) + 1.4f * tick,
                         .anchor = anchor,
-                        .offset = away * room,
-                        .color = kTextColor};
+                        .offset = away * std::min(ways.x, ways.y)};
     }
     return axes;
 }

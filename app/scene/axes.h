@@ -4,12 +4,14 @@
 #include "index/volume/volume_series.h"
 #include "interaction/pose.h"
 #include "render/cells/placement.h"
+#include "render/gl/view.h"
 #include "render/passes/line_pass.h"
 #include "render/passes/text_pass.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,7 +54,9 @@ struct Axes {
     std::vector<render::Line> ticks;
     std::vector<AxisLabels> labels; ///< labels of each axis that has a labeled edge
 };
+/// @param views that show them all: where they show a part of an axis, it has at least two numbers and
+/// its title there; empty: they show all
 Axes axes_for(const index::SeriesInfo& info, const render::Placement& placement,
-              const interaction::Pose& head);
+              const interaction::Pose& head, std::span<const render::View> views = {});
 
 } // namespace isochron::app

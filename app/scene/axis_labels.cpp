@@ -4,8 +4,10 @@
 #include "app/scene/legend.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace isochron::app {
 namespace {
@@ -27,9 +29,9 @@ class Room {
     Covered covered(const render::Label& label) const {
         Covered result;
         for (const render::View& view : views_)
-            result.push_back(covered_by(label, text_height(view.size, share_), atlas_,
-                                        view.clip_from_eye * view.eye_from_room * room_from_model_,
-                                        view.size));
+            result.push_back(covered_by(
+                label, text_height(view.size, share_), atlas_,
+                view.steady().clip_from_eye * view.eye_from_room * room_from_model_, view.size));
         return result;
     }
 
@@ -46,17 +48,73 @@ class Room {
         return false;
     }
 
-    /// Keeps a label if there is room for it.
-    void take(const render::Label& label) {
+    /// Keeps a label if all of it is in the pictures, and there is room for it. @return whether it is
+    bool take(const render::Label& label) {
         Covered here = covered(label);
-        if (std::ranges::any_of(taken_, [&](const Covered& other) { return touch(here, other); }))
-            return;
+        if (is_cut(here) ||
+            std::ranges::any_of(taken_, [&](const Covered& other) { return touch(here, other); }))
+            return false;
         taken_.push_back(std::move(here));
         labels_.push_back(label);
+        return true;
+    }
+    /// The label as far from its place as all of it is in the pictures.
+    render::Label moved_inside(render::Label label) const {
+        const Covered here = covered(label);
+        for (int axis = 0; axis < 2; ++axis) {
+            float up = 0, down = 0;
+            for (std::size_t i = 0; i < views_.size(); ++i) {
+                if (!here[i])
+                    continue;
+                const float height = text_height(views_[i].size, share_);
+                const float size = static_cast<float>(views_[i].size[axis]);
+                up = std::max(up, (kRim - here[i]->low[axis]) / height);
+                down = std::max(down, (here[i]->high[axis] + kRim - size) / height);
+            }
+            label.offset[axis] += up > 0 ? up : -down;
+        }
+        return label;
+    }
+    /// The title inside the pictures, as near its place as it stands on the fewest numbers.
+    render::Label beside_numbers(const render::Label& title,
+                                 std::span<const AxisLabels> axes) const {
+        std::optional<render::Label> best;
+        std::ptrdiff_t fewest = 0;
+        for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f}) {
+            render::Label moved = title;
+            moved.offset *= farther;
+            moved = moved_inside(moved);
+            const Covered here = covered(moved);
+            constexpr std::ptrdiff_t kOtherTitle = 100; // worse than all numbers
+            std::ptrdiff_t on =
+                kOtherTitle * std::ranges::count_if(
+                                  taken_, [&](const Covered& taken) { return touch(here, taken); });
+            for (const AxisLabels& axis : axes)
+                on += std::ranges::count_if(axis.numbers, [&](const AxisLabels::Number& number) {
+                    return touch(here, covered(number.label));
+                });
+            if (!best || on < fewest) {
+                best = moved;
+                fewest = on;
+            }
+            if (fewest == 0)
+                break;
+        }
+        return *best;
     }
     std::vector<render::Label> labels() && { return std::move(labels_); }
 
   private:
+    static constexpr float kRim = 2.0f; ///< [pixel] between the words and the picture's edge
+
+    bool is_cut(const Covered& here) const {
+        for (std::size_t i = 0; i < views_.size(); ++i)
+            if (here[i] && (glm::any(glm::lessThan(here[i]->low, glm::vec2(0.0f))) ||
+                            glm::any(glm::greaterThan(here[i]->high, glm::vec2(views_[i].size)))))
+                return true;
+        return false;
+    }
+
     const render::GlyphAtlas& atlas_;
     glm::mat4 room_from_model_;
     std::span<const render::View> views_;
@@ -107,9 +165,26 @@ std::vector<render::Label> labels_with_room(std::span<const AxisLabels> axes,
                                             std::span<const render::View> views, float share) {
     Room room(atlas, room_from_model, views, share);
     for (const AxisLabels& axis : axes)
-        room.take(axis.title);
-    for (const AxisLabels& axis : axes)
-        for (const render::Label& number : thinned(axis.numbers, room))
+        room.take(room.beside_numbers(axis.title, axes));
+    // Two numbers of each axis first, as far apart as there is room: of those that are spread evenly,
+    // or else of all.
+    std::vector<std::vector<render::Label>> even;
+    for (const AxisLabels& axis : axes) {
+        even.push_back(thinned(axis.numbers, room));
+        std::vector<render::Label> all;
+        for (const AxisLabels::Number& number : axis.numbers)
+            all.push_back(number.label);
+        int taken = 0;
+        for (const auto& numbers : {even.back(), all}) {
+            const auto take = [&](const render::Label& label) {
+                return taken < 2 && room.take(label) && ++taken > 0;
+            };
+            const auto first = std::ranges::find_if(numbers, take);
+            std::find_if(numbers.rbegin(), std::make_reverse_iterator(first), take);
+        }
+    }
+    for (const auto& numbers : even)
+        for (const render::Label& number : numbers)
             room.take(number);
     return std::move(room).labels();
 }

@@ -19,15 +19,10 @@ constexpr float kArm = 0.6f, kHalfWidth = 0.07f, kRim = 0.07f, kDot = 0.12f; ///
 constexpr float kBetween = 0.15f; ///< from one callout to another one
 
 constexpr glm::vec4 kMarkColor(1.0f, 0.45f, 0.85f, 1.0f);
-constexpr float kOpacity = 0.85f; ///< opacity of the paper, which lies over the data
 
-glm::vec4 callout_paper(const OverlayColors& overlay) {
-    return {glm::vec3(overlay.paper), kOpacity};
-}
-
-/// A color in which words can be read on the paper, whatever lies behind it.
+/// A color in which words can be read in their halo, whatever lies behind it.
 glm::vec4 readable(const glm::vec3& color, const OverlayColors& overlay) {
-    return {legible_on(callout_paper(overlay), color, overlay), 1.0f};
+    return {legible_on(overlay.halo(), color, overlay), 1.0f};
 }
 
 float reach_of(CalloutSign sign) {
@@ -79,7 +74,8 @@ Areas areas_of(const glm::vec3& at, const CalloutPaper& paper, std::span<const r
                float share) {
     Areas areas;
     for (const render::View& view : views) {
-        const glm::vec4 clip = view.clip_from_eye * view.eye_from_room * glm::vec4(at, 1.0f);
+        const glm::vec4 clip =
+            view.steady().clip_from_eye * view.eye_from_room * glm::vec4(at, 1.0f);
         const glm::vec2 pixel = (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(view.size);
         const float height = text_height(view.size, share);
         if (clip.w > 0.0f)
@@ -123,7 +119,7 @@ void add_sign(const Callout& callout, float height, const render::TextPass& text
         text.fill(callout.at, -height * reach, height * reach, color, quads);
     };
     for (const float rim : {kRim, 0.0f}) {
-        const glm::vec4 paper = callout_paper(overlay);
+        const glm::vec4 paper = overlay.halo();
         if (callout.sign == CalloutSign::dot)
             fill(glm::vec2(kDot + rim), rim > 0 ? paper : overlay.text);
         if (callout.sign == CalloutSign::cross)
@@ -199,14 +195,14 @@ std::vector<render::ScreenQuad> callout_quads(const Callout& callout, const Call
     const float height = text_height(picture, share);
     std::vector<render::ScreenQuad> quads;
     add_sign(callout, height, text, overlay, quads);
-    text.fill(callout.at, height * paper.low, height * paper.high, callout_paper(overlay), quads);
     for (std::size_t i = 0; i < callout.lines.size(); ++i)
         text.set(
             {.text = callout.lines[i],
              .at = callout.at,
              .anchor = {0.0f, 0.0f},
              .offset = {paper.low.x + kPad, paper.high.y - kPad - kRow * static_cast<float>(i + 1)},
-             .color = i == 0 ? callout.color : overlay.text},
+             .color = i == 0 ? callout.color : overlay.text,
+             .halo = overlay.halo()},
             height, quads);
     return quads;
 }

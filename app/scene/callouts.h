@@ -37,7 +37,7 @@ std::vector<Callout> callouts_of(const Picture& picture,
                                  const std::optional<interaction::Pointed>& pointed,
                                  const index::SeriesInfo& info);
 
-/// The background of a callout's words, from its place, in heights of the text, up positive.
+/// The place of a callout's words, with the room around them, from its place, in heights of the text, up positive.
 struct CalloutPaper {
     glm::vec2 low{0.0f}, high{0.0f};
 };

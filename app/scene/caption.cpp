@@ -39,9 +39,8 @@ std::vector<render::ScreenQuad> caption_quads(const std::string& words,
     const glm::vec3 middle(
         glm::floor(glm::vec2(height + 0.5f * width, static_cast<float>(picture.y) - 1.5f * height)),
         0.0f);
-    const glm::vec2 half(0.5f * width + 0.4f * height, 0.8f * height);
-    text.fill(middle, -half, half, overlay.paper, quads);
-    text.set({.text = words, .at = middle, .color = overlay.text}, height, quads);
+    text.set({.text = words, .at = middle, .color = overlay.text, .halo = overlay.halo()}, height,
+             quads);
     return quads;
 }
 

@@ -12,6 +12,6 @@ namespace isochron::app {
 void add_font(ImFontAtlas& fonts, float pixels);
 
 /// Rasterizes the font for text in the room, `pixels` high.
-render::GlyphAtlas room_font(float pixels);
+render::GlyphAtlas room_font(int pixels);
 
 } // namespace isochron::app

@@ -10,13 +10,16 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace isochron::app {
 namespace {
 
 constexpr int kPatches = 64; ///< number of patches in the bar
 constexpr int kMostLegendTicks = 6;
-constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f; ///< heights of the text
+// Heights of the text.
+constexpr float kBarHeight = 11.0f, kBarWidth = 1.0f, kMargin = 1.0f, kRimmed = 0.1f;
 
 class Layout {
   public:
@@ -28,29 +31,35 @@ class Layout {
     void fill(glm::vec2 at, glm::vec2 size, const glm::vec4& color) {
         text_.fill({}, height_ * at, height_ * (at + size), color, quads_);
     }
+    /// An area, with a rim so that it is seen before anything.
+    void fill_rimmed(glm::vec2 at, glm::vec2 size, const glm::vec4& color) {
+        const glm::vec2 rim(kRimmed);
+        fill(at - rim, size + 2.0f * rim, overlay_.halo());
+        fill(at, size, color);
+    }
     void write(const std::string& line, glm::vec2 at) {
-        text_.set({.text = line, .anchor = {0.0f, 0.5f}, .offset = at, .color = overlay_.text},
+        text_.set({.text = line,
+                   .anchor = {0.0f, 0.5f},
+                   .offset = at,
+                   .color = overlay_.text,
+                   .halo = overlay_.halo()},
                   height_, quads_);
         right_ = std::max(right_, at.x + render::text_width(text_.atlas(), line));
         top_ = std::max(top_, at.y + 0.5f);
     }
 
-    /// Moves the legend to its corner of the picture, on its background.
+    /// Moves the legend to its corner of the picture.
     std::vector<render::ScreenQuad> finish() {
         const glm::vec2 size = height_ * (glm::vec2(right_, top_) + kMargin);
         const glm::vec2 corner =
             glm::vec2(static_cast<float>(picture_.x), 0.0f) + glm::vec2(-size.x - height_, height_);
         if (corner.x < 0.0f || corner.y + size.y > static_cast<float>(picture_.y))
             return {};
-        std::vector<render::ScreenQuad> all;
-        text_.fill({}, glm::vec2(-0.5f * kMargin * height_), size - 0.5f * kMargin * height_,
-                   overlay_.paper, all);
-        all.insert(all.end(), quads_.begin(), quads_.end());
         // Whole pixels keep it sharp; a legend has no depth that this would change.
         const glm::vec2 origin = glm::floor(corner + 0.5f * kMargin * height_);
-        for (render::ScreenQuad& quad : all)
+        for (render::ScreenQuad& quad : quads_)
             quad.at = glm::vec3(origin, 0.0f);
-        return all;
+        return std::move(quads_);
     }
     float top() const { return top_; }
     const OverlayColors& overlay() const { return overlay_; }
@@ -66,6 +75,7 @@ class Layout {
 
 void write_scale(const ColorScale& scale, Layout& layout) {
     const std::vector<glm::vec3> colors = colors_of(scale);
+    layout.fill_rimmed({0.0f, 0.5f}, {kBarWidth, kBarHeight}, layout.overlay().paper);
     for (int i = 0; i < kPatches; ++i) {
         const std::size_t at = i * (colors.size() - 1) / (kPatches - 1);
         layout.fill({0.0f, 0.5f + kBarHeight * static_cast<float>(i) / kPatches},
@@ -79,7 +89,7 @@ void write_scale(const ColorScale& scale, Layout& layout) {
         const double value = ticks.values[i];
         const auto up = static_cast<float>(share_on(scale, value));
         const float y = 0.5f + kBarHeight * up;
-        layout.fill({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.overlay().text);
+        layout.fill_rimmed({kBarWidth, y - 0.04f}, {0.4f, 0.08f}, layout.overlay().text);
         layout.write(scale.dates_of.empty()
                          ? tick_text(value, scale.logarithmic ? value : ticks.step)
                          : index::time_text(ticks.values, i, scale.dates_of),
@@ -92,7 +102,7 @@ void write_surfaces(const Legend& legend, Layout& layout) {
     float y = layout.top() + (layout.top() > 0.0f ? 1.0f : 0.5f);
     for (const interaction::Isosurface& surface : legend.surfaces) {
         if (!legend.scale)
-            layout.fill({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
+            layout.fill_rimmed({0.0f, y - 0.4f}, {kBarWidth, 0.8f}, glm::vec4(surface.color, 1.0f));
         layout.write(fmt::format("{:.5g}{}", surface.isovalue, with_space(legend.value_unit)),
                      {kBarWidth + 0.7f, y});
         y += 1.3f;
@@ -104,8 +114,13 @@ void write_surfaces(const Legend& legend, Layout& layout) {
 float text_height(const glm::ivec2& picture, float share) {
     constexpr float kLeast = 11.0f, kMost = 40.0f;
     const auto height = static_cast<float>(picture.y);
-    return share > 0.0f ? std::max(kLeast, share * height)
-                        : std::clamp(height / 40.0f, kLeast, kMost);
+    return std::round(share > 0.0f ? std::max(kLeast, share * height)
+                                   : std::clamp(height / 40.0f, kLeast, kMost));
+}
+
+float line_scale(const glm::ivec2& picture, float share) {
+    constexpr float kUsual = 15.0f; // height of text beside lines of their usual width
+    return share > 0.0f ? std::max(1.0f, text_height(picture, share) / kUsual) : 1.0f;
 }
 
 std::vector<render::ScreenQuad> legend_quads(const Legend& legend, const render::TextPass& text,

@@ -23,9 +23,12 @@ struct Legend {
     OverlayColors overlay{};
 };
 
-/// Height of text in a picture [pixel].
+/// Height of text in a picture [pixel], a whole number.
 /// @param share of the picture's height, and 11 pixels at least; 0: a fortieth, from 11 to 40 pixels
 float text_height(const glm::ivec2& picture, float share = 0.0f);
+
+/// Factor of the width of lines, which grow with text of a chosen height, as on dense displays.
+float line_scale(const glm::ivec2& picture, float share);
 
 /// Rectangles for `pixel_view`, at the lower right of the picture; empty if there is nothing to
 /// explain, or no room.

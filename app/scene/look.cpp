@@ -14,9 +14,7 @@ namespace {
 
 constexpr glm::vec3 kFloor(0.045f, 0.05f, 0.06f), kSky(0.30f, 0.36f, 0.45f);
 
-void turn_dark(glm::vec4& color) {
-    color = glm::vec4(kDarkText, color.w);
-}
+constexpr float kTickOpacity = 0.8f;
 
 } // namespace
 
@@ -60,19 +58,25 @@ std::optional<render::BackgroundColors> background_of(const interaction::Look& l
     switch (look.background) {
     case interaction::Background::dark: break;
     case interaction::Background::light: return render::BackgroundColors{kPaperWhite, kPaperWhite};
+    case interaction::Background::white:
+        return render::BackgroundColors{glm::vec3(1.0f), glm::vec3(1.0f)};
     case interaction::Background::gradient: return render::BackgroundColors{kFloor, kSky};
     case interaction::Background::gray: return render::BackgroundColors{kLifted, kLifted};
     }
     return std::nullopt;
 }
 
-void darken(Axes& axes) {
+void set_colors(Axes& axes, const OverlayColors& overlay) {
     for (render::Line& line : axes.ticks)
-        turn_dark(line.color);
+        line.color = glm::vec4(glm::vec3(overlay.text), kTickOpacity);
+    const auto set = [&](render::Label& label) {
+        label.color = overlay.text;
+        label.halo = overlay.halo();
+    };
     for (AxisLabels& labels : axes.labels) {
-        turn_dark(labels.title.color);
+        set(labels.title);
         for (AxisLabels::Number& number : labels.numbers)
-            turn_dark(number.label.color);
+            set(number.label);
     }
 }
 

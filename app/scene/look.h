@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/scene/axes.h"
+#include "app/scene/overlay_colors.h"
 #include "interaction/commands.h"
 #include "render/cells/cell_appearance.h"
 #include "render/passes/background_pass.h"
@@ -22,7 +23,7 @@ void set_look(render::CellAppearance& appearance, const render::CellAppearance& 
 /// Empty if the background is the one color of the configuration.
 std::optional<render::BackgroundColors> background_of(const interaction::Look& look);
 
-/// Makes ticks, numbers and titles dark, as a light background needs.
-void darken(Axes& axes);
+/// Gives ticks, numbers and titles the colors of words on their background.
+void set_colors(Axes& axes, const OverlayColors& overlay);
 
 } // namespace isochron::app

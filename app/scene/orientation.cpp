@@ -71,7 +71,8 @@ Orientation orientation_in(const render::View& view,
         shown.lines.push_back({glm::vec3(origin, 0), glm::vec3(end, 0), color});
         text.set({.text = kAxisNames[axis],
                   .at = glm::vec3(origin + 1.22f * (end - origin), 0.0f),
-                  .color = color},
+                  .color = color,
+                  .halo = overlay.halo()},
                  height, shown.quads);
     }
     const auto bar = scale_bar(view, room_from_physical, physical_center(info.grid));
@@ -79,17 +80,24 @@ Orientation orientation_in(const render::View& view,
         return shown;
     const glm::vec3 left(glm::floor(glm::vec2(origin.x + (kAxisLength + 1.2f) * height, height)),
                          0.0f);
-    const float tick = 0.25f * height, thick = std::max(1.0f, std::round(0.12f * height));
-    text.fill(left, {-0.5f * height, -0.6f * height}, {bar->pixels + 0.5f * height, 1.9f * height},
-              overlay.paper, shown.quads);
-    text.fill(left, {0, 0}, {bar->pixels, thick}, overlay.text, shown.quads);
-    for (const float at : {0.0f, bar->pixels - thick})
-        text.fill(left, {at, -tick}, {at + thick, tick + thick}, overlay.text, shown.quads);
+    const float pixels = std::round(bar->pixels);
+    const float tick = std::round(0.25f * height),
+                thick = std::max(1.0f, std::round(0.12f * height));
+    for (const float rim : {std::max(1.0f, thick), 0.0f}) {
+        const glm::vec4 color = rim > 0 ? overlay.halo() : overlay.text;
+        const auto fill = [&](glm::vec2 low, glm::vec2 high) {
+            text.fill(left, low - rim, high + rim, color, shown.quads);
+        };
+        fill({0, 0}, {pixels, thick});
+        for (const float at : {0.0f, pixels - thick})
+            fill({at, -tick}, {at + thick, tick + thick});
+    }
     text.set({.text = human_number(bar->length) + with_space(info.length_unit),
-              .at = left + glm::vec3(0.5f * bar->pixels, 0, 0),
+              .at = left + glm::vec3(std::floor(0.5f * pixels), 0, 0),
               .anchor = {0.5f, 0.0f},
               .offset = {0.0f, 0.5f},
-              .color = overlay.text},
+              .color = overlay.text,
+              .halo = overlay.halo()},
              height, shown.quads);
     return shown;
 }

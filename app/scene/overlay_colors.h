@@ -21,7 +21,15 @@ struct OverlayColors {
     glm::vec4 text{0.90f, 0.92f, 0.95f, 1.0f};
     glm::vec4 paper{0.05f, 0.06f, 0.07f, 0.72f};
     float bright = 1.0f; ///< factor of the colors that axes have
+
+    glm::vec4 halo() const { return {glm::vec3(paper), 0.85f}; } ///< color around words
 };
+
+/// Whether words and lines on it are dark.
+constexpr bool is_light(interaction::Background background) {
+    return background == interaction::Background::light ||
+           background == interaction::Background::white;
+}
 
 inline OverlayColors overlay_colors_on(interaction::Background background) {
     OverlayColors overlay;
@@ -29,6 +37,8 @@ inline OverlayColors overlay_colors_on(interaction::Background background) {
     case interaction::Background::dark: break;
     case interaction::Background::light:
         return {glm::vec4(kDarkText, 1.0f), glm::vec4(kPaperWhite, 0.72f), 0.6f};
+    case interaction::Background::white:
+        return {glm::vec4(kDarkText, 1.0f), glm::vec4(1.0f, 1.0f, 1.0f, 0.72f), 0.6f};
     case interaction::Background::gradient: overlay.paper = glm::vec4(kLowerSky, 0.72f); break;
     case interaction::Background::gray: overlay.paper = glm::vec4(kLifted, 0.72f); break;
     }

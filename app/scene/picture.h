@@ -58,6 +58,7 @@ struct Picture {
     std::vector<interaction::Isosurface> isosurfaces;
     std::string value_unit; ///< unit of their isovalues
     interaction::Look look;
+    bool transparent = false;        ///< nothing is drawn behind the data, whatever `look` says
     std::optional<ColorScale> scale; ///< empty: colors tell surfaces apart
     bool bounding_box = true;
     bool legend = true;

@@ -23,15 +23,16 @@
 namespace isochron::app {
 namespace {
 
-constexpr float kWandLength = 1.2f;             // meters
-constexpr float kThin = 1.5f, kPointing = 2.5f; ///< [pixel] width of its ray
-constexpr float kToolLine = 2.0f;               ///< [pixel]
+constexpr float kWandLength = 1.2f; // meters
+// Widths of lines [pixel], of words that are 15 pixels high at most.
+constexpr float kThin = 1.5f, kPointing = 2.5f; ///< its ray
+constexpr float kToolLine = 2.0f, kAxisLine = 2.5f;
+constexpr float kFront = 0.4f; ///< share of the opacity that edges of the box have before the cells
 /// Depth of things that no cell hides: among them, the first that is drawn hides the others.
 constexpr double kOverCells = 1e-6;
 constexpr glm::vec4 kBoxColor(0.45f, 0.50f, 0.56f, 0.55f);
 constexpr glm::vec4 kBoxOnLight(0.25f, 0.28f, 0.32f, 0.8f);
 constexpr glm::vec4 kWandColor(1.0f, 0.77f, 0.36f, 0.9f);
-constexpr float kFontPixels = 32.0f; ///< height of rasterized glyphs, which are drawn smaller
 
 bool blends_light(const render::Gl& gl, Blending blending) {
     return blending == Blending::automatic ? !render::draws_in_software(gl)
@@ -95,15 +96,23 @@ bool writes_depth(render::Footprint footprint, const render::CellAppearance& app
             std::ranges::none_of(appearance.surfaces, render::is_translucent));
 }
 
-bool is_light(const Picture& picture) {
-    return picture.look.background == interaction::Background::light;
+float width_of(float line, const render::View& view, const Picture& picture) {
+    return line * line_scale(view.size, picture.layout.text);
+}
+
+OverlayColors overlay_of(const Picture& picture) {
+    return overlay_colors_on(picture.look.background);
 }
 
 render::BoxLines box_in(const render::View& view, const Picture& picture,
                         const render::Placement& placement) {
     const glm::vec4 eye(view.eye_in_room(), 1.0f);
-    return render::box_lines(placement.extent, is_light(picture) ? kBoxOnLight : kBoxColor,
-                             glm::vec3(glm::inverse(placement.room_from_index) * eye));
+    render::BoxLines box = render::box_lines(
+        placement.extent, is_light(picture.look.background) ? kBoxOnLight : kBoxColor,
+        glm::vec3(glm::inverse(placement.room_from_index) * eye));
+    for (render::Line& line : box.front)
+        line.color.w *= kFront;
+    return box;
 }
 
 } // namespace
@@ -112,7 +121,7 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
       kept_(gl), shape_(config.rendering.cell_shape),
       cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
-      text_pass_(gl, room_font(kFontPixels)), panel_pass_(gl), background_pass_(gl),
+      text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl),
       moving_(gl, info.grid), veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
@@ -162,7 +171,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const bool is_whole = part.begins && part.ends && part.cells == render::DrawPart{};
     const bool again = is_whole && kept_.draw_again(picture, views);
     const auto background = background_of(picture.look);
-    if (background && part.begins && !again)
+    if (background && part.begins && !again && !picture.transparent)
         for (const render::View& view : views)
             background_pass_.draw(view, *background);
     // Lines have soft edges, which blend with the pixels below, so lines come after the cells. Only
@@ -197,7 +206,7 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const auto papers = papers_of(callouts, text_pass_.atlas(), views, picture.layout.text,
                                   picture.layout.free.top > 0);
     for (const render::View& view : views)
-        draw_over_cells(view, picture, {callouts, papers});
+        draw_over_cells(view, picture, {callouts, papers, views.size() == 1});
     return done;
 }
 
@@ -301,7 +310,8 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
     const std::vector<render::Line> guides = lines_of(picture.guides);
     for (const render::View& view : views) {
         if (picture.bounding_box)
-            line_pass_.draw(view, placement.room_from_index, box_in(view, picture, placement).far);
+            line_pass_.draw(view, placement.room_from_index, box_in(view, picture, placement).back,
+                            width_of(kThin, view, picture));
         if (!guides.empty())
             line_pass_.draw(view, glm::mat4(1.0f), guides);
         if (!points_at_panel(picture))
@@ -309,25 +319,27 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
     }
 }
 
-/// The edges of the box in front, which no cell hides. The numbers are on its outline, where no
-/// cell is in front of them or behind.
+/// The edges of the box that no cell hides. The numbers are on its outline, where no cell is in front
+/// of them or behind.
 void Scene::draw_before_cells(std::span<const render::View> views, const Picture& picture,
                               const render::Placement& placement) {
     if (!picture.bounding_box)
         return;
-    Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head);
-    if (is_light(picture))
-        darken(axes);
+    Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head, views);
+    set_colors(axes, overlay_of(picture));
     const std::vector<render::Label> labels = labels_with_room(
         axes.labels, text_pass_.atlas(), placement.room_from_index, views, picture.layout.text);
     for (const render::View& view : views) {
-        std::vector<render::Line> lines = box_in(view, picture, placement).near;
+        render::BoxLines box = box_in(view, picture, placement);
+        std::vector<render::Line> lines = std::move(box.outline);
+        lines.insert(lines.end(), box.front.begin(), box.front.end());
         lines.insert(lines.end(), axes.ticks.begin(), axes.ticks.end());
-        line_pass_.draw(view, placement.room_from_index, lines);
+        line_pass_.draw(view, placement.room_from_index, lines, width_of(kThin, view, picture));
         std::vector<render::ScreenQuad> quads;
         for (const render::Label& label : labels)
             text_pass_.set(label, text_height(view.size, picture.layout.text), quads);
-        text_pass_.draw(view, placement.room_from_index, quads);
+        text_pass_.draw(view, placement.room_from_index, quads, render::TextPass::Depth::tested,
+                        views.size() == 1);
     }
 }
 
@@ -336,22 +348,22 @@ void Scene::draw_over_cells(const render::View& view, const Picture& picture, co
     draw_panel(view, picture);
     draw_tools(view, picture);
     for (std::size_t i = 0; i < words.callouts.size(); ++i)
-        draw_callout(view, picture, words.callouts[i], words.papers[i]);
+        draw_callout(view, picture, words.callouts[i], words.papers[i], words.whole_pixels);
     veil_pass_.draw(view, picture.veil);
-    const OverlayColors overlay = overlay_colors_on(picture.look.background);
+    const OverlayColors overlay = overlay_of(picture);
     if (picture.legend)
         text_pass_.draw(
             render::pixel_view(view), glm::mat4(1.0f),
             legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
                          text_pass_, view.size, picture.layout.text),
-            render::TextPass::Depth::none);
+            render::TextPass::Depth::none, true);
     if (picture.orientation)
         draw_orientation(view, picture);
     if (!picture.caption.empty())
         text_pass_.draw(
             render::pixel_view(view), glm::mat4(1.0f),
             caption_quads(picture.caption, text_pass_, view.size, overlay, picture.layout.text),
-            render::TextPass::Depth::none);
+            render::TextPass::Depth::none, true);
 }
 
 /// The panel is drawn over the cells so that viewers who stand among them can read it with both
@@ -371,7 +383,8 @@ void Scene::draw_ray(const render::View& view, const Picture& picture, const Aid
     if (!aids.wand)
         return;
     const std::array ray{wand_ray(picture, aids)};
-    line_pass_.draw(view, glm::mat4(1.0f), ray, picture.audience.panel ? kPointing : kThin);
+    line_pass_.draw(view, glm::mat4(1.0f), ray,
+                    width_of(picture.audience.panel ? kPointing : kThin, view, picture));
 }
 
 /// Drawn over the cells, as distances are measured through them.
@@ -383,31 +396,30 @@ void Scene::draw_tools(const render::View& view, const Picture& picture) {
     for (const interaction::ToolLine& line : tools.lines)
         lines.push_back({in_room(picture, line.from), in_room(picture, line.to), line.color});
     gl_.DepthRange(kOverCells, kOverCells);
-    line_pass_.draw(view, glm::mat4(1.0f), lines, kToolLine);
+    line_pass_.draw(view, glm::mat4(1.0f), lines, width_of(kToolLine, view, picture));
     gl_.DepthRange(0.0, 1.0);
 }
 
 /// Drawn over the surface that it lies on, but not over the panel.
 void Scene::draw_callout(const render::View& view, const Picture& picture, const Callout& callout,
-                         const CalloutPaper& paper) {
+                         const CalloutPaper& paper, bool whole_pixels) {
     if (!hidden_by_panel(picture, view, callout.at))
         text_pass_.draw(view, glm::mat4(1.0f),
-                        callout_quads(callout, paper, text_pass_, view.size,
-                                      overlay_colors_on(picture.look.background),
+                        callout_quads(callout, paper, text_pass_, view.size, overlay_of(picture),
                                       picture.layout.text),
-                        render::TextPass::Depth::none);
+                        render::TextPass::Depth::none, whole_pixels);
 }
 
 void Scene::draw_orientation(const render::View& view, const Picture& picture) {
-    const Orientation shown =
-        orientation_in(view, picture.room_from_physical, info_, text_pass_,
-                       overlay_colors_on(picture.look.background), picture.layout.text);
+    const Orientation shown = orientation_in(view, picture.room_from_physical, info_, text_pass_,
+                                             overlay_of(picture), picture.layout.text);
     const render::View pixels = render::pixel_view(view);
     gl_.DepthRange(0.0, 0.0); // nearer than all that has been drawn
     for (const render::Line& line : shown.lines)
-        line_pass_.draw(pixels, glm::mat4(1.0f), std::span(&line, 1), 2.5f);
+        line_pass_.draw(pixels, glm::mat4(1.0f), std::span(&line, 1),
+                        width_of(kAxisLine, view, picture));
     gl_.DepthRange(0.0, 1.0);
-    text_pass_.draw(pixels, glm::mat4(1.0f), shown.quads, render::TextPass::Depth::none);
+    text_pass_.draw(pixels, glm::mat4(1.0f), shown.quads, render::TextPass::Depth::none, true);
 }
 
 void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::View& view) {
@@ -422,7 +434,8 @@ void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::Vi
         draw_callout(view, picture, callouts.back(),
                      papers_of(callouts, text_pass_.atlas(), std::span(&view, 1),
                                picture.layout.text, picture.layout.free.top > 0)
-                         .back());
+                         .back(),
+                     stereo::eyes_of(picture.audience.stereo).size() == 1);
     gl_.Disable(GL_SCISSOR_TEST);
 }
 

@@ -105,12 +105,13 @@ class Scene {
     struct Words {
         std::span<const Callout> callouts;
         std::span<const CalloutPaper> papers;
+        bool whole_pixels; ///< one eye sees them
     };
     void draw_over_cells(const render::View& view, const Picture& picture, const Words& words);
     void draw_panel(const render::View& view, const Picture& picture);
     void draw_ray(const render::View& view, const Picture& picture, const Aids& aids);
     void draw_callout(const render::View& view, const Picture& picture, const Callout& callout,
-                      const CalloutPaper& paper);
+                      const CalloutPaper& paper, bool whole_pixels);
     void draw_tools(const render::View& view, const Picture& picture);
     void draw_orientation(const render::View& view, const Picture& picture);
 

@@ -20,7 +20,6 @@ namespace {
 using render::Line;
 using stereo::Eye;
 
-constexpr float kPatternFontPixels = 48.0f;
 constexpr glm::vec4 kWhite(1.0f), kGrid(0.35f, 0.41f, 0.48f, 0.8f),
     kFrame(0.55f, 0.80f, 1.0f, 1.0f), kText(0.78f, 0.84f, 0.92f, 1.0f),
     kCross(1.0f, 0.80f, 0.10f, 1.0f);
@@ -209,8 +208,7 @@ glm::vec2 letter_place(Eye eye) {
     return {eye == Eye::left ? 0.25f : eye == Eye::right ? 0.75f : 0.5f, 0.6f};
 }
 
-TestPattern::TestPattern(const render::Gl& gl)
-    : lines_(gl), text_(gl, room_font(kPatternFontPixels)) {}
+TestPattern::TestPattern(const render::Gl& gl) : lines_(gl), text_(gl, room_font) {}
 
 void TestPattern::draw(std::span<const render::View> views, std::span<const Eye> eyes,
                        const PatternWall& wall, const interaction::InputState& input) {

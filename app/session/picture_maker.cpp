@@ -170,8 +170,20 @@ std::string PictureMaker::words_under_pointer(const interaction::InputState& inp
     return mark_text(pointed ? pointed->point : *state.mark.point, arrays_.shown(state).info());
 }
 
+interaction::WrittenPictures
+PictureMaker::written(const interaction::WrittenPictures& asked) const {
+    interaction::WrittenPictures written = asked;
+    if (config_.pictures.background != interaction::WrittenBackground::shown)
+        written.background = config_.pictures.background;
+    if (config_.pictures.dpi > 0)
+        written.dpi = config_.pictures.dpi;
+    return written;
+}
+
 Picture PictureMaker::kept(const Picture& picture,
-                           const interaction::WrittenPictures& parts) const {
+                           const interaction::WrittenPictures& asked) const {
+    using interaction::WrittenBackground;
+    const interaction::WrittenPictures parts = written(asked);
     Picture kept = picture;
     kept.moved = false;
     if (picture.audience.lifted)
@@ -190,7 +202,12 @@ Picture PictureMaker::kept(const Picture& picture,
         kept.mark = {};
         kept.tools = {};
     }
-    if (const index::ExtractionPtr& shown = sets_.shown(); shown && config_.pictures.caption)
+    if (parts.background != WrittenBackground::shown)
+        kept.look.background = interaction::Background::white;
+    kept.transparent = parts.background == WrittenBackground::transparent &&
+                       !config_.pictures.only_kept && !outputs_.room() && !outputs_.headset();
+    const index::ExtractionPtr& shown = sets_.shown();
+    if (shown && (config_.pictures.caption || parts.caption))
         kept.caption = caption_text(shown->query, arrays_.file()->array(shown->query.array).info());
     return kept;
 }

@@ -30,8 +30,10 @@ class PictureMaker {
     Picture first(const ExplorerState& state) const;
     /// Continues with the cells that are shown now.
     void show_cells(Picture& picture, const ExplorerState& state) const;
+    /// What pictures that are written show, with what the configuration says of them.
+    interaction::WrittenPictures written(const interaction::WrittenPictures& asked) const;
     /// The picture as it is kept.
-    Picture kept(const Picture& picture, const interaction::WrittenPictures& parts) const;
+    Picture kept(const Picture& picture, const interaction::WrittenPictures& asked) const;
     /// What is to be drawn over the last picture, which lacks it.
     const Aids& over() const { return over_; }
 

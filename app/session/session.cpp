@@ -29,7 +29,8 @@ Session::Session(Config config, std::shared_ptr<const index::IndexFile> file,
               render::CellBuffers::wanted_shading(outputs_.gl())),
       pictures_(config_, arrays_, scene_.cells(), outputs_, panel_, picker_),
       choice_(config_, outputs_, log_, scene_, supply_, pictures_),
-      partial_(scene_, outputs_, choice_.quality()), nothing_(arrays_, outputs_) {
+      partial_(scene_, outputs_, choice_.quality()), samples_(scene_, outputs_, choice_.quality()),
+      nothing_(arrays_, outputs_) {
     for (std::size_t number = 1; number < file->arrays(); ++number)
         scene_.cells().prepare_for(file->array(number).info());
 }
@@ -236,7 +237,9 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
     const auto parts = plan_.state.in_parts();
     const bool in_parts = parts == now.footprint;
     partial_.begin_frame(in_parts);
+    samples_.begin_frame(is_settled(frame));
     if (parts && !frame.report.redrawn && !in_parts && outputs_.want(now.audience)) {
+        samples_.give_up();
         if (auto whole = partial_.draw(frame, now, overlay)) {
             drawn_ = std::move(whole);
             frame.report.footprint = drawn_->footprint;
@@ -259,6 +262,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
 void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay) {
     StopWatch watch;
     partial_.give_up_others(*drawn_);
+    samples_.give_up();
     supply_.forget_views();
     outputs_.leave_free(now.layout.free);
     outputs_.show_aside(now.layout.aside);
@@ -282,13 +286,25 @@ void Session::draw_anew(const Frame& frame, const Picture& now, const Outputs::O
         choice_.quality().end(frame.report, of_cell, frame.report.upload + watch.lap());
 }
 
-/// Keeps the last picture. It is composed anew only if something else lies over it.
+/// Whether the picture of this frame is exact, and nothing but itself is still to be drawn.
+bool Session::is_settled(const Frame& frame) const {
+    const FrameReport& report = frame.report;
+    return frame.is_live() && frames_->alone() && report.final && !plan_.state.is_held() &&
+           report.footprint == render::Footprint::surface && !report.moved && !report.extracting &&
+           !plan_.state.draws_ahead() && !state_.playback.playing && !supply_.set_comes() &&
+           scene_.cells().is_complete();
+}
+
+/// Keeps the last picture. It is composed anew only if something else lies over it, or if it has more
+/// samples.
 void Session::show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
                          const SessionPanel::Facts& facts) {
     const bool can_stay = frames_->alone() && outputs_.can_stay();
     if (can_stay)
         panel_.lay_out_over(state_, facts, frame.report.time);
-    if (can_stay && contents_.stay(panel_.overlay(pictures_.over())))
+    if (can_stay && samples_.take(*drawn_))
+        outputs_.show_parts(overlay);
+    else if (can_stay && contents_.stay(panel_.overlay(pictures_.over())))
         outputs_.stay(now.audience);
     else
         outputs_.draw_again(now.audience, overlay);
@@ -317,7 +333,12 @@ FrameAnswer Session::answer() const {
 }
 
 CaptureView Session::capture_view(const FrameReport& frame) const {
-    return CaptureView::of(frame, frames_->has_no_answer(supply_.extractor()));
+    CaptureView view = CaptureView::of(frame, frames_->has_no_answer(supply_.extractor()));
+    if (samples_.are_missing()) {
+        view.final = false;
+        view.improves = true;
+    }
+    return view;
 }
 
 PictureNote Session::note() const {
@@ -325,7 +346,10 @@ PictureNote Session::note() const {
     note.data_hash = fmt::format("{:016x}", arrays_.file()->content_hash());
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     note.text = drawn_ ? drawn_->layout.text : 0.0f;
+    note.as_seen = config_.pictures.only_kept ||
+                   (drawn_ && pictures_.kept(*drawn_, state_.pictures) == *drawn_);
     ExplorerState state = state_;
+    state.pictures = pictures_.written(state.pictures);
     if (const index::ExtractionPtr& shown = scene_.cells().shown()) { // may lag while time plays
         state.instant = shown->query.instant;
         for (std::size_t i = 0; i < shown->query.isovalues.size() && i < state.isosurfaces.size();
@@ -363,7 +387,8 @@ FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
         .busy = state_.playback.playing || last.extracting || partial_.are_made() ||
-                captures_.wanted() > 0 || last.comfort != interaction::ComfortState{},
+                samples_.are_missing() || captures_.wanted() > 0 ||
+                last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
         .final =
             last.final && !last.retries && scene_.cells().is_complete() && !supply_.set_comes()};

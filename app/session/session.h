@@ -9,6 +9,7 @@
 
 #include "app/choice/cell_supply.h"
 #include "app/choice/partial_pictures.h"
+#include "app/choice/settled_samples.h"
 #include "app/cluster/frame_sharing.h"
 #include "app/cluster/frames_alone.h"
 #include "app/config/config.h"
@@ -195,6 +196,7 @@ class Session {
                     const SessionPanel::Facts& facts);
     void draw_aids();
     interaction::Similarity all_in_view(const Audience& audience) const;
+    bool is_settled(const Frame& frame) const;
     PanelModel panel_model(const FrameReport& report) const;
     FrameAnswer answer() const;
 
@@ -216,6 +218,7 @@ class Session {
     PictureMaker pictures_;
     PictureChoice choice_;
     PartialPictures partial_;
+    SettledSamples samples_;
     NothingSeen nothing_;
     std::unique_ptr<FrameSharing> frames_ = std::make_unique<FramesAlone>();
     FramePlan plan_;               ///< plan of the last frame

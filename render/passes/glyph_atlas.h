@@ -21,7 +21,8 @@ struct Glyph {
 struct GlyphAtlas {
     glm::ivec2 size{0};                 ///< texels
     std::vector<std::uint8_t> coverage; ///< 0 to 255, row after row
-    glm::vec2 solid{0.0f};              ///< a place in the texture with full coverage, 0 to 1
+    /// How far a halo reaches around a glyph, across and up [texel]: less than glyphs' margins.
+    glm::ivec2 halo{0};
     std::unordered_map<char32_t, Glyph> glyphs;
 
     /// The glyph of a character; null if the font lacks it.
@@ -30,6 +31,10 @@ struct GlyphAtlas {
 
 /// The characters of UTF-8 text; invalid bytes become U+FFFD.
 std::u32string characters(const std::string& utf8);
+
+/// The coverage of the halos, in the order of `coverage`: that of the glyphs, as far spread as halos
+/// reach.
+std::vector<std::uint8_t> halos_of(const GlyphAtlas& atlas);
 
 /// Width of a line of text, in heights of a line. Characters that the font lacks have no width.
 float text_width(const GlyphAtlas& atlas, const std::string& utf8);

@@ -11,16 +11,19 @@ BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::v
     for (int axis = 0; axis < 3; ++axis)
         for (int edge = 0; edge < 4; ++edge) {
             glm::vec3 from(0.0f);
-            bool near = false;
+            int towards = 0; // faces
             for (int i = 0; i < 2; ++i) {
                 const int other = (axis + 1 + i) % 3;
                 const bool upper = (edge >> i & 1) != 0;
                 from[other] = upper ? extent[other] : 0.0f;
-                near = near || (upper ? eye[other] > extent[other] : eye[other] < 0.0f);
+                towards += (upper ? eye[other] > extent[other] : eye[other] < 0.0f) ? 1 : 0;
             }
             glm::vec3 to = from;
             to[axis] = extent[axis];
-            (near ? lines.near : lines.far).push_back({from, to, color});
+            (towards == 2   ? lines.front
+             : towards == 1 ? lines.outline
+                            : lines.back)
+                .push_back({from, to, color});
         }
     return lines;
 }
@@ -36,7 +39,7 @@ void LinePass::draw(const View& view, const glm::mat4& room_from_model, std::spa
     struct Frame {
         glm::mat4 clip_from_model;
         glm::vec4 size;
-    } frame{view.clip_from_eye * view.eye_from_room * room_from_model,
+    } frame{view.steady().clip_from_eye * view.eye_from_room * room_from_model,
             glm::vec4(view.size, 0.5f * width + 0.25f, 0.0f)};
     std::vector<glm::vec4> segments;
     segments.reserve(3 * lines.size());

@@ -21,10 +21,13 @@ struct Line {
     glm::vec4 color{1.0f}; ///< sRGB, not pre-multiplied; a: opacity
 };
 
-/// The twelve edges of the box [0, extent], by whether they are in front of its contents.
+/// The twelve edges of the box [0, extent], by where they are.
 struct BoxLines {
-    std::vector<Line> near; ///< edges of faces towards the eye: nothing inside the box hides them
-    std::vector<Line> far;  ///< the others, which hide nothing inside; all, for an eye in the box
+    std::vector<Line> front; ///< between two faces towards the eye: before what is inside
+    /// Between a face towards the eye and one that is turned away: nothing inside hides them, and they
+    /// hide nothing inside.
+    std::vector<Line> outline;
+    std::vector<Line> back; ///< behind what is inside; all, for an eye in the box
 };
 /// @param eye in the box's coordinates
 BoxLines box_lines(const glm::vec3& extent, const glm::vec4& color, const glm::vec3& eye);

@@ -7,6 +7,7 @@
 #include "stereo/context/native_gl.h"
 #include "stereo/context/wake.h"
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include <filesystem>
@@ -31,12 +32,23 @@ struct ContextOptions {
     bool fullscreen = false;
     int monitor = 0;
     bool vsync = true;
-    bool visible = true;                 ///< false: a window that is never shown
-    bool border = true;                  ///< whether the desktop may frame the window
-    bool stereo_buffers = false;         ///< require a left and a right buffer
+    bool visible = true;         ///< false: a window that is never shown
+    bool border = true;          ///< whether the desktop may frame the window
+    bool fits = false;           ///< no larger than the first monitor has room
+    bool scales = false;         ///< `size` counts pixels of a display with 96 pixels an inch
+    bool stereo_buffers = false; ///< require a left and a right buffer
     ContextApi api = ContextApi::native; ///< for making a window's context
     GlContext* share = nullptr;          ///< context whose textures the new one shares; null: none
 };
+
+/// How large a window becomes. @param size that is wanted, at a scale of 1
+/// @param scale of the desktop @param room of the monitor, without the desktop's bars; 0: unknown
+inline glm::ivec2 size_on_desktop(glm::ivec2 size, float scale, glm::ivec2 room) {
+    constexpr float kFrame = 32.0f; // [pixel] of the window's frame and title, at a scale of 1
+    const glm::ivec2 wanted(glm::round(scale * glm::vec2(size)));
+    const glm::ivec2 most = room - glm::ivec2(glm::round(glm::vec2(0.25f, 1.0f) * kFrame * scale));
+    return room.x <= 0 || room.y <= 0 ? wanted : glm::max(glm::min(wanted, most), 1);
+}
 
 class GlContext {
   public:

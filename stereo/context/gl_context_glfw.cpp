@@ -185,6 +185,8 @@ class GlfwContext final : public GlContext {
             glfwWindowHint(GLFW_REFRESH_RATE, mode->refreshRate);
             size = {mode->width, mode->height};
         }
+        if (!monitor && options.fits)
+            size = fitting(size, options.scales);
         if (options.api == ContextApi::egl)
             glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
         auto* share = static_cast<GlfwContext*>(options.share);
@@ -295,6 +297,18 @@ class GlfwContext final : public GlContext {
             throw render::Error(fmt::format("monitor {} does not exist, there {} {}", index,
                                             count == 1 ? "is" : "are", count));
         return monitors[index];
+    }
+
+    static glm::ivec2 fitting(glm::ivec2 size, bool scales) {
+        GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+        if (!monitor)
+            return size;
+        glm::vec2 scale(1.0f);
+        glfwGetMonitorContentScale(monitor, &scale.x, &scale.y);
+        glm::ivec2 corner, room;
+        glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+        return size_on_desktop(
+            size, scales ? std::clamp(std::min(scale.x, scale.y), 0.5f, 4.0f) : 1.0f, room);
     }
 
     /// The monitor that shows the middle of the window, else the first one; null without any.

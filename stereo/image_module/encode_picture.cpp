@@ -9,6 +9,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
@@ -43,9 +44,14 @@ void check_limits(const render::Image& image, PictureFormat format, const std::s
                                  " file (64000 at most): .png and .exr hold longer ones");
 }
 
+/// Whether a file says how opaque pixels are. The others show what is drawn over nothing as over white.
+bool has_opacity(const render::Image& image, PictureFormat format) {
+    return !image.opaque && (format == PictureFormat::png || format == PictureFormat::tiff);
+}
+
 OIIO::ImageSpec spec_of(const render::Image& image, PictureFormat format, const std::string& note) {
     const bool linear = format == PictureFormat::exr;
-    OIIO::ImageSpec spec(image.width, image.height, 3,
+    OIIO::ImageSpec spec(image.width, image.height, has_opacity(image, format) ? 4 : 3,
                          linear ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::UINT8);
     // Without an attribute of this name, the time of writing is stored. A number is no time.
     spec.attribute("DateTime", 0);
@@ -63,6 +69,13 @@ OIIO::ImageSpec spec_of(const render::Image& image, PictureFormat format, const 
         spec.attribute("compression", "jpeg:95");
         spec.attribute("jpeg:subsampling", "4:4:4"); // thin colored lines stay as they are
     }
+    if (has_opacity(image, format))
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (image.dpi > 0) {
+        spec.attribute("XResolution", static_cast<float>(image.dpi));
+        spec.attribute("YResolution", static_cast<float>(image.dpi));
+        spec.attribute("ResolutionUnit", "in");
+    }
     if (!note.empty())
         spec.attribute(note_attribute_of(format), note);
     return spec;
@@ -76,6 +89,19 @@ std::vector<half> linear_rgb(const render::Image& image) {
     for (std::size_t i = 0; i < rgb.size(); ++i)
         rgb[i] = linear[image.rgba[i / 3 * 4 + i % 3]];
     return rgb;
+}
+
+render::Image over_white(render::Image image) {
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        const float opacity = static_cast<float>(image.rgba[i + 3]) / 255.0f;
+        for (std::size_t channel = i; channel < i + 3; ++channel) {
+            const float light =
+                render::linear_from_srgb(static_cast<float>(image.rgba[channel]) / 255.0f);
+            image.rgba[channel] = static_cast<std::uint8_t>(
+                std::lround(255.0f * render::srgb_from_linear(opacity * light + 1.0f - opacity)));
+        }
+    }
+    return image;
 }
 
 void write_pixels(OIIO::ImageOutput& output, const render::Image& image, PictureFormat format) {
@@ -112,8 +138,10 @@ const char* note_attribute_of(PictureFormat format) {
     return kNames.at(static_cast<std::size_t>(format));
 }
 
-std::vector<std::byte> encode(const render::Image& image, PictureFormat format,
+std::vector<std::byte> encode(const render::Image& given, PictureFormat format,
                               const std::string& note) {
+    const bool flat = !given.opaque && !has_opacity(given, format);
+    const render::Image image = flat ? over_white(given) : given;
     check_limits(image, format, note);
     set_up_library();
     const std::unique_ptr<OIIO::ImageOutput> output =

@@ -235,7 +235,7 @@ void panel_picture_example(const Gl& gl) {
 #include "render/passes/panel_picture.example"
 }
 
-void text_pass_example(const Gl& gl, const GlyphAtlas& atlas, const View& view,
+void text_pass_example(const Gl& gl, const Font& font, const View& view,
                        const glm::mat4& room_from_index) {
 #include "render/passes/text_pass.example"
 }

@@ -15,6 +15,7 @@
 #include "render/passes/panel_pass.h"
 #include "render/passes/picture_pass.h"
 #include "render/passes/reproject_pass.h"
+#include "render/passes/sample_sum.h"
 #include "render/passes/solid_pass.h"
 #include "render/passes/text_pass.h"
 #include "render/passes/veil_pass.h"
@@ -141,7 +142,9 @@ void make_all_passes(const Gl& gl) {
     const render::PanelPass panels(gl);
     const render::PicturePass pictures(gl);
     const render::SolidPass solids(gl);
-    const render::TextPass text(gl, {.size = {1, 1}, .coverage = {0}, .solid = {}, .glyphs = {}});
+    const render::TextPass text(
+        gl, render::GlyphAtlas{.size = {1, 1}, .coverage = {0}, .halo = {}, .glyphs = {}});
+    const render::SampleSum sum(gl);
     const render::VeilPass veil(gl);
     const stereo::Multiplex multiplex(gl);
     const app::PanelLayer layer(gl);

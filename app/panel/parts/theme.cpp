@@ -1,6 +1,8 @@
 // Colors and measures of the panel: one theme for dark rooms, one for light rooms.
 #include "app/panel/parts/theme.h"
 
+#include "app/scene/overlay_colors.h"
+
 #include <array>
 #include <cstddef>
 
@@ -39,7 +41,7 @@ ImVec4 between(const ImVec4& a, const ImVec4& b, float share) {
 } // namespace
 
 Theme theme_for(const interaction::Look& look) {
-    return look.background == interaction::Background::light ? Theme::light : Theme::dark;
+    return is_light(look.background) ? Theme::light : Theme::dark;
 }
 
 ImVec4 color_of(Ink ink) {

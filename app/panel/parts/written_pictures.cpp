@@ -51,6 +51,16 @@ void size_rows(WrittenPictures& pictures) {
         pictures.height = static_cast<std::uint32_t>(height);
 }
 
+void background_row(WrittenPictures& pictures) {
+    static const std::vector<std::string> kWords{"as in the window", "white", "transparent"};
+    row("background");
+    ImGui::SetNextItemWidth(kField);
+    if (const auto chosen =
+            choice_field("##background", kWords[static_cast<std::size_t>(pictures.background)],
+                         kWords, "behind the data; words and lines on white are dark"))
+        pictures.background = static_cast<interaction::WrittenBackground>(*chosen);
+}
+
 void keep(const PanelModel& model, const WrittenPictures& pictures,
           interaction::Commands& commands) {
     if (pictures != model.asked.pictures)
@@ -81,7 +91,19 @@ void picture_rows(const PanelModel& model, interaction::Commands& commands) {
          "a length in the data's unit, and how the axes lie");
     part("", "##box", pictures.box, "box with numbers", "where it is shown in the window, too (O)");
     part("", "##marks", pictures.marks, "mark, ruler and clip plane", "with their labels");
+    part("", "##caption", pictures.caption, "caption", "array, isovalues and time in a corner");
+    background_row(pictures);
     size_rows(pictures);
+    row("scale");
+    ImGui::SetNextItemWidth(kField);
+    number_field("##scale_by", pictures.scale, {.low = 1, .high = interaction::kLargestScale},
+                 "%.3g times as large");
+    tip("words and lines grow with the picture");
+    row("dpi");
+    ImGui::SetNextItemWidth(kField);
+    number_field("##dpi", pictures.dpi, {.low = 0, .high = interaction::kMostDpi},
+                 pictures.dpi > 0 ? "%.4g pixels an inch" : "not said");
+    tip("what the file says to programs that lay out pages");
     folder_row(pictures);
     keep(model, pictures, commands);
 }

@@ -267,10 +267,11 @@ TEST_P(RoomPanelTest, ItsTitleCarriesItAndTheRecordingHoldsWhereTo) {
 
 TEST(RoomPanelLetters, AreLargeEnoughAtArmsLength) {
     const PanelConfig defaults;
-    const render::GlyphAtlas font = room_font(150.0f);
+    const render::GlyphAtlas font = room_font(150);
     const render::Glyph* x = font.find(U'x');
     ASSERT_TRUE(x);
-    constexpr float kMargins = 2 * 1.5f / 150.0f; // margins of the glyph's rectangle
+    const float kMargins =
+        2 * (static_cast<float>(font.halo.y) + 1) / 150.0f; // margins of the glyph's rectangle
     const float x_height = (x->high.y - x->low.y - kMargins) * PanelLayer::kFontPixels;
     const double meters = x_height * defaults.width / PanelInRoom::kPixels.x;
     const double degrees = std::atan(meters / defaults.distance) * 57.29578;

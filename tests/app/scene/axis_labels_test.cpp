@@ -7,8 +7,10 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <set>
@@ -59,7 +61,7 @@ struct Looking {
 class AxisLabelsTest : public testing::Test {
   protected:
     std::vector<render::Label> shown(const Looking& from) {
-        axes_ = axes_for(info_, placement_, from.head);
+        axes_ = axes_for(info_, placement_, from.head, from.views);
         return labels_with_room(axes_.labels, atlas_, placement_.room_from_index, from.views);
     }
     /// Whether the two texts cover a common pixel in a view, worked out anew.
@@ -142,6 +144,61 @@ TEST_F(AxisLabelsTest, ThinOutEvenlyFarAway) {
         before = of_x.size();
     }
     EXPECT_LT(before, 3u) << "far away there is room for few";
+}
+
+TEST_F(AxisLabelsTest, AreNeverCutAndAreATitleAndTwoNumbersOfEachAxisFromNearAndFar) {
+    std::mt19937 random(test_seed());
+    std::uniform_real_distribution<float> share(-1.0f, 1.0f);
+    int axes = 0, near = 0, lacking = 0;
+    for (int i = 0; i < 400; ++i) {
+        const glm::vec3 direction(share(random), share(random), share(random));
+        const float distance = 2.6f + 1.2f * share(random); // nearer than 2, parts are not seen
+        const Looking from(kMiddle + distance * glm::normalize(direction));
+        const auto labels = shown(from);
+        for (const render::Label& label : labels)
+            for (const render::View& view : from.views) {
+                const auto covered =
+                    covered_by(label, text_height(view.size), atlas_,
+                               view.clip_from_eye * view.eye_from_room * placement_.room_from_index,
+                               view.size);
+                ASSERT_TRUE(covered) << label.text;
+                EXPECT_GE(std::min(covered->low.x, covered->low.y), 0) << label.text << ", " << i;
+                EXPECT_LE(covered->high.x, kPicture.x) << label.text << ", " << i;
+                EXPECT_LE(covered->high.y, kPicture.y) << label.text << ", " << i;
+            }
+        for (const AxisLabels& axis : axes_.labels) {
+            const auto shows = [&](const render::Label& asked) {
+                return std::ranges::any_of(labels, [&](const render::Label& label) {
+                    return label.text == asked.text && label.at == asked.at;
+                });
+            };
+            // An axis that is seen along its length has no room for two numbers.
+            const auto on_screen = [&](const glm::vec3& at) {
+                const glm::vec4 clip = from.views[0].clip_from_eye * from.views[0].eye_from_room *
+                                       placement_.room_from_index * glm::vec4(at, 1.0f);
+                return (0.5f * glm::vec2(clip) / clip.w + 0.5f) * glm::vec2(kPicture);
+            };
+            const auto& numbers = axis.numbers;
+            std::vector<glm::vec2> inside;
+            for (const auto& number : numbers)
+                if (const glm::vec2 at = on_screen(number.label.at);
+                    glm::all(glm::greaterThan(at, glm::vec2(120))) &&
+                    glm::all(glm::lessThan(at, glm::vec2(kPicture - 120))))
+                    inside.push_back(at);
+            if (inside.size() < 2 || glm::distance(inside.front(), inside.back()) < 150)
+                continue;
+            ++axes;
+            near += distance < 2 ? 1 : 0;
+            EXPECT_TRUE(shows(axis.title)) << axis.title.text << " from " << i;
+            lacking += std::ranges::count_if(
+                           numbers, [&](const auto& number) { return shows(number.label); }) < 2
+                           ? 1
+                           : 0;
+        }
+    }
+    EXPECT_GT(axes, 300);
+    EXPECT_GT(near, 0);
+    EXPECT_LE(lacking, axes / 100) << "where three axes meet in a corner";
 }
 
 TEST_F(AxisLabelsTest, BehindTheEyeTakeNoRoom) {

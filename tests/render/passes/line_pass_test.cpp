@@ -90,9 +90,9 @@ TEST_P(Lines, InFrontOfOthersAreNeverDarkerThanEither) {
 
 TEST_P(Lines, OfABoxAreItsTwelveEdges) {
     const BoxLines lines = box_lines({1, 2, 3}, glm::vec4(1), {5, 1, 1});
-    ASSERT_EQ(lines.near.size() + lines.far.size(), 12u);
+    ASSERT_EQ(lines.front.size() + lines.outline.size() + lines.back.size(), 12u);
     glm::vec3 total(0.0f);
-    for (const auto* part : {&lines.near, &lines.far})
+    for (const auto* part : {&lines.front, &lines.outline, &lines.back})
         for (const Line& line : *part) {
             const glm::vec3 along = glm::abs(line.to - line.from);
             EXPECT_EQ((along.x > 0) + (along.y > 0) + (along.z > 0), 1);
@@ -101,7 +101,7 @@ TEST_P(Lines, OfABoxAreItsTwelveEdges) {
     EXPECT_EQ(total, glm::vec3(4, 8, 12));
 }
 
-TEST_P(Lines, OfABoxAreNearWhereNothingInsideCanHideThem) {
+TEST_P(Lines, OfABoxAreBeforeWhatIsInsideBesideItOrBehind) {
     std::mt19937 random(test_seed());
     std::uniform_real_distribution<float> place(-3.0f, 5.0f), share(0.02f, 0.98f);
     const glm::vec3 extent(1, 2, 3);
@@ -112,17 +112,24 @@ TEST_P(Lines, OfABoxAreNearWhereNothingInsideCanHideThem) {
         const glm::vec3 eye(place(random), place(random), place(random));
         const BoxLines lines = box_lines(extent, glm::vec4(1), eye);
         if (inside(eye)) {
-            EXPECT_TRUE(lines.near.empty());
+            EXPECT_EQ(lines.back.size(), 12u);
         }
         // Just before an edge, or just behind it, a ray from the eye is within the box or is not.
-        for (const bool near : {true, false})
-            for (const Line& line : near ? lines.near : lines.far) {
+        const auto expect = [&](const std::vector<Line>& edges, bool before, bool behind) {
+            for (const Line& line : edges) {
                 const glm::vec3 at = glm::mix(line.from, line.to, share(random));
                 const glm::vec3 step = 1e-3f * glm::normalize(at - eye);
-                EXPECT_FALSE(inside(near ? at - step : at + step))
+                EXPECT_EQ(inside(at - step), before)
+                    << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z << ", edge " << at.x << ' '
+                    << at.y << ' ' << at.z;
+                EXPECT_EQ(inside(at + step), behind)
                     << "eye " << eye.x << ' ' << eye.y << ' ' << eye.z << ", edge " << at.x << ' '
                     << at.y << ' ' << at.z;
             }
+        };
+        expect(lines.front, false, true);
+        expect(lines.outline, false, false);
+        expect(lines.back, true, false);
     }
 }
 

@@ -14,7 +14,7 @@ namespace {
 /// Two characters of 8 x 8 texels: `L`, its left column and its bottom row, and a full block `#`.
 GlyphAtlas two_letters() {
     GlyphAtlas atlas{
-        .size = {32, 16}, .coverage = std::vector<std::uint8_t>(512, 0), .solid = {}, .glyphs = {}};
+        .size = {32, 16}, .coverage = std::vector<std::uint8_t>(512, 0), .halo = {}, .glyphs = {}};
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x) {
             atlas.coverage[32 * (y + 4) + x + 4] = x < 2 || y >= 6 ? 255 : 0;
@@ -28,7 +28,6 @@ GlyphAtlas two_letters() {
                      .advance = 1.25f};
     };
     atlas.glyphs = {{U'L', glyph(4)}, {U'#', glyph(20)}};
-    atlas.solid = {24.0f / 32, 8.0f / 16};
     return atlas;
 }
 

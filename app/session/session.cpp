@@ -346,6 +346,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
                       .plan = plan_,
                       .report = report};
     const SessionPanel::Facts facts = [&] { return panel_model(report); };
+    const DrawsOnly draws; // what is sent to the GPU may make it compile
     supply_.request(frame);
     supply_.take_newest(frame);
     show_messages(supply_.take_messages());
@@ -353,7 +354,6 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     Picture now = pictures_.make(frame, seen(rest, heads, report));
     choice_.choose(frame, now);
     StopWatch stages;
-    const DrawsOnly draws;
     contents_.begin_frame();
     draw_eyes(frame, now, input, facts);
     panel_.draw_alone(facts, report.time);

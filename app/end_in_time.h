@@ -13,7 +13,7 @@ class EndInTime {
     /// Work that hears of a signal may end by itself for so long.
     static constexpr std::chrono::milliseconds kByItself{200};
     /// What `SavedAtEnd` saves may take so long; then it is given up.
-    static constexpr std::chrono::seconds kToSave{10};
+    static constexpr std::chrono::seconds kToSave{5};
     static constexpr std::chrono::seconds kToCleanUp{1}; ///< likewise, without anything to save
 
     /// From now on `watch` has an effect. @param program its name, for `NAME: canceled`

@@ -421,6 +421,7 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
                       .plan = plan_,
                       .report = report};
     const SessionPanel::Facts facts = [&] { return panel_model(report); };
+    const DrawsOnly draws; // what is sent to the GPU may make it compile
     supply_.request(frame);
     supply_.take_newest(frame);
     show_messages(supply_.take_messages());
@@ -434,7 +435,6 @@ const FrameReport& Session::frame(const interaction::InputState& input, const Co
     if (now.audience.lifted && !std::exchange(told_of_lifting_, true))
         show_messages({"the background is lifted, so that dark colors are seen: Ctrl + G"});
     StopWatch stages;
-    const DrawsOnly draws;
     contents_.begin_frame();
     draw_eyes(frame, now, input, facts);
     panel_.draw_alone(facts, report.time);

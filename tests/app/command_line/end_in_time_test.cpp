@@ -19,12 +19,12 @@ using test_support::TestFolder;
 using namespace std::chrono_literals;
 
 /// Runs in a process of its own: what never ends by itself.
-[[noreturn]] void hang() {
+[[noreturn]] void hang_for_ever() {
     for (;;)
         std::this_thread::sleep_for(1h);
 }
 
-void begin() {
+void begin_to_watch() {
     EndInTime::allow("lab");
     EndInTime::watch();
 }
@@ -45,12 +45,12 @@ class EndInTimeTest : public testing::Test {
 TEST_F(EndInTimeTest, EndsWhatDoesNotEndByItselfAndRemovesItsTemporaryFiles) {
     EXPECT_EXIT(
         {
-            begin();
+            begin_to_watch();
             const index::NewFile file(folder.path() / "a", index::NewFile::Writers::several);
             if (std::filesystem::is_empty(folder.path()))
                 _exit(1);
             EndInTime::signaled(SIGTERM);
-            hang();
+            hang_for_ever();
         },
         testing::ExitedWithCode(128 + SIGTERM), "lab: canceled");
     EXPECT_LT(seconds(), 5) << "on a busy machine";
@@ -60,7 +60,7 @@ TEST_F(EndInTimeTest, EndsWhatDoesNotEndByItselfAndRemovesItsTemporaryFiles) {
 TEST_F(EndInTimeTest, SavesWhileItDrawsAndNotWhileWhatIsSavedMayChange) {
     EXPECT_EXIT(
         {
-            begin();
+            begin_to_watch();
             bool whole = true;
             const SavedAtEnd saved([&] { folder.write(whole ? "whole" : "half", ""); });
             whole = false;
@@ -69,7 +69,7 @@ TEST_F(EndInTimeTest, SavesWhileItDrawsAndNotWhileWhatIsSavedMayChange) {
             whole = true;
             const DrawsOnly draws;
             const DrawsOnly within;
-            hang();
+            hang_for_ever();
         },
         testing::ExitedWithCode(128 + SIGINT), "lab: canceled");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"whole"});
@@ -78,7 +78,7 @@ TEST_F(EndInTimeTest, SavesWhileItDrawsAndNotWhileWhatIsSavedMayChange) {
 TEST_F(EndInTimeTest, LeavesAloneWhatEndsByItselfAndJobsOfSeveralProcesses) {
     EXPECT_EXIT(
         {
-            begin();
+            begin_to_watch();
             EndInTime::leave_to_the_job();
             EndInTime::signaled(SIGTERM);
             std::this_thread::sleep_for(3 * EndInTime::kByItself);

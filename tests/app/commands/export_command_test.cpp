@@ -464,8 +464,8 @@ TEST_F(ExportCommand, WhatSinglePrecisionMovesIsSaidWhereItIsMuchOfACell) {
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::size_t stride = 3 * bytes; // without normals
-                const char* const from =
-                    text.data() + header + 11 + i * (stride + 3) + axis * bytes; // and a color
+                const char* const from = text.data() + header + 11 + i * (stride + 4) +
+                                         axis * bytes; // and a color, a number
                 double wide = 0;
                 float narrow = 0;
                 std::memcpy(bytes == 8 ? static_cast<void*>(&wide) : &narrow, from, bytes);

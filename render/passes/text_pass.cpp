@@ -17,7 +17,7 @@ namespace isochron::render {
 namespace {
 
 constexpr int kMeasured = 32; ///< [pixel] height of the letters that text is measured with
-constexpr std::size_t kMostHeights = 8; ///< of which letters are kept
+constexpr std::size_t kMostHeights = 8; ///< heights whose letters are kept
 
 Texture texture_of_letters(const Gl& gl, const GlyphAtlas& atlas) {
     Texture texture(gl, GL_TEXTURE_2D);

@@ -114,5 +114,13 @@ TEST_P(OffscreenWindows, ArePicturesOfTheirOwnSizesInOneContext) {
 INSTANTIATE_TEST_SUITE_P(, OffscreenWindows, testing::Values(ContextKind::egl, ContextKind::osmesa),
                          [](const auto& kind) { return std::string(name_of(kind.param)); });
 
+TEST(WindowSize, SuitsTheScaleOfTheDesktopAndFitsTheMonitor) {
+    EXPECT_EQ(size_on_desktop({1280, 720}, 1, {1920, 1080}), glm::ivec2(1280, 720));
+    EXPECT_EQ(size_on_desktop({1280, 720}, 2, {3840, 2160}), glm::ivec2(2560, 1440));
+    EXPECT_EQ(size_on_desktop({1280, 720}, 2, {0, 0}), glm::ivec2(2560, 1440)) << "no monitor";
+    EXPECT_EQ(size_on_desktop({1280, 720}, 2, {2560, 1440}), glm::ivec2(2544, 1376));
+    EXPECT_EQ(size_on_desktop({3000, 600}, 1, {1280, 720}), glm::ivec2(1272, 600));
+}
+
 } // namespace
 } // namespace isochron::stereo

@@ -60,13 +60,13 @@ void SessionKeeper::after_frame(Session& session, const LiveFrame& frame) {
     const auto name = session.panel().take_session_name();
     if (name)
         set_name(*name);
+    // Whoever saves from elsewhere cannot answer in the window.
+    const bool asks = frame.commands.save && !frame.from_panel.save && name_.empty() &&
+                      session.panel().ask_session_name();
     if (frame.commands.save || name)
-        save_now(session.state(), head_, session.left_arrays());
+        save_now(session.state(), head_, session.left_arrays(), !asks);
     else if (is_due(frame.input.time))
         update(session.state(), head_, frame.input.time, session.left_arrays());
-    // Whoever saves from elsewhere cannot answer in the window.
-    if (frame.commands.save && !frame.from_panel.save && name_.empty())
-        session.panel().ask_session_name();
 }
 
 /// Takes the picture over once it is final, beside the panel.
@@ -76,9 +76,10 @@ void SessionKeeper::look_at(const Session& session, const FrameReport& drawn) {
         return;
     unseen_ = false;
     try {
-        seen_ = std::make_shared<render::Image>(
-            session.outputs().display().read_eye(stereo::Eye::left));
-    } catch (const render::Error&) { // that eye is not shown
+        const stereo::Display& display = session.outputs().display();
+        const stereo::Eye eye = stereo::eyes_of(display.mode()).front();
+        seen_ = std::make_shared<render::Image>(display.read_eye(eye));
+    } catch (const render::Error&) { // nothing was drawn into that window
     }
 }
 
@@ -133,16 +134,17 @@ void SessionKeeper::update(const ExplorerState& state, const interaction::Standi
 }
 
 void SessionKeeper::save_now(const ExplorerState& state, const interaction::StandingPlace& head,
-                             const Arrays& arrays) {
+                             const Arrays& arrays, bool says) {
     keep(state, head, arrays);
     kept_.name = name_;
     writing_.post([path = path_, session = kept_, seen = seen_, others = others_,
-                   replaced = std::exchange(goes_on_with_, {})] {
+                   replaced = std::exchange(goes_on_with_, {}), says] {
         write(path, session, seen, *others);
         std::error_code ignored;
         if (const fs::path& old = replaced == path ? others->moved : replaced; !old.empty())
             fs::remove(old, ignored);
-        return session.name.empty()
+        return !says ? std::string()
+               : session.name.empty()
                    ? "session saved: " + path.string()
                    : fmt::format("session saved as {}: {}", session.name, path.string());
     });

@@ -44,9 +44,9 @@ class SessionKeeper final : public Companion {
     /// Saves the session if a save is due and it has changed.
     void update(const ExplorerState& state, const interaction::StandingPlace& head,
                 interaction::Seconds now, const Arrays& arrays = {});
-    /// Saves the session now, and says where.
+    /// Saves the session now, and says where unless `says` is false.
     void save_now(const ExplorerState& state, const interaction::StandingPlace& head,
-                  const Arrays& arrays = {});
+                  const Arrays& arrays = {}, bool says = true);
     /// The session has this name from now on. @param name empty: none
     void set_name(const std::string& name);
     /// The user goes on with another session, so what was made before is kept apart. If the other one
@@ -79,7 +79,6 @@ class SessionKeeper final : public Companion {
     static void write(const std::filesystem::path& path, SavedSession session,
                       const std::shared_ptr<const render::Image>& seen, Others& others);
     void look_at(const Session& session, const FrameReport& drawn);
-    void ask_for_name(Session& session, const LiveFrame& frame);
 
     std::filesystem::path path_;
     const SavedSession start_;

@@ -34,6 +34,7 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     // The fields of these two pages have the keyboard all the time.
     if (escapes && asks_name_) {
         asks_name_ = false;
+        name_.clear();
         return true;
     }
     if (escapes && search_.is_open()) {

@@ -29,10 +29,11 @@ class OperatorPanel {
     /// See OpenPages.
     void offer_earlier() { over_.pages().offer_earlier(); }
     std::optional<OfferedSession> take_continued();
-    /// A panel in its own window has no room for the question.
-    void ask_session_name() {
+    /// @return false: a panel in its own window has no room for the question
+    bool ask_session_name() {
         if (!console_)
             over_.pages().ask_session_name();
+        return !console_;
     }
     std::optional<std::string> take_session_name() { return over_.pages().take_session_name(); }
     void offer_files(std::function<std::vector<std::filesystem::path>()> recent) {

@@ -129,7 +129,7 @@ Answer earlier_card(const PanelBox& picture, float top, std::span<const OfferedS
 
 Answer name_card(const PanelBox& picture, float top, std::string& name) {
     begin_card("###session name", picture, 360.0f, top, 0.0f);
-    note("The session is saved. With a name it is kept for ever.", color_of(Ink::text));
+    note("The session is saved. A name keeps it for ever.", color_of(Ink::text));
     if (!ImGui::IsAnyItemActive()) { // it has the keyboard as long as the question is open
         ImGui::SetWindowFocus();
         ImGui::SetKeyboardFocusHere();

@@ -242,7 +242,7 @@ TEST(SessionKeeper, DropsNoneOfAnotherWindowAndNoneThatGotANameMeanwhile) {
     const auto path = folder.path() / "a.isochron-session";
     ExplorerState state;
     for (std::size_t i = 0; i < kMostSessions; ++i) {
-        state.set_isovalue(static_cast<double>(i));
+        state.set_isovalue(static_cast<double>(i + 1));
         explore_on_day(path, state, i);
     }
     const auto oldest = sessions_of(path).back().path;
@@ -329,7 +329,7 @@ TEST(SessionKeeper, ACrashBetweenTheFilesLosesNoSession) {
     const auto path = folder.path() / "a.isochron-session";
     ExplorerState state;
     for (std::size_t i = 0; i < kMostSessions; ++i) {
-        state.set_isovalue(static_cast<double>(i));
+        state.set_isovalue(static_cast<double>(i + 1));
         explore_on_day(path, state, i);
     }
     const auto before = sessions_of(path);

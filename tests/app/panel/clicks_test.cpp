@@ -267,7 +267,8 @@ class ClicksOnALine : public LayerTest {
         for (int i = 0; i < 5; ++i)
             show(0.5, {});
         const auto place =
-            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(), lately_);
+            place_of_text(*ImGui::GetDrawData(), *ImGui::GetIO().Fonts->Fonts.front(),
+                          std::filesystem::path(lately_).filename().string());
         ASSERT_TRUE(place);
         show(0.1, {interaction::MouseMoveEvent{place->x / float(kSize.x), place->y / float(kSize.y),
                                                kSize.x, kSize.y}});

@@ -73,6 +73,7 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
                 .notes = notes_,
                 .recording = recording_,
                 .movies = {.offered = true, .recorded = true},
+                .sessions = sessions_,
                 .controls = controls_,
                 .at_hand = {interaction::DeviceKind::mouse, interaction::DeviceKind::keyboard}};
     }
@@ -140,6 +141,7 @@ class LegiblePanel : public testing::TestWithParam<Shape> {
         {"vorticity", "64 x 64 x 64, 64 steps", "1/s", "0.017 to 40.25", ""},
         {"a rather long name of an array, as files have them", "64 x 64 x 64, 64 steps",
          "kg m-1 s-2", "-1.234e+05 to 9.876e+05", ""}};
+    std::vector<OfferedSession> sessions_;
     std::vector<interaction::ControlGroup> controls_ = interaction::Controls::documentation();
     interaction::Seconds time_{0};
 };

@@ -20,8 +20,8 @@ LEFT_OUT = re.compile(r"^(tests/data|tests/fuzz/(corpus|found)|docs)/")
 def tagged(text, mark):
     """The text with its line: behind the first lines of comment, or before all others."""
     lines = text.split("\n")
-    at = 1 if lines[0].startswith("#!") else 0
-    while at < len(lines) and lines[at].startswith(mark) and not lines[at].startswith("#!"):
+    at = 1 if lines[0].startswith(("#!", "#version")) else 0  # of programs and shaders
+    while at < len(lines) and lines[at].startswith(mark):
         at += 1
     lines.insert(at, f"{mark} {WORDS}")
     return "\n".join(lines)

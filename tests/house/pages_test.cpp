@@ -153,9 +153,9 @@ Findings unknown_options(const std::filesystem::path& root, const std::vector<st
             for (std::sregex_iterator at(text.begin(), text.end(), kOffered), end; at != end; ++at)
                 known.insert((*at)[1].str());
         }
-    // Options of mpirun, cmake and apt.
+    // Options of mpirun, cmake, apt and ./run.
     known.insert({"--hostfile", "--oversubscribe", "--preset", "--target", "--install", "--build",
-                  "--prefix", "--strip", "--no-install-recommends", "--serve"});
+                  "--prefix", "--strip", "--no-install-recommends", "--serve", "--everything"});
     Findings unknown;
     for (const std::string& page : pages) {
         const std::string text = text_of_page(root / page);

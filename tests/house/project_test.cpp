@@ -55,10 +55,11 @@ TEST(Project, NamesAddressesWhereThereAreSomeAndNoOthers) {
     const auto expect_said = [&](const char* setting, const std::string& key, const char* where) {
         const std::string& address = settings.at(setting);
         const std::string text = text_of(where);
-        if (!address.empty())
+        if (!address.empty()) {
             EXPECT_THAT(text, HasSubstr(key + address)) << where << ": " << setting;
-        else if (!key.empty())
+        } else if (!key.empty()) {
             EXPECT_THAT(text, Not(HasSubstr("\n" + key))) << where << ": " << setting;
+        }
     };
     expect_said("HOMEPAGE", "url: ", "CITATION.cff");
     expect_said("HOMEPAGE", "", "README.md");

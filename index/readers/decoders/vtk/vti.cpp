@@ -145,8 +145,12 @@ class VtiFile final : public DecodedFile {
     void take_time() {
         for (const char* name : kTimeFields)
             for (const VtiArray& field : document_.fields) {
-                if (field.array.name != name || !field.array.type)
+                if (field.array.name != name)
                     continue;
+                if (!field.array.type)
+                    throw Error(fmt::format("{} is of another type than VTK's, expected Int8 to "
+                                            "UInt64, Float32 or Float64",
+                                            where(name)));
                 std::array<std::byte, 8> bytes{};
                 const std::size_t size = size_of(*field.array.type);
                 read_vti_values(field.place, document_.encoding, *field.array.type,
@@ -275,7 +279,7 @@ class VtiFile final : public DecodedFile {
     ChosenScalar chosen_;
     std::vector<std::uint8_t> hidden_;
     bool decoded_ = false;
-    std::span<const std::byte> values_; ///< of the chosen array, in the file or in memory
+    std::span<const std::byte> values_; ///< values of the chosen array, in the file or in memory
     std::vector<std::byte> memory_;
 };
 

@@ -177,7 +177,7 @@ class DocumentReader {
         return std::nullopt;
     }
 
-    /// Of a file that has several steps the first counts, as in VTK.
+    /// Where a file has several steps, the first counts, as in VTK.
     bool is_of_another_step(const XMLElement& element) const {
         if (!has_steps_ || !element.Attribute("TimeStep"))
             return false;

@@ -120,7 +120,7 @@ class StoredBytes {
     bool raw_;
     const std::string& where_;
     std::array<std::byte, 3> group_{};
-    int next_ = 0, count_ = 0; ///< of the group's bytes
+    int next_ = 0, count_ = 0; ///< bytes of the group: taken, and all
 };
 
 void to_native(std::span<std::byte> values, std::size_t size, bool big_endian) {
@@ -213,7 +213,7 @@ void read_blocks(StoredBytes& bytes, const VtiEncoding& encoding, std::span<std:
              fmt::format("truncated: its blocks hold {} bytes, expected {}", done, out.size()));
 }
 
-/// Of f32 and f64, infinities and NaN, too.
+/// Infinities and NaN are numbers of f32 and f64, too. @return whether it is a number of this type
 template <class T>
 bool parse(std::string_view word, T& value) {
     if (word.starts_with('+'))

@@ -50,7 +50,7 @@ std::shared_ptr<WrittenHelp> help_of(const CLI::App& command) {
 /// What a word of a value says in help: the parser's type, and the forms of what is accepted.
 struct ShownValue {
     std::string type, form;
-    std::vector<std::string> words; ///< of the form `{a,b,c}`
+    std::vector<std::string> words; ///< where the form lists them: `{a,b,c}`
 };
 
 ShownValue shown_value(const CLI::Option& option) {

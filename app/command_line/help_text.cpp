@@ -22,7 +22,7 @@ constexpr std::size_t kIndent = 26; ///< columns before the text of an option
 std::string wrapped(const std::string& begin, const std::string& text, std::size_t indent,
                     std::size_t width, std::string_view end = "") {
     std::string lines, line = begin;
-    bool first = true; // of its line
+    bool first = true; // word of a line
     std::istringstream words(text);
     for (std::string word; words >> word; first = false) {
         if (!first && line.size() + 1 + word.size() + end.size() > width) {

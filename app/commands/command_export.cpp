@@ -355,9 +355,10 @@ void add_export(Command& program) {
         .values(2)
         .type_name("LOW HIGH");
     command
-        .option("--precision", arguments->precision,
-                "Precision of coordinates. Where single precision is too coarse, an origin is "
-                "subtracted from them, and the file states this origin")
+        .option(
+            "--precision", arguments->precision,
+            "Precision of coordinates: single or double. Where single is too coarse, an origin is "
+            "subtracted from them, and the file states this origin")
         .one_of({"single", "double"})
         .shows_default()
         .type_name("PRECISION");

@@ -160,7 +160,9 @@ TEST_F(HelpExamples, AndAllHelpAreAsWideAsTheTerminal) {
     }
 }
 
-TEST_F(HelpExamples, OfEveryCommandTellAnswersAndNotesApart) {
+class EachCommand : public HelpExamples {};
+
+TEST_F(EachCommand, TellsAnswersOnStdoutAndNotesOnStderr) {
     ASSERT_EQ(shell("isochron generate sphere --step-count 3 -o run42 && isochron build run42 -o "
                     "run42.isochron && isochron replay walk.jsonl --stamps -o pictures")
                   .status,

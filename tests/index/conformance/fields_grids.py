@@ -202,7 +202,7 @@ kind, plain, timed = "VTKHDF", vtkhdf(), vtkhdf(2)
 for name, value in [("WholeExtent", [1, 6, 0, 4, 0, 3]), ("Origin", [1., 0, 0]), ("Spacing", [2., 1, 1]),
                     ("Direction", [0., 1, 0, 1, 0, 0, 0, 0, 1]), ("Version", [3, 0])]:
     add(kind, name, plain, vtkhdf(root={name: value}))
-add(kind, "other attributes", plain, vtkhdf(root={"Comment": "a phantom"}))
+add(kind, "other attributes", plain, vtkhdf(root={"Owner": "me"}))
 add(kind, "Steps/Values", timed, vtkhdf(2, at=np.array([3., 7])))
 add(kind, "Steps/PointDataOffsets", timed, vtkhdf(2, more=lambda g: g.create_dataset("Steps/PointDataOffsets/p", data=[1, 0])))
 add(kind, "FieldData", plain, vtkhdf(more=lambda g: g.create_dataset("FieldData/CYCLE", data=[3])))

@@ -209,7 +209,7 @@ class TiffVolume final : public DecodedFile {
         if (!slices_.empty() || !(x > 0) || !(y > 0) || unit < 2 || unit > 3 ||
             said.starts_with("ImageJ=") || said.find("<OME") != said.npos)
             return;
-        // Of screens and prints, or of no known size: 1 mm in VTK and ITK.
+        // Usual resolutions of screens and prints; 25.4 is what VTK and ITK write for pixels of 1 mm.
         constexpr std::array kUsual{1.0, 25.4, 72.0, 75.0, 96.0, 100.0, 150.0, 200.0, 300.0, 600.0};
         constexpr double kRounded = 0.01, kCentimeters = 2.54; // in an inch
         const double in_inch = unit == 2 ? x : x * kCentimeters;

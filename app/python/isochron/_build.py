@@ -114,7 +114,8 @@ def build(
     for name, text in (("component", component), ("length_unit", length_unit), ("value_unit", value_unit),
                        ("color", color), ("color_component", color_component), ("color_unit", color_unit),
                        ("codec", codec), ("dates", dates), ("member", member), ("patience", patience),
-                       ("header_bytes", header_bytes), ("lattice", lattice), ("max_variation", max_variation), ("threads", threads)):  # fmt: skip
+                       ("header_bytes", header_bytes), ("lattice", lattice), ("max_variation", max_variation),
+                       ("threads", threads)):  # fmt: skip
         if text is not None:
             words += option(name, text if isinstance(text, str) else whole(text, name))
     if tiers is not None:

@@ -137,8 +137,8 @@ void build_with(index::Team& team, const BuildArguments& asked, const Command& c
         left_out = sources.notes;
         has_work = build.take(std::move(sources), files);
     });
-    if (const std::string note = build.reread(); reports && !note.empty())
-        print_safely(stderr, "isochron: {}\n", note);
+    if (const std::string note = build.reread(); leads && !note.empty())
+        print_note("{}", note);
     if (!has_work) {
         if (leads)
             report(arguments.out, false, {});

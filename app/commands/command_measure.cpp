@@ -6,7 +6,7 @@
 #include "app/commands/csv_rows.h"
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/measure/measures.h"
@@ -37,7 +37,7 @@ struct MeasureArguments {
     std::uint32_t fraction = 0;
     std::vector<std::string> measures;
     std::optional<std::string> array, on_surface;
-    bool pieces = false, csv = false, json = false, force = false;
+    bool pieces = false, csv = false, force = false;
 };
 
 /// The measures that are asked for, by their numbers; those of the other array only with one.
@@ -203,23 +203,24 @@ SafeText as_table(const Rows& made) {
 
 void run_measure(const MeasureArguments& arguments) {
     const std::vector<std::size_t> numbers = chosen(arguments);
-    const auto file = array_called(open_index(arguments.file), arguments.array);
+    const auto file = open_array(arguments.file, arguments.array);
     for (const double isovalue : arguments.isovalues)
         warn_beyond(isovalue, *file);
     if (!arguments.out.empty())
         guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, file.get()},
                       arguments.force);
     const Rows made = measured(arguments, file, numbers);
-    const bool csv = arguments.csv || (!arguments.out.empty() && !arguments.json);
-    const SafeText text = arguments.json ? SafeText::json(as_json(arguments, *file, made))
-                          : csv          ? SafeText::lines(csv_of(made.rows, made.columns))
-                                         : as_table(made);
-    if (arguments.out.empty())
-        return print_safely(text);
+    if (arguments.out.empty()) {
+        tell_result(as_json(arguments, *file, made));
+        return print_answer(arguments.csv ? SafeText::lines(csv_of(made.rows, made.columns))
+                                          : as_table(made));
+    }
+    const std::string text = csv_of(made.rows, made.columns);
     index::NewFile written(arguments.out);
-    written.write_at(0, std::as_bytes(std::span(text.str())));
+    written.write_at(0, std::as_bytes(std::span(text)));
     written.commit();
-    print_safely("wrote {}: {} rows\n", arguments.out.string(), made.rows.size());
+    tell_result({{"file", arguments.out.string()}, {"rows", made.rows.size()}});
+    print_report("wrote {}: {} rows\n", arguments.out.string(), made.rows.size());
 }
 
 } // namespace
@@ -227,48 +228,63 @@ void run_measure(const MeasureArguments& arguments) {
 void add_measure(Command& program) {
     auto arguments = std::make_shared<MeasureArguments>();
     Command command = program.subcommand(
-        "measure", "Measure surfaces: area, enclosed volume, connected pieces and more.");
+        "measure", "Measure surfaces: their area, the volume that they enclose, their connected "
+                   "pieces and more.");
     command.examples({"isochron measure run42.isochron --isovalue 100",
                       "isochron measure run42.isochron --isovalue 100 --steps 7 --pieces"});
-    command.option("file", arguments->file, "Index").required().type_name("NAME.isochron");
-    command.option("--array", arguments->array,
-                   "Array of the surfaces, if the index has several (default: its first)");
+    command.option("file", arguments->file, "Index whose surfaces are measured")
+        .required()
+        .type_name("INDEX");
+    command
+        .option("--array", arguments->array,
+                "Array of the surfaces, where the index has several (default: its first)")
+        .type_name("NAME");
     command
         .option("--isovalue", arguments->isovalues,
                 "Isovalue, in the unit of the values (after scaling); again for another surface")
         .repeatable()
-        .required();
-    command.option("--steps", arguments->steps,
-                   "FIRST:LAST[:STRIDE] or one step, counted from 0 (default: all steps)");
+        .required()
+        .type_name("VALUE");
+    command
+        .option("--steps,--step", arguments->steps,
+                "Steps to measure, counted from 0: one step, or FIRST:LAST[:STRIDE] (default: all)")
+        .type_name("STEPS");
     command
         .option("--fraction", arguments->fraction,
-                "Between two steps: so many 65536ths of the way to the next step")
+                "Measure between each step and the next: 0 is the step, 32768 is halfway, 65536 "
+                "would be the next step")
         .between(0u, 65535u)
-        .shows_default();
+        .shows_default()
+        .type_name("FRACTION");
     std::vector<std::string> names;
     std::string definitions;
     for (const index::Measure& measure : index::measures()) {
         names.emplace_back(measure.name);
-        definitions += fmt::format("\n  {:<14}{}", measure.name, measure.definition);
+        definitions += fmt::format("{}: {}. ", measure.name, measure.definition);
     }
     command
         .option("--measure", arguments->measures,
-                "What to measure; again for another one (default: all of the list below)")
+                "What to measure; again for another one (default: all)")
         .repeatable()
         .one_of(names);
-    command.option("--on-surface", arguments->on_surface,
-                   "Another array of the index, to measure on the surface");
-    command.flag("--pieces", arguments->pieces,
-                 "A row for each connected piece, the largest area first: area, enclosed volume "
-                 "(negative around lower values), Euler number, centroid, extent");
-    command.flag("--csv", arguments->csv, "Print CSV");
-    command.flag("--json", arguments->json, "Print one JSON object: file, array, units, rows");
-    command.option("-o,--out", arguments->out, "Output file, CSV or JSON (default: the terminal)");
+    command
+        .option("--on-surface", arguments->on_surface,
+                "Another array of the index, whose values on the surface are measured")
+        .type_name("NAME");
+    command.flag(
+        "--pieces", arguments->pieces,
+        "Print a row for each connected piece of a surface, the largest area first, with its "
+        "area, the volume that it encloses (negative around lower values), its Euler number, "
+        "its centroid and its extent");
+    command.flag("--csv", arguments->csv, "Print the table as CSV");
+    command
+        .option("-o,--output,--out", arguments->out, "CSV file to write (default: print a table)")
+        .type_name("FILE");
     command.flag("--force", arguments->force, "Replace a file that exists");
     command.footer(
-        "Measures:" + definitions +
-        "\nAreas and volumes are in powers of the data's unit of length; docs/FORMATS.md "
-        "has the definitions.");
+        "The measures. " + definitions +
+        "Areas and volumes are in powers of the data's unit of length. docs/FORMATS.md has "
+        "the definitions in full.");
     command.on_run([arguments] { run_measure(*arguments); });
 }
 

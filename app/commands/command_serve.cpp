@@ -4,8 +4,8 @@
 #include "app/command_line/subcommands.h"
 #include "app/control/control_address.h"
 #include "app/indexing/open_index.h"
-#include "app/safe_text.h"
 #include "app/serve/http_server.h"
+#include "app/telling.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/input_file.h"
@@ -13,6 +13,7 @@
 #include "index/system/new_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <memory>
@@ -64,7 +65,7 @@ void write_site(const ServeArguments& arguments) {
     std::uintmax_t bytes = 0;
     for (const fs::path& file : arguments.files)
         bytes += fs::file_size(file);
-    print_safely("writing {}: {}\n", folder.string(), human_bytes(static_cast<double>(bytes)));
+    print_note("writing {}: {}", folder.string(), human_bytes(static_cast<double>(bytes)));
     const CancelOnSignal signals;
     fs::create_directories(folder);
     for (const fs::path& file : arguments.files) {
@@ -84,13 +85,13 @@ void write_site(const ServeArguments& arguments) {
         out.commit();
     }
     site_module().write_page(folder, arguments.files);
-    print_safely(
+    tell_result({{"folder", folder.string()}, {"bytes", bytes}});
+    print_report(
         "wrote {}: put it on any web server that answers ranges; a link to its folder opens "
         "the page\n",
         folder.string());
-    print_safely(stderr,
-                 "isochron: note: an index holds the names of its source files and their notes "
-                 "(isochron info shows them)\n");
+    print_note(
+        "an index holds the names of its source files and their notes (isochron info shows them)");
 }
 
 /// Waits without using the processor.
@@ -137,10 +138,14 @@ void run_serve(const ServeArguments& arguments) {
                              : arguments.address.find(':') != std::string::npos
                                  ? "[" + arguments.address + "]"
                                  : arguments.address;
-    print_safely("http{}://{}:{}/{}\n", arguments.certificate.empty() ? "" : "s", host,
-                 server->port(), token.empty() ? "" : "#token=" + token);
+    const std::string link =
+        fmt::format("http{}://{}:{}/{}", arguments.certificate.empty() ? "" : "s", host,
+                    server->port(), token.empty() ? "" : "#token=" + token);
+    tell_result({{"link", link}});
+    print_answer("{}\n", link);
+    print_result(); // now: whoever reads it wants to open it
     std::fflush(stdout);
-    print_safely(stderr, "isochron: serving until Ctrl+C\n");
+    print_note("serving until Ctrl+C");
     wait_for_signal();
 }
 
@@ -151,32 +156,38 @@ void add_serve(Command& program) {
     Command command = program.subcommand(
         "serve", "Show indices on a web page, to browsers on this machine or on others.");
     command.examples(
-        {"isochron serve run42.isochron", "isochron serve --write-site site/ run42.isochron"});
-    command.option("files", arguments->files, "Indices; the page shows the first")
+        {"isochron serve run42.isochron", "isochron serve run42.isochron --write-site site/"});
+    command.option("files", arguments->files, "Indices to serve; the page shows the first")
         .required()
-        .type_name("NAME.isochron");
+        .type_name("INDEX");
     command
         .option("--address", arguments->address,
                 "Address to listen on: 0.0.0.0 lets all machines of the network ask")
-        .shows_default();
+        .shows_default()
+        .type_name("ADDRESS");
     command.option("--port", arguments->port, "Port to listen on (default: one that is free)")
-        .between(0u, 65535u);
+        .between(0u, 65535u)
+        .type_name("PORT");
     command
-        .option("--certificate", arguments->certificate,
-                "Serve by https: headsets open the page in VR only so, or from localhost")
-        .type_name("CERT.pem");
-    command.option("--key", arguments->key, "Private key of the certificate").type_name("KEY.pem");
-    command.flag(
-        "--no-token", arguments->no_token,
-        "Let everybody who reaches the address open it, without the token of the printed link");
+        .option(
+            "--certificate", arguments->certificate,
+            "Certificate in PEM, to serve by https: headsets open the page in VR only so, or from "
+            "localhost")
+        .type_name("FILE");
+    command.option("--key", arguments->key, "Private key of the certificate, in PEM")
+        .type_name("FILE");
+    command.flag("--no-token", arguments->no_token,
+                 "Let everybody who reaches the address open the page, without the token of the "
+                 "printed link");
     command
         .option(
             "--write-site", arguments->write_site,
-            "Write page and indices into this folder instead, as plain files for any web server")
+            "Write the page and the indices into this folder instead, as plain files for any web "
+            "server")
         .type_name("FOLDER");
     command.footer(
-        "The page reads ranges of the files and searches in the browser; the server only sends "
-        "bytes of these files. docs/guide/sharing.md says what other servers need.");
+        "The page reads ranges of the files and searches in the browser; the server only "
+        "sends bytes of these files. docs/guide/sharing.md says what other servers need.");
     command.on_run([arguments] { run_serve(*arguments); });
 }
 

@@ -95,6 +95,7 @@ query run42.isochron --isovalue 100 --step 0 --repeat 1
 query run42.isochron --isovalue 100 --step 0 --repeat 1 -o ids.bin
 change run42.isochron --isovalue 100 --step 0 --to-step 1 --repeat 1
 table walk.jsonl
+measure run42.isochron --isovalue 100
 explore --check-config cave4
 explore --list-devices --config cave4
 config import cave.pvx
@@ -108,6 +109,7 @@ verify run42.isochron
 export run42.isochron --isovalue 100 --step 0 -o s.ply --force
 export run42.isochron --isovalue 100 --steps 0:1 -o s.ply --force --simplify 0.5cells
 table walk.jsonl -o table.csv --force
+serve run42.isochron --write-site site
 generate sphere -o again --step-count 1 --force
 config import cave.pvx -o cave.toml --force
 manual -o pages
@@ -126,7 +128,7 @@ for line, status in [("verify damaged.isochron", 1), ("verify none.isochron", 1)
                      ("build none.vti -o x.isochron", 1), ("query run42.isochron --isovalue 1 --step 99", 1),
                      ("query run42.isochron --isovalue x --step 1", 2), ("export run42.isochron -o s.ply", 2),
                      ("explore --check-config none", 1), ("explore --check-config wrong.toml", 1),
-                     ("replay none.jsonl", 1), ("reproduce run42.isochron", 1), ("table run42.isochron", 1),
+                     ("replay none.jsonl", 1), ("reproduce run42.isochron", 1), ("table run42.isochron", 1), ("measure run42.isochron --isovalue 1 --steps 99", 2), ("serve none.isochron", 1),
                      ("movie walk.jsonl -o x.avi", 2), ("tell state --socket none", 1), ("help bild", 2),
                      ("generate sphere", 2), ("config import none.pvx", 1), ("completion tcsh", 2), ("manual", 2),
                      ("change run42.isochron --isovalue 1 --step 1", 2)]:

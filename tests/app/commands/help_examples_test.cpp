@@ -140,6 +140,10 @@ TEST_F(HelpExamples, OfEveryCommandWorkAsTheyAreWritten) {
                 example = "isochron explore run42.isochron --control & until [ -S "
                           "$XDG_RUNTIME_DIR/isochron/control.sock ]; do sleep 0.1; done; " +
                           example + " && isochron tell quit && wait $!";
+            // A server prints its link, and is ended.
+            if (example == "isochron serve run42.isochron")
+                example +=
+                    " > link & until [ -s link ]; do sleep 0.1; done; kill -TERM $!; wait $!";
             const ChildResult result = shell(example);
             EXPECT_EQ(result.status, 0) << example << '\n' << result.err;
         }
@@ -185,6 +189,7 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
             line.erase(0, 1);
         const auto has = [&](const char* word) { return line.find(word) != std::string::npos; };
         if (block && line.starts_with("isochron ") && !has("--live") &&
+            (!has(" serve ") || has("--write-site")) && // else it goes on until it is ended
             (!has(" explore ") || has("--check-config") || has("--list-devices")))
             found.push_back(line);
     }
@@ -272,7 +277,8 @@ INSTANTIATE_TEST_SUITE_P(
     Pages, GuideCommands,
     testing::Values("README", "docs/guide/data", "docs/guide/tutorial", "docs/guide/recordings",
                     "docs/guide/cells", "docs/guide/export", "docs/guide/programs",
-                    "docs/guide/walls", "docs/guide/clusters", "docs/guide/trackers"),
+                    "docs/guide/walls", "docs/guide/clusters", "docs/guide/trackers",
+                    "docs/guide/measure", "docs/guide/sharing"),
     [](const auto& page) { return page.param.substr(page.param.rfind('/') + 1); });
 
 TEST_P(GuideCommands, WorkAsTheyAreWritten) {

@@ -58,7 +58,7 @@ class FileWindow {
     std::vector<std::filesystem::path> recent_;
     Offers offers_;
     std::map<std::filesystem::path, std::shared_future<render::Image>>
-        pictures_; ///< of recent data
+        pictures_; ///< pictures of recent data
     std::filesystem::path folder_;
     std::string path_;   ///< the text of the path
     std::string filter_; ///< words that the names of the listed lines have

@@ -17,10 +17,7 @@ using RROutput = XID;
 #define GLFW_EXPOSE_NATIVE_EGL
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
-// A GLFW for Wayland alone lacks these, as that of Debian 12's libglfw3-wayland.
-#pragma weak glfwGetX11Display
-#pragma weak glfwGetGLXContext
-#pragma weak glfwGetGLXWindow
+#include <dlfcn.h>
 
 namespace isochron::stereo {
 namespace {
@@ -56,7 +53,25 @@ EglHandles egl_handles(GLFWwindow* window) {
     return {display, config, context, get};
 }
 
-GlxHandles glx_handles(GLFWwindow* window) {
+/// Functions that a GLFW for Wayland alone lacks, as that of Debian 12's libglfw3-wayland: null there.
+struct GlfwOfX11 {
+    decltype(&glfwGetX11Display) display;
+    decltype(&glfwGetGLXContext) context;
+    decltype(&glfwGetGLXWindow) window;
+};
+
+GlfwOfX11 glfw_of_x11() {
+    const auto find = []<class F>(F*& function, const char* name) {
+        function = reinterpret_cast<F*>(dlsym(RTLD_DEFAULT, name));
+    };
+    GlfwOfX11 found{};
+    find(found.display, "glfwGetX11Display");
+    find(found.context, "glfwGetGLXContext");
+    find(found.window, "glfwGetGLXWindow");
+    return found;
+}
+
+GlxHandles glx_handles(GLFWwindow* window, const GlfwOfX11& x11) {
     constexpr int kConfigId = 0x8013, kVisualId = 0x800B, kEnd = 0; // GLX 1.3
     const SharedLibrary library("libGL.so.1"), xlib("libX11.so.6");
     int (*query)(Display*, GLXContext, int, int*);
@@ -67,8 +82,8 @@ GlxHandles glx_handles(GLFWwindow* window) {
     library.get(choose, "glXChooseFBConfig");
     library.get(attribute, "glXGetFBConfigAttrib");
     xlib.get(release, "XFree");
-    Display* display = glfwGetX11Display();
-    GLXContext context = glfwGetGLXContext(window);
+    Display* display = x11.display();
+    GLXContext context = x11.context(window);
     GLXFBConfig config =
         config_of([&](int name, int* value) { query(display, context, name, value); },
                   [&](const int* attributes) -> GLXFBConfig {
@@ -84,7 +99,7 @@ GlxHandles glx_handles(GLFWwindow* window) {
     int visual = 0;
     if (config)
         attribute(display, config, kVisualId, &visual);
-    return {display, static_cast<std::uint32_t>(visual), config, glfwGetGLXWindow(window), context};
+    return {display, static_cast<std::uint32_t>(visual), config, x11.window(window), context};
 }
 
 } // namespace
@@ -92,8 +107,9 @@ GlxHandles glx_handles(GLFWwindow* window) {
 NativeGl native_of(GLFWwindow* window) {
     if (glfwGetWindowAttrib(window, GLFW_CONTEXT_CREATION_API) == GLFW_EGL_CONTEXT_API)
         return egl_handles(window);
-    if (glfwGetX11Display && glfwGetX11Display() && glfwGetGLXContext(window))
-        return glx_handles(window);
+    const GlfwOfX11 x11 = glfw_of_x11();
+    if (x11.display && x11.context && x11.window && x11.display() && x11.context(window))
+        return glx_handles(window, x11);
     return {};
 }
 

@@ -12,7 +12,7 @@ using RROutput = XID;
 #define GLFW_EXPOSE_NATIVE_X11
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
-#pragma weak glfwGetX11Display // which a GLFW for Wayland alone lacks
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <chrono>
@@ -65,7 +65,10 @@ bool wait_for_window_events(const Wake& wake, Seconds longest) {
     constexpr Seconds kLongest{3600};
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::clamp(longest, Seconds(0), kLongest));
-    Display* display = glfwGetX11Display ? glfwGetX11Display() : nullptr;
+    // A GLFW for Wayland alone lacks it.
+    static const auto of_x11 =
+        reinterpret_cast<decltype(&glfwGetX11Display)>(dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
+    Display* display = of_x11 ? of_x11() : nullptr;
     return display ? wait_for_x_events(display, wake, end) : wait_for_other_events(wake, end);
 }
 

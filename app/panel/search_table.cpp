@@ -102,7 +102,8 @@ constexpr OtherNames kOtherNames[] = {
     {"color_bands", "discretize, discrete colors, number of colors, steps of color, table values, "
                     "contour bands, posterize"},
     // Look.
-    {"background", "backdrop, background color, canvas, theme, world color, sky, bg"},
+    {"background", "backdrop, background color, canvas, theme, world color, sky, bg, viewport "
+                   "background, bgcolor"},
     {"background=light", "white background, light mode, light theme, bright background, paper, "
                          "for printing, white"},
     {"background=dark", "black background, dark mode, dark theme, night mode, black"},
@@ -122,7 +123,7 @@ constexpr OtherNames kOtherNames[] = {
                      "coordinates, frame, show bounds, extent, ticks, ruler axes, dimensions"},
     {"grid", "floor, ground, ground plane, horizon, floor grid"},
     {"orthographic", "orthogonal, ortho, parallel projection, perspective, camera projection, "
-                     "isometric projection, projection, switch perspective ortho"},
+                     "isometric projection, projection, switch perspective ortho, numpad 5"},
     {"heights", "vertical exaggeration, z scale, stretch z, scale z, aspect ratio, anisotropic "
                 "scale, relief, stretch"},
     {"exaggerate", "stretch z, taller"},

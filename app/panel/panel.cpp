@@ -96,16 +96,17 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     }
     const float right = state_chip(model, free, view.statistics);
     gap_window(model, free);
-    view_cube(model, free, commands);
+    const float left_of_cube = view_cube(model, free, commands);
     view.below_chip = free.low.y + 10.0f;
     if (!has_tool_strip(model))
         return;
-    ImGui::SetNextWindowPos({right + 8.0f, free.low.y + 10.0f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0f, 3.0f});
+    constexpr float kApart = 8.0f, kPadding = 8.0f;
+    ImGui::SetNextWindowPos({right + kApart, free.low.y + 10.0f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kPadding, 3.0f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
     ImGui::Begin("###tool", nullptr,
                  kPart | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-    tool_strip(model, commands);
+    tool_strip(model, left_of_cube - right - 2 * (kApart + kPadding), commands);
     view.below_chip += ImGui::GetWindowHeight() + 6.0f;
     ImGui::End();
     ImGui::PopStyleColor();
@@ -139,7 +140,7 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     else
         section_column(model, pages, commands, view.pointed);
     if (model.place == PanelPlace::in_room && has_tool_strip(model))
-        tool_strip(model, commands);
+        tool_strip(model, ImGui::GetContentRegionAvail().x, commands);
     end_part();
     ImGui::PopStyleVar();
     begin_part("###time", layout.time, Ink::bar);

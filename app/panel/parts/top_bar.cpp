@@ -166,14 +166,24 @@ void made_line(const interaction::ToolRow& tool, const PanelModel& model, Comman
         tool.remove(commands);
 }
 
-/// The place that the user picked.
-void mark_line(const PanelModel& model, Commands& commands) {
+/// The place that the user picked, as much of it as there is room for.
+void mark_line(const PanelModel& model, float width, Commands& commands) {
     const interaction::MarkedPoint& point = *model.asked.mark.point;
+    constexpr const char* kHere = "isovalue here";
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float buttons = ImGui::CalcTextSize(kHere).x + 2 * style.FramePadding.x +
+                          ImGui::GetFrameHeight() + 2 * style.ItemSpacing.x;
+    const auto fits = [&](const std::string& words) {
+        return ImGui::CalcTextSize(words.c_str()).x + buttons <= width;
+    };
     ImGui::AlignTextToFramePadding();
-    const std::string words = mark_text(point, model.info);
-    fitted_text(words.substr(0, words.find('\n')), 200.0f, color_of(Ink::text));
+    const std::string all = mark_text(point, model.info),
+                      words = mark_text(point, model.info, fits);
+    text(words);
+    if (words != all)
+        tip(all.c_str());
     ImGui::SameLine();
-    if (ImGui::Button("isovalue here"))
+    if (ImGui::Button(kHere))
         commands.isovalue = point.value;
     tip("set the isovalue to the value at the mark");
     ImGui::SameLine();
@@ -198,7 +208,7 @@ bool has_tool_strip(const PanelModel& model) {
     });
 }
 
-void tool_strip(const PanelModel& model, Commands& commands) {
+void tool_strip(const PanelModel& model, float width, Commands& commands) {
     for (const interaction::ToolRow& tool : interaction::tool_table()) {
         if (!has_line(tool, model))
             continue;
@@ -208,7 +218,7 @@ void tool_strip(const PanelModel& model, Commands& commands) {
             made_line(tool, model, commands);
     }
     if (model.asked.mark.point)
-        mark_line(model, commands);
+        mark_line(model, width, commands);
 }
 
 } // namespace isochron::app

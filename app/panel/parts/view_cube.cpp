@@ -132,9 +132,10 @@ void small_cube(const PanelModel& model, const interaction::Similarity& placed,
     }
 }
 
-void view_cube(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands) {
+float view_cube(const PanelModel& model, const PanelBox& picture,
+                interaction::Commands& commands) {
     if (picture.size().x < 3 * kSide || picture.size().y < 2 * kSide)
-        return;
+        return picture.high.x;
     const ImVec2 corner(picture.high.x - kSide - 8.0f, picture.low.y + 6.0f);
     ImGui::SetNextWindowPos(corner);
     ImGui::SetNextWindowSize({kSide, kSide});
@@ -179,6 +180,7 @@ void view_cube(const PanelModel& model, const PanelBox& picture, interaction::Co
     }
     ImGui::End();
     ImGui::PopStyleVar();
+    return corner.x;
 }
 
 } // namespace isochron::app

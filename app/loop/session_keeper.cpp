@@ -2,6 +2,7 @@
 #include "app/loop/session_keeper.h"
 
 #include "app/kept/earlier_sessions.h"
+#include "app/text.h"
 
 #include <utility>
 
@@ -81,7 +82,7 @@ void SessionKeeper::save_now(const ExplorerState& state, const interaction::Stan
     keep(state, head, arrays);
     writing_.post([path = path_, session = kept_, moves = moves_earlier_] {
         save(path, session, *moves);
-        return "session saved: " + path.string();
+        return "session saved: " + whole_path(path);
     });
 }
 

@@ -95,6 +95,8 @@ void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
     session.panel().offer_files([&memory] { return memory.recent(); });
     if (!memory.introduced())
         session.panel().introduce();
+    if (session.outputs().room() && !memory.knows_room())
+        session.panel().explain_room();
 }
 
 } // namespace isochron::app

@@ -2,6 +2,7 @@
 #include "app/output/outputs.h"
 
 #include "app/output/picture_names.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "render/gl/driver.h"
 #include "render/gl/gl_memory.h"
@@ -89,6 +90,8 @@ bool Outputs::adapts() const {
 }
 
 void Outputs::leave_free(const stereo::Margins& margins) {
+    if (room_)
+        room_->leave_free(margins);
     if (adapts())
         displays_.front().leave_free(margins);
 }
@@ -322,7 +325,7 @@ void Outputs::write_image(render::Image image, const std::filesystem::path& path
                           const std::string& note) {
     pictures_.post([image = std::move(image), path, note] {
         stereo::write_image(image, path, note);
-        return "saved " + path.string();
+        return "saved " + whole_path(path);
     });
 }
 

@@ -2,10 +2,12 @@
 #include "app/panel/open_pages.h"
 
 #include "app/panel/panel_help.h"
+#include "app/panel/parts/messages.h"
 #include "app/text.h"
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -17,7 +19,23 @@ using interaction::Seconds;
 using interaction::TextEvent;
 using interaction::WindowEvent;
 
+/// Keys answer a question and do nothing else, except for Ctrl + Q.
+/// @return whether the event is an answer, or nothing that may be done now
+bool OpenPages::answer_by(const WindowEvent& event) {
+    const auto* key = std::get_if<KeyEvent>(&event);
+    if (!key || !key->down)
+        return std::holds_alternative<TextEvent>(event);
+    if (key->key == Key::enter || key->key == Key::escape)
+        answer_ = key->key == Key::enter ? Answer::yes : Answer::no;
+    const bool modifier = key->key == Key::left_control || key->key == Key::right_control;
+    return !modifier && !(key->key == Key{'Q'} && key->with(interaction::Modifier::control));
+}
+
 bool OpenPages::turn(const WindowEvent& event, bool popup) {
+    if (leaving_) // Enter and Escape answer, as keys of the session
+        return false;
+    if (asks_ && !popup)
+        return answer_by(event);
     const ImGuiIO& io = ImGui::GetIO();
     const auto* key = std::get_if<KeyEvent>(&event);
     const auto* typed = std::get_if<TextEvent>(&event);
@@ -43,8 +61,13 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
         lists_arrays_ = false;
         return true;
     }
-    if (escapes && help_ && !io.WantTextInput) {
-        help_ = false;
+    const bool reads = pressed && (key->key == Key::enter || key->key == Key::escape);
+    if (reads && explains_room_ && !any()) {
+        explains_room_ = false;
+        return room_explained_ = true;
+    }
+    if (escapes && (help_ || messages_) && !io.WantTextInput) {
+        help_ = messages_ = false;
         return true;
     }
     const bool chord =
@@ -75,6 +98,12 @@ bool OpenPages::turn_with_control(Key key, bool shift) {
     return true;
 }
 
+void OpenPages::press(interaction::Action action) {
+    const auto& all = key_commands();
+    if (const auto key = std::ranges::find(all, action, &KeyCommand::action); key != all.end())
+        presses_ = presses_of(*key);
+}
+
 void OpenPages::open_arrays() {
     lists_arrays_ = true;
     arrays_.begin_anew();
@@ -87,6 +116,10 @@ interaction::Commands OpenPages::run(const SearchLine& found, bool in_room) {
               .movie = found.movie};
     if (found.page == SearchPage::help)
         open_help();
+    if (found.page == SearchPage::messages)
+        open_messages();
+    if (found.page == SearchPage::room)
+        explain_room();
     if (found.press && !in_room)
         presses_ = presses_of(*found.press);
     else if (found.press && found.press->action)
@@ -133,16 +166,20 @@ Seconds OpenPages::introduction_ends() const {
 }
 
 interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox& picture,
-                                         float top, Seconds time) {
+                                         float lowest, Seconds time) {
     interaction::Commands commands;
     turned_ = false;
     has_session_ = true;
+    leaving_ = model.asked.leaving;
+    asks_ = false;
     if (help_ && model.place != PanelPlace::in_room) {
         const HelpAnswer answer = help_window(model);
         help_ = answer.stays;
         if (answer.tour)
             tour_.start();
     }
+    if (messages_)
+        messages_ = messages_page(model, desktop_wish_);
     lay_out_files();
     if (const auto found = search_.draw(model, picture))
         commands = run(*found, model.place == PanelPlace::in_room);
@@ -154,16 +191,26 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         earlier_.clear();
     if (!earlier_.empty()) {
         std::size_t chosen = 0;
-        const Answer answer = earlier_card(picture, top, earlier_, chosen);
+        asks_ = true;
+        const Answer by_key = std::exchange(answer_, Answer::none);
+        const Answer clicked = earlier_card(picture, earlier_, chosen);
+        const Answer answer = clicked == Answer::none ? by_key : clicked;
         if (answer == Answer::yes)
             commands = earlier_[chosen].commands;
         if (answer != Answer::none)
             earlier_.clear();
     }
-    tour_.draw(model, picture);
-    introduce(picture, time);
-    const std::size_t cards =
-        4 * tour_.step() + 2 * (earlier_.empty() ? 0 : 1) + (newcomer_ ? 1 : 0);
+    asks_ = asks_ && !earlier_.empty();
+    if (has_room_for(kTourCard, picture, lowest))
+        tour_.draw(model, picture);
+    if (explains_room_ && has_room_for(kRoomCard, picture, lowest) && room_card(picture)) {
+        explains_room_ = false;
+        room_explained_ = true;
+    }
+    if (!explains_room_ && has_room_for(kHintCard, picture, lowest))
+        introduce(picture, time);
+    const std::size_t cards = 8 * tour_.step() + 4 * std::size_t{explains_room_} +
+                              2 * (earlier_.empty() ? 0 : 1) + (newcomer_ ? 1 : 0);
     turned_ = std::exchange(cards_, cards) != cards;
     return commands;
 }

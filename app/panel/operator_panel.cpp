@@ -18,6 +18,10 @@ std::optional<MovieWish> OperatorPanel::take_wanted_movie() {
     return console_ ? console_->take_wanted_movie() : over_.take_wanted_movie();
 }
 
+DesktopWish OperatorPanel::take_desktop_wish() {
+    return console_ ? console_->take_desktop_wish() : over_.pages().take_desktop_wish();
+}
+
 std::vector<interaction::WindowEvent>
 OperatorPanel::feed(std::span<const interaction::WindowEvent> events, bool shown) {
     if (!console_)

@@ -27,6 +27,7 @@ class Console {
     std::vector<interaction::WindowEvent> take_events();
 
     std::optional<MovieWish> take_wanted_movie() { return layer_.take_wanted_movie(); }
+    DesktopWish take_desktop_wish() { return layer_.pages().take_desktop_wish(); }
 
     /// Lays out the panel over the whole window, and draws it if it looks different.
     /// @return commands of the operator

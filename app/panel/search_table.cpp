@@ -3,6 +3,7 @@
 
 #include "app/config/config.h"
 #include "app/config/first_placement.h"
+#include "app/frame/history.h"
 #include "app/panel/parts/color_section.h"
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/surfaces_section.h"
@@ -182,6 +183,8 @@ constexpr OtherNames kOtherNames[] = {
     {"statistics", "frame rate, fps, frames per second, timing, memory, cache, cache size, ram, "
                    "number of triangles, number of cells, triangle count, polygons, performance "
                    "monitor, info, counts, gpu, benchmark, profile"},
+    {"messages", "notifications, log, console, output, what was said, warnings, errors, saved "
+                 "files, status, where is my file, open folder, copy path"},
     // Tools.
     {"pick_tool", "probe, pick value, pick point, select, inspect, hover, value at point, add "
                   "marker, add mark, add point, marker, landmark, point selection, query, seed, "
@@ -368,10 +371,19 @@ class Lines {
     std::vector<SearchLine> lines_;
 };
 
+/// What undo or redo would change.
+std::string way_words(const PanelModel& model, std::optional<interaction::Action> action) {
+    const bool undo = action == interaction::Action::undo;
+    if (!undo && action != interaction::Action::redo)
+        return "";
+    return words_for_way(model.asked, undo ? model.ways.undo : model.ways.redo, model.info.steps());
+}
+
 void add_keys(Lines& lines) {
     for (const KeyCommand& each : key_commands())
         lines.add({.name = std::string(each.action ? name_of(*each.action) : each.found_as),
                    .words = each.words,
+                   .value = way_words(lines.model(), each.action),
                    .key = each.name,
                    .press = &each,
                    .in_room = each.in_room});
@@ -620,6 +632,16 @@ void add_view(Lines& lines) {
         effect.words = fmt::format("{:.0f} mm", std::clamp(number, 0.0, widest));
         return effect;
     };
+    lines.add({.name = "messages",
+               .words = "messages: what was said, and when",
+               .page = SearchPage::messages,
+               .in_room = false});
+    if (model.room_from_outside)
+        lines.add({.name = "about_room",
+                   .words = "the emulated room: what the window shows",
+                   .others = "cave, emulation, outside, walls, introduction, card",
+                   .page = SearchPage::room,
+                   .in_room = false});
     if (model.place == PanelPlace::over)
         lines.add({.name = "statistics",
                    .words = "figures of drawing and memory",

@@ -172,12 +172,17 @@ void PictureMaker::show_cells(Picture& picture, const ExplorerState& state) cons
     picture.scale = shown_scale(state);
 }
 
+std::optional<interaction::Pointed> PictureMaker::pointed(const interaction::InputState& input,
+                                                          const ExplorerState& state) const {
+    return picker_.pointed(input, !panel_.in_room().touched(), state, sets_.shown());
+}
+
 std::string PictureMaker::words_under_pointer(const interaction::InputState& input,
                                               const ExplorerState& state) const {
-    const auto pointed = picker_.pointed(input, !panel_.in_room().touched(), state, sets_.shown());
-    if (!pointed && !state.mark.point)
+    const auto at = pointed(input, state);
+    if (!at && !state.mark.point)
         return "";
-    return mark_text(pointed ? pointed->point : *state.mark.point, arrays_.shown(state).info());
+    return mark_text(at ? at->point : *state.mark.point, arrays_.shown(state).info());
 }
 
 Picture PictureMaker::kept(const Picture& picture,

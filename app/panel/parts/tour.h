@@ -25,9 +25,18 @@ struct OfferedSession {
     std::string words;              ///< when it was saved
     interaction::Commands commands; ///< sets all that it had
 };
+inline constexpr const char *kHintCard = "###first use", *kRoomCard = "###room",
+                            *kTourCard = "###tour";
+/// Whether there is room for a card at the bottom of the picture; else it waits.
+/// @param lowest what lies at the top of the picture ends there
+bool has_room_for(const char* card, const PanelBox& picture, float lowest);
+
+/// What the window of an emulated room shows. @return whether the user has read it
+bool room_card(const PanelBox& picture);
+
 /// The offer to go on with one of the sessions before: the first one, or another one of the list.
 /// @param chosen number of the session that the user wants
-Answer earlier_card(const PanelBox& picture, float top, const std::vector<OfferedSession>& earlier,
+Answer earlier_card(const PanelBox& picture, const std::vector<OfferedSession>& earlier,
                     std::size_t& chosen);
 
 /// Each step says what to do, and notices when it is done.

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +39,10 @@ class LayerTest : public testing::Test {
                                .frame = report_,
                                .gaps = gaps_,
                                .arrays = arrays_,
+                               .notes = notes_,
                                .movies = {.offered = true},
-                               .controls = controls_},
+                               .controls = controls_,
+                               .pointed = pointed_},
                               time_);
     }
     void point(glm::vec2 at) {
@@ -102,6 +106,8 @@ class LayerTest : public testing::Test {
     FrameReport report_;
     std::vector<std::uint32_t> gaps_;
     PanelArrays arrays_;
+    PanelNotes notes_;
+    std::function<std::optional<interaction::Pointed>()> pointed_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

@@ -64,7 +64,8 @@ TEST(Callouts, OfAPlaceBetweenStepsSayBetweenWhich) {
         between{{1, 2, 3}, {1, 32768}, 9.25}, last{{1, 2, 3}, {2, 32768}, 9.25};
     EXPECT_EQ(mark_lines(at_step, info).back(), "t 2 s");
     EXPECT_EQ(mark_lines(between, info).back(), "t 3 s, between steps 2 and 3");
-    EXPECT_EQ(mark_text(between, info), "x 1.0 y 2.0 z 3.0 m, flow 9.25, t 3 s, between steps 2 and 3");
+    EXPECT_EQ(mark_text(between, info),
+              "x 1.0 y 2.0 z 3.0 m, flow 9.25, t 3 s, between steps 2 and 3");
     EXPECT_EQ(mark_lines(last, info).back(), "t 4 s") << "the last step holds";
     EXPECT_EQ(pointed_lines({at_step, 0}, 1, info).back(), "x 1.0 y 2.0 z 3.0 m");
     EXPECT_EQ(pointed_lines({between, 0}, 1, info).back(), "between steps 2 and 3");
@@ -92,8 +93,11 @@ TEST(MarkText, HasTheDigitsThatGridAndValuesCarryAndLosesTheLeastImportantPartFi
     const struct {
         double spacing, place;
         const char* words;
-    } rows[] = {{10, 4500000.25, "4500000"}, {1, 12.34, "12.3"},      {0.002, 0.12344, "0.1234"},
-                {1e-9, 1.5e-8, "1.5e-08"},   {25000, -3e10, "-3e+10"}};
+    } rows[] = {{10, 4500000.25, "4500000"},
+                {1, 12.34, "12.3"},
+                {0.002, 0.12344, "0.1234"},
+                {1e-9, 1.5e-8, "1.5e-08"},
+                {25000, -3e10, "-3e+10"}};
     for (const auto& row : rows) {
         info.grid.spacing = glm::dvec3(row.spacing);
         EXPECT_EQ(mark_lines({glm::dvec3(row.place), {}, 1}, info)[1],
@@ -107,7 +111,8 @@ TEST(MarkText, HasTheDigitsThatGridAndValuesCarryAndLosesTheLeastImportantPartFi
     info.grid.spacing = {0.5, 0.5, 100};
     EXPECT_EQ(mark_lines({{12.25, -5, 1200}, {}, 1}, info)[1],
               "longitude 12.2 degrees latitude -5.0 degrees height 1200 m");
-    info.grid.direction = glm::dmat3(0, 1, 0, 1, 0, 0, 0, 0, 1); // each axis of space has its spacing
+    info.grid.direction =
+        glm::dmat3(0, 1, 0, 1, 0, 0, 0, 0, 1); // each axis of space has its spacing
     info.grid.spacing = {0.5, 10, 100};
     EXPECT_EQ(mark_lines({{12.25, -5, 1200}, {}, 1}, info)[1],
               "longitude 12 degrees latitude -5.0 degrees height 1200 m");

@@ -21,8 +21,8 @@ double finest_spacing(const index::Grid& grid, int axis) {
     double finest = 1.0;
     if (!grid.positions[number].even())
         for (std::uint32_t vertex = 1; vertex < grid.vertices[number]; ++vertex)
-            finest = std::min(finest, grid.even_place(axis, vertex) -
-                                          grid.even_place(axis, vertex - 1));
+            finest =
+                std::min(finest, grid.even_place(axis, vertex) - grid.even_place(axis, vertex - 1));
     return finest * grid.spacing[axis];
 }
 
@@ -53,9 +53,9 @@ std::string place_text(const interaction::MarkedPoint& point, const index::Serie
             own ? named.substr(bracket + 2, named.size() - bracket - 3) : info.length_unit;
         const std::string name =
             named.empty() ? std::string(1, "xyz"[axis]) : named.substr(0, bracket);
-        parts.push_back(fmt::format(
-            "{} {}", name,
-            coordinate_text(point.position[axis], finest_spacing(info.grid, along))));
+        parts.push_back(
+            fmt::format("{} {}", name,
+                        coordinate_text(point.position[axis], finest_spacing(info.grid, along))));
         if (own_units || axis == 2) // one unit for all of them, or one each
             parts.back() += with_space(unit);
     }

@@ -13,7 +13,6 @@
 #include <sstream>
 
 namespace isochron::app {
-namespace {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -29,8 +28,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
     return row.back();
 }
-
-} // namespace
 
 std::string grid_words(const index::SeriesInfo& info) {
     const auto& vertices = info.grid.vertices;
@@ -67,6 +64,12 @@ std::string grouped(std::uint64_t number) {
 
 std::string human_number(double number) {
     return fmt::format("{:.10g}", number);
+}
+
+std::string whole_path(const std::filesystem::path& path) {
+    std::error_code error; // a working folder that is gone
+    const std::filesystem::path whole = std::filesystem::absolute(path, error);
+    return (error ? path : whole).lexically_normal().string();
 }
 
 std::string with_space(const std::string& unit) {

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,11 +33,17 @@ std::string with_unit(double value, const std::string& unit);
 /// `64 x 64 x 64, 10 steps`: the vertices along each axis.
 std::string grid_words(const index::SeriesInfo& info);
 
+/// A path from the root on, without `.` and `..`.
+std::string whole_path(const std::filesystem::path& path);
+
 /// A unit with a space before it; empty if there is no unit.
 std::string with_space(const std::string& unit);
 
 /// Whether a name has all words of a text, upper or lower case.
 bool has_words(const std::string& name, std::string_view words);
+
+/// Letters to insert, remove or replace, at least, to make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The word of `words` that is nearest to `word` by edit distance; empty when none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words);

@@ -457,6 +457,8 @@ void Exploration::finish(LiveLoop& live, UserMemory& memory) {
         remember_window_size(session_->outputs().windows()[0].framebuffer_size());
     if (session_->panel().introduced())
         memory.set_introduced();
+    if (session_->panel().room_explained())
+        memory.set_knows_room();
     print_status(live, words);
     if (options_.report)
         session_->log().finish_report(session_->drawing(), session_->reading());

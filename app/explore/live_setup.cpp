@@ -185,6 +185,8 @@ void greet(Session& session, UserMemory& memory, BackgroundWork& writing,
     session.panel().offer_beside_files(offers_beside_files(writing));
     if (!memory.introduced())
         session.panel().introduce();
+    if (session.outputs().room() && !memory.knows_room())
+        session.panel().explain_room();
 }
 
 } // namespace isochron::app

@@ -6,7 +6,12 @@
 
 #include "interaction/command_fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 
 namespace isochron::app {
 namespace {
@@ -58,7 +63,69 @@ interaction::Commands way_to(const ExplorerState& target, const ExplorerState& f
     return way;
 }
 
+/// What differs between the surfaces of two states.
+std::string surface_words(const ExplorerState& before, const ExplorerState& after) {
+    const auto &old = before.isosurfaces, &now = after.isosurfaces;
+    if (old.size() != now.size())
+        return old.size() < now.size() ? "surface added" : "surface removed";
+    const auto differs = [&](auto member) {
+        return std::ranges::mismatch(old, now, {}, member, member);
+    };
+    if (const auto at = differs(&interaction::Isosurface::isovalue); at.in1 != old.end())
+        return fmt::format("isovalue {:.4g} to {:.4g}", at.in1->isovalue, at.in2->isovalue);
+    if (const auto at = differs(&interaction::Isosurface::opacity); at.in1 != old.end())
+        return fmt::format("opacity {:.0f} to {:.0f} %", 100 * at.in1->opacity,
+                           100 * at.in2->opacity);
+    return "color of the surface";
+}
+
+/// What people call a setting, where that is not its key.
+std::string words_of_setting(std::string_view key) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kWords{
+        {{"picked", "surface that is chosen"},
+         {"coloring", "colors"},
+         {"look", "look"},
+         {"bounding_box", "box"},
+         {"step", "time"},
+         {"between", "blending between steps"},
+         {"follow", "following the last step"},
+         {"playback", "playing"},
+         {"play_range", "range that plays"},
+         {"room_from_physical", "view"},
+         {"eye_separation", "eyes"},
+         {"views", "viewpoints"},
+         {"clip", "clip plane"},
+         {"tools", "tool"},
+         {"orthographic", "projection"}}};
+    const auto* const row =
+        std::ranges::find(kWords, key, &std::pair<std::string_view, std::string_view>::first);
+    return std::string(row == kWords.end() ? key : row->second);
+}
+
 } // namespace
+
+std::string words_for_change(const ExplorerState& before, const ExplorerState& after) {
+    constexpr std::size_t kSaid = 3;
+    std::vector<std::string> words;
+    interaction::each_setting(
+        [&](const interaction::Field& field, const auto& left, const auto& right) {
+            if (!field.undone || left == right)
+                return;
+            const bool surfaces = static_cast<const void*>(&left) == &before.isosurfaces;
+            words.push_back(surfaces ? surface_words(before, after) : words_of_setting(field.key));
+        },
+        before, after);
+    return words.size() > kSaid ? fmt::format("{} settings", words.size())
+                                : fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string words_for_way(const ExplorerState& now, const interaction::Commands* way,
+                          std::size_t held) {
+    ExplorerState then = now;
+    if (way)
+        then.apply(*way, held);
+    return words_for_change(now, then);
+}
 
 bool History::continues(std::uint64_t fields, const interaction::InputState& input) const {
     return !past_.empty() && fields_ != 0 && fields == fields_ &&

@@ -8,12 +8,21 @@
 #include "app/frame/explorer_state.h"
 #include "interaction/input/tracked_input.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace isochron::app {
+
+/// What differs between two states, in words: `isovalue 9.4 to 7.2`, `view, clip plane`. Empty: no
+/// setting that can be undone differs.
+std::string words_for_change(const ExplorerState& before, const ExplorerState& after);
+/// What commands would change. @param way null: nothing @param held number of steps of the index
+std::string words_for_way(const ExplorerState& now, const interaction::Commands* way,
+                          std::size_t held);
 
 /// Depends only on the frames that are added, so a replay undoes as the session did.
 ///

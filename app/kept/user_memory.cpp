@@ -95,14 +95,14 @@ void UserMemory::remember(const fs::path& data) {
     write_text(*folder_ / "recent", lines);
 }
 
-bool UserMemory::introduced() const {
+bool UserMemory::has(const char* file) const {
     std::error_code error;
-    return !folder_ || fs::exists(*folder_ / "introduced", error);
+    return !folder_ || fs::exists(*folder_ / file, error);
 }
 
-void UserMemory::set_introduced() {
+void UserMemory::keep(const char* file) const {
     if (folder_)
-        write_text(*folder_ / "introduced", "The first lines were shown.\n");
+        write_text(*folder_ / file, "The first lines were shown.\n");
 }
 
 } // namespace isochron::app

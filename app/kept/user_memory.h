@@ -26,11 +26,16 @@ class UserMemory {
     void remember_array(const std::filesystem::path& data, const std::string& array);
 
     /// Whether the user has seen the introduction; also true if nothing can be remembered.
-    bool introduced() const;
-    void set_introduced();
+    bool introduced() const { return has("introduced"); }
+    void set_introduced() { keep("introduced"); }
+    /// Whether the user has read what an emulated room is; also true if nothing can be remembered.
+    bool knows_room() const { return has("room-explained"); }
+    void set_knows_room() { keep("room-explained"); }
 
   private:
     std::vector<std::string> lines_of(const char* file) const;
+    bool has(const char* file) const;
+    void keep(const char* file) const;
 
     std::optional<std::filesystem::path> folder_;
 };

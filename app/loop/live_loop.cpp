@@ -25,13 +25,18 @@ bool acts(const std::vector<interaction::WindowEvent>& events) {
     });
 }
 
-/// Gives the clipboard what the user points at.
-void copy_words(Session& session) {
-    const std::string words = session.pointed();
+/// Gives the clipboard what the user points at, or has chosen in the panel.
+/// @param asks the user wants what they point at
+void give_to_desktop(Session& session, bool asks) {
+    const DesktopWish wish = session.panel().take_desktop_wish();
+    if (!wish.folder.empty())
+        open_folder(wish.folder);
+    const std::string words = wish.text.empty() && asks ? session.pointed() : wish.text;
     if (!words.empty())
         session.outputs().windows().first().set_clipboard(words);
-    session.show_messages({words.empty() ? "nothing to copy: point at a surface or mark a place"
-                                         : "copied: " + words});
+    if (asks || !words.empty())
+        session.show_messages({words.empty() ? "nothing to copy: point at a surface or mark a place"
+                                             : "copied: " + words});
 }
 
 } // namespace
@@ -179,8 +184,7 @@ void LiveLoop::run(Session& session) {
             companion->after_frame(session, frame);
             session.show_messages(companion->messages());
         }
-        if (commands.copy)
-            copy_words(session);
+        give_to_desktop(session, commands.copy);
         if (commands.save && !companions_.contains(CompanionPlace::keeper))
             session.show_messages({options_.not_kept});
         session.set_standing(opening_.busy() ? opening_.note() : options_.standing());

@@ -1,6 +1,8 @@
 // The recording of a session that goes on.
 #include "app/loop/live_recording.h"
 
+#include "app/text.h"
+
 #include <utility>
 
 namespace isochron::app {
@@ -8,13 +10,14 @@ namespace isochron::app {
 void LiveRecording::begin(const std::filesystem::path& path,
                           const interaction::RecordingHeader& header) {
     recorder_ = std::make_shared<interaction::RecordingWriter>(path, header);
+    path_ = path;
     rests_ = true;
 }
 
 void LiveRecording::end() {
-    work_.post([recorder = recorder_] {
+    work_.post([recorder = recorder_, path = path_] {
         recorder->finish();
-        return std::string("the recording is saved");
+        return "the recording is saved: " + whole_path(path);
     });
     recorder_.reset();
 }

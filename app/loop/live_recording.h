@@ -47,6 +47,7 @@ class LiveRecording final : public Companion {
     BackgroundWork work_;
     /// Used only on the thread of `work_`.
     std::shared_ptr<interaction::RecordingWriter> recorder_;
+    std::filesystem::path path_; ///< path of the recording
     const std::shared_ptr<std::atomic<bool>> lost_ = std::make_shared<std::atomic<bool>>(false);
     bool rests_ = true; ///< since the last frame
 };

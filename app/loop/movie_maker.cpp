@@ -2,6 +2,7 @@
 #include "app/loop/movie_maker.h"
 
 #include "app/frame/late_latch.h"
+#include "app/text.h"
 #include "index/system/new_file.h"
 #include "interaction/step_track.h"
 
@@ -106,7 +107,8 @@ void MovieMaker::finish() {
 void MovieMaker::make(const Write& write, BackgroundWork& writing, const MovieManner& manner) {
     if (busy())
         return;
-    const fs::path stem = free_movie_name(manner.folder.empty() ? orders_.folder : manner.folder);
+    const fs::path stem =
+        free_movie_name(whole_path(manner.folder.empty() ? orders_.folder : manner.folder));
     manner_ = manner;
     movie_ = stem.string() + ".mp4";
     recording_ = stem.string() + ".jsonl";

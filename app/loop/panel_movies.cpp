@@ -1,6 +1,7 @@
 // The movies and recordings that the panel asks for, and the folder of pictures that it chooses.
 #include "app/loop/panel_movies.h"
 
+#include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
@@ -25,7 +26,7 @@ void PanelMovies::begin_or_end_recording(Session& session) {
             header.start = session.state().as_commands();
             const auto path = free_recording_name(chosen_folder(session));
             recording_->begin(path, header);
-            session.show_messages({fmt::format("recording to {}", path.string())});
+            session.show_messages({"recording to " + whole_path(path)});
         } catch (const interaction::Error& error) {
             session.show_messages({error.what()});
         }

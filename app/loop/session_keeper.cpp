@@ -3,6 +3,7 @@
 
 #include "app/kept/earlier_sessions.h"
 #include "app/kept/session_picture.h"
+#include "app/text.h"
 #include "render/gl/gl.h"
 
 #include <fmt/format.h>
@@ -145,8 +146,8 @@ void SessionKeeper::save_now(const ExplorerState& state, const interaction::Stan
             fs::remove(old, ignored);
         return !says ? std::string()
                : session.name.empty()
-                   ? "session saved: " + path.string()
-                   : fmt::format("session saved as {}: {}", session.name, path.string());
+                   ? "session saved: " + whole_path(path)
+                   : fmt::format("session saved as {}: {}", session.name, whole_path(path));
     });
 }
 

@@ -61,8 +61,9 @@ std::string write_surfaces(const ExportTask& task, const Asking& asking) {
     const index::ExportCount count =
         index::export_surfaces(task.array, *task.format, name, request, progress);
     const std::string all =
-        files.size() == 1 ? files.front().string()
-                          : fmt::format("{} and {} more", files.front().string(), files.size() - 1);
+        files.size() == 1
+            ? whole_path(files.front())
+            : fmt::format("{} and {} more", whole_path(files.front()), files.size() - 1);
     if (count.cells == 0)
         return fmt::format("exported {}: there is no surface at this isovalue", all);
     return fmt::format("exported {}: {} {}", all,

@@ -3,6 +3,7 @@
 
 #include "app/end_in_time.h"
 #include "app/output/picture_names.h"
+#include "app/text.h"
 #include "app/version.h"
 #include "render/gl/driver.h"
 #include "render/gl/gl_memory.h"
@@ -110,6 +111,8 @@ bool Outputs::adapts() const {
 }
 
 void Outputs::leave_free(const stereo::Margins& margins) {
+    if (room_)
+        room_->leave_free(margins);
     if (adapts())
         displays_.front().leave_free(margins);
 }
@@ -399,7 +402,7 @@ void Outputs::write_image(render::Image image, const std::filesystem::path& path
                           const std::string& note) {
     pictures_.post([image = std::move(image), path, note] {
         stereo::write_image(image, path, note);
-        return "saved " + path.string();
+        return "saved " + whole_path(path);
     });
 }
 

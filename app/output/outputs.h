@@ -94,8 +94,8 @@ class Outputs {
     std::optional<interaction::Pose> ray_at(const interaction::MouseMoveEvent& cursor,
                                             std::span<const stereo::ViewerPose> viewers) const;
 
-    /// Keeps the edges of the first window free for the panel over it, if all of its screens adapt
-    /// to the shape of the rest. @param margins in each eye's part
+    /// Keeps the edges of the window under the panel free for it: of an emulated room's, or of the
+    /// first if all of its screens adapt to the shape of the rest. @param margins in each eye's part
     void leave_free(const stereo::Margins& margins);
     /// Widens the views of the first window to the left, for a panel there, where all of its
     /// screens adapt to the shape of the rest.

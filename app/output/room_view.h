@@ -30,6 +30,9 @@ class RoomView {
     /// Sets the panel that stands in the room; empty: none.
     void set_panel(const std::optional<ShownPanel>& panel) { panel_ = panel; }
 
+    /// Keeps the edges of the window free for the panel over it.
+    void leave_free(const stereo::Margins& margins) { display_.leave_free(margins); }
+
     /// Draws the room around the displays: walls with the picture of one eye, opaque from the front
     /// and like glass from behind; lines from each viewer to the corners of their screens; heads,
     /// wand and floor. Then the overlay.

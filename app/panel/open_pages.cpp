@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -18,7 +19,23 @@ using interaction::Seconds;
 using interaction::TextEvent;
 using interaction::WindowEvent;
 
+/// Keys answer a question and do nothing else, except for Ctrl + Q.
+/// @return whether the event is an answer, or nothing that may be done now
+bool OpenPages::answer_by(const WindowEvent& event) {
+    const auto* key = std::get_if<KeyEvent>(&event);
+    if (!key || !key->down)
+        return std::holds_alternative<TextEvent>(event);
+    if (key->key == Key::enter || key->key == Key::escape)
+        answer_ = key->key == Key::enter ? Answer::yes : Answer::no;
+    const bool modifier = key->key == Key::left_control || key->key == Key::right_control;
+    return !modifier && !(key->key == Key{'Q'} && key->with(interaction::Modifier::control));
+}
+
 bool OpenPages::turn(const WindowEvent& event, bool popup) {
+    if (leaving_) // Enter and Escape answer, as keys of the session
+        return false;
+    if (asks_ && !popup)
+        return answer_by(event);
     const ImGuiIO& io = ImGui::GetIO();
     const auto* key = std::get_if<KeyEvent>(&event);
     const auto* typed = std::get_if<TextEvent>(&event);
@@ -49,8 +66,13 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
         lists_arrays_ = false;
         return true;
     }
-    if (escapes && help_ && !io.WantTextInput) {
-        help_ = false;
+    const bool reads = pressed && (key->key == Key::enter || key->key == Key::escape);
+    if (reads && explains_room_ && !any()) {
+        explains_room_ = false;
+        return room_explained_ = true;
+    }
+    if (escapes && (help_ || messages_) && !io.WantTextInput) {
+        help_ = messages_ = false;
         return true;
     }
     if (pressed && key->key == Key::enter && offers_way_out_ && !popup && !io.WantTextInput) {
@@ -85,6 +107,12 @@ bool OpenPages::turn_with_control(Key key, bool shift) {
     return true;
 }
 
+void OpenPages::press(interaction::Action action) {
+    const auto& all = key_commands();
+    if (const auto key = std::ranges::find(all, action, &KeyCommand::action); key != all.end())
+        presses_ = presses_of(*key);
+}
+
 void OpenPages::open_arrays() {
     lists_arrays_ = true;
     arrays_.begin_anew();
@@ -97,6 +125,10 @@ interaction::Commands OpenPages::run(const SearchLine& found, bool in_room) {
               .movie = found.movie};
     if (found.page == SearchPage::help)
         open_help();
+    if (found.page == SearchPage::messages)
+        open_messages();
+    if (found.page == SearchPage::room)
+        explain_room();
     if (found.press && !in_room)
         presses_ = presses_of(*found.press);
     else if (found.press && found.press->action)
@@ -143,16 +175,20 @@ Seconds OpenPages::introduction_ends() const {
 }
 
 interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox& picture,
-                                         float top, Seconds time) {
+                                         float lowest, Seconds time) {
     interaction::Commands commands;
     turned_ = false;
     has_session_ = true;
+    leaving_ = model.asked.leaving;
+    asks_ = false;
     if (help_ && model.place != PanelPlace::in_room) {
         const HelpAnswer answer = help_window(model);
         help_ = answer.stays;
         if (answer.tour)
             tour_.start();
     }
+    if (messages_)
+        messages_ = messages_page(model, desktop_wish_);
     lay_out_files();
     if (const auto found = search_.draw(model, picture)) {
         commands = run(*found, model.place == PanelPlace::in_room);
@@ -166,33 +202,43 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         interaction::merge(commands, model.notes.empty->commands);
     if (any() || model.place != PanelPlace::over)
         return commands;
-    interaction::merge(commands, way_out(model, picture));
     if (model.ways.undo || model.sessions.empty()) // going on now would take back what was changed
         offers_earlier_ = false;
     if (asks_name_) {
-        lay_out_name(picture, top);
+        lay_out_name(picture, lowest);
     } else if (offers_earlier_) {
         std::size_t chosen = 0;
-        const Answer answer = earlier_card(picture, top, model.sessions, chosen);
+        asks_ = true;
+        const Answer by_key = std::exchange(answer_, Answer::none);
+        const Answer clicked = earlier_card(picture, model.sessions, chosen);
+        const Answer answer = clicked == Answer::none ? by_key : clicked;
         if (answer == Answer::yes) {
             commands = model.sessions[chosen].commands;
             go_on_with(model, chosen);
         }
         offers_earlier_ = answer == Answer::none;
     }
-    tour_.draw(model, picture);
-    introduce(picture, time);
-    const std::size_t cards = 16 * tour_.step() + (asks_name_ ? 8 : 0) + (offers_earlier_ ? 4 : 0) +
-                              (newcomer_ ? 2 : 0) + (model.notes.empty ? 1 : 0);
+    asks_ = asks_ && offers_earlier_;
+    if (!asks_name_ && !asks_)
+        interaction::merge(commands, way_out(model, picture));
+    if (has_room_for(kTourCard, picture, lowest))
+        tour_.draw(model, picture);
+    if (explains_room_ && has_room_for(kRoomCard, picture, lowest) && room_card(picture)) {
+        explains_room_ = false;
+        room_explained_ = true;
+    }
+    if (!explains_room_ && has_room_for(kHintCard, picture, lowest))
+        introduce(picture, time);
+    const std::size_t cards = 32 * tour_.step() + (explains_room_ ? 16 : 0) + (asks_name_ ? 8 : 0) +
+                              (offers_earlier_ ? 4 : 0) + (newcomer_ ? 2 : 0) +
+                              (model.notes.empty ? 1 : 0);
     turned_ = std::exchange(cards_, cards) != cards;
     return commands;
 }
 
 /// Says why nothing is seen, and offers the way out. @return the commands of the way out
 interaction::Commands OpenPages::way_out(const PanelModel& model, const PanelBox& picture) {
-    constexpr float kBelowEarlier = 190.0f; // below the card that offers earlier sessions
-    const bool chosen =
-        empty_card(model, picture, offers_earlier_ || asks_name_ ? kBelowEarlier : 0.0f);
+    const bool chosen = empty_card(model, picture);
     offers_way_out_ = model.notes.empty && !model.notes.empty->way.empty() && !model.asked.leaving;
     return chosen ? model.notes.empty->commands : interaction::Commands();
 }

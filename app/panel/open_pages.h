@@ -2,6 +2,7 @@
 // commands, and the introduction.
 #pragma once
 
+#include "app/frame/desktop_wish.h"
 #include "app/panel/array_window.h"
 #include "app/panel/file_window.h"
 #include "app/panel/panel.h"
@@ -34,6 +35,10 @@ class OpenPages {
     void ask_session_name() { asks_name_ = true; }
     /// The name that the user has given; returned once.
     std::optional<std::string> take_session_name() { return std::exchange(session_name_, {}); }
+    /// Shows what an emulated room is, until the user has read it.
+    void explain_room() { explains_room_ = true; }
+    /// Whether the user has read it since the last call.
+    bool room_explained() { return std::exchange(room_explained_, false); }
     /// The user has pressed a key or a button.
     void begin() { begun_ = true; }
     /// Whether the introduction has gone since the last call.
@@ -63,12 +68,18 @@ class OpenPages {
     interaction::Seconds introduction_ends() const;
 
     void open_help() { help_ = true; }
+    void open_messages() { messages_ = true; }
+    /// What the user wants of the desktop; returned once.
+    DesktopWish take_desktop_wish() { return std::exchange(desktop_wish_, {}); }
+    DesktopWish& desktop_wish() { return desktop_wish_; }
     void open_search() { search_.open(); }
     void close_search() { search_.close(); }
     /// A page with a field that takes what is typed.
     bool takes_text() const { return search_.is_open() || files_.is_open() || asks_name_; }
     /// A page with a list, through which the arrow keys go.
-    bool has_list() const { return search_.is_open() || files_.is_open() || lists_arrays_; }
+    bool has_list() const { return takes_text() || lists_arrays_; }
+    /// Does what a key does, as if the user had pressed it.
+    void press(interaction::Action action);
     /// The key events of the command that the user found; returned once.
     std::vector<interaction::WindowEvent> take_presses() { return std::exchange(presses_, {}); }
     bool has_presses() const { return !presses_.empty(); }
@@ -90,7 +101,7 @@ class OpenPages {
     bool turned() const { return turned_; }
 
     /// A page lies over the picture, which Escape closes.
-    bool any() const { return help_ || has_list(); }
+    bool any() const { return help_ || messages_ || has_list(); }
 
     /// Obeys F1, `?`, Ctrl + K, Ctrl + O and Ctrl + Shift + A, wherever the mouse is, Escape, which
     /// closes a page, and Enter, which takes the way out of an empty picture.
@@ -100,9 +111,9 @@ class OpenPages {
 
     /// Lays the pages out in the current Dear ImGui frame.
     /// @param picture where the panel leaves the picture free
-    /// @param top where what lies over the picture may begin
+    /// @param lowest what lies at the top of the picture ends there
     /// @return commands of the user
-    interaction::Commands lay_out(const PanelModel& model, const PanelBox& picture, float top,
+    interaction::Commands lay_out(const PanelModel& model, const PanelBox& picture, float lowest,
                                   interaction::Seconds time);
     /// Lays out the choice of data alone.
     void lay_out_files();
@@ -113,10 +124,12 @@ class OpenPages {
     interaction::Commands way_out(const PanelModel& model, const PanelBox& picture);
     void lay_out_name(const PanelBox& picture, float top);
     bool turn_with_control(interaction::Key key, bool shift);
+    bool answer_by(const interaction::WindowEvent& event);
     interaction::Commands run(const SearchLine& found, bool in_room);
     interaction::Commands lay_out_arrays(const PanelModel& model, const PanelBox& picture);
 
-    bool help_ = false; ///< the help page is open
+    bool help_ = false, messages_ = false; ///< these pages are open
+    DesktopWish desktop_wish_;
     FileWindow files_;
     ArrayWindow arrays_;
     bool lists_arrays_ = false; ///< the page with all arrays is open
@@ -131,6 +144,10 @@ class OpenPages {
         recent_; ///< empty: the user cannot open other data
     std::optional<std::filesystem::path> chosen_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
+    bool explains_room_ = false, room_explained_ = false;
+    bool leaving_ = false;         ///< the user is asked whether to quit
+    bool asks_ = false;            ///< the last layout had the question of the sessions before
+    Answer answer_ = Answer::none; ///< answer to it by a key
     Tour tour_;
     bool offers_way_out_ = false, takes_way_out_ = false;
     bool turned_ = false;

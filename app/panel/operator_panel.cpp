@@ -22,6 +22,10 @@ std::optional<OfferedSession> OperatorPanel::take_continued() {
     return console_ ? console_->take_continued() : over_.pages().take_continued();
 }
 
+DesktopWish OperatorPanel::take_desktop_wish() {
+    return console_ ? console_->take_desktop_wish() : over_.pages().take_desktop_wish();
+}
+
 std::vector<interaction::WindowEvent>
 OperatorPanel::feed(std::span<const interaction::WindowEvent> events, bool shown) {
     if (!console_)

@@ -26,6 +26,8 @@ class OperatorPanel {
     bool introduced() {
         return over_.pages().introduced();
     } ///< true once, when the introduction has gone
+    void explain_room() { over_.pages().explain_room(); }
+    bool room_explained() { return over_.pages().room_explained(); } ///< true once
     /// See OpenPages.
     void offer_earlier() { over_.pages().offer_earlier(); }
     std::optional<OfferedSession> take_continued();
@@ -49,6 +51,8 @@ class OperatorPanel {
     std::optional<std::string> take_chosen_array() { return over_.pages().take_chosen_array(); }
 
     std::optional<MovieWish> take_wanted_movie();
+    /// What the user wants of the desktop; returned once.
+    DesktopWish take_desktop_wish();
 
     /// Passes window events to the panel. @param shown the panel lies over the first window
     /// @return the events that it does not use

@@ -28,6 +28,7 @@ class Console {
 
     std::optional<MovieWish> take_wanted_movie() { return layer_.take_wanted_movie(); }
     std::optional<OfferedSession> take_continued() { return layer_.pages().take_continued(); }
+    DesktopWish take_desktop_wish() { return layer_.pages().take_desktop_wish(); }
 
     /// Lays out the panel over the whole window, and draws it if it looks different.
     /// @return commands of the operator

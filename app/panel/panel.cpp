@@ -89,27 +89,45 @@ void section_over_picture(const PanelModel& model, const PanelView& view, PanelP
 
 /// What lies over the picture while the panel is shown.
 void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, Commands& commands) {
-    PanelBox free = view.layout.picture;
+    const PanelBox free = view.layout.picture;
+    view.free = {{free.low.x, free.low.y + 10.0f}, free.high};
+    view.lowest = view.free.low.y;
     if (view.layout.folded && view.section) {
         section_over_picture(model, view, pages, commands);
         return;
     }
-    const float right = state_chip(model, free, view.statistics);
+    constexpr float kApart = 8.0f, kPadding = 8.0f, kLeast = 280.0f; // for messages
+    const glm::vec2 chip = state_chip(model, free, view.statistics);
     gap_window(model, free);
-    view_cube(model, free, commands);
-    view.below_chip = free.low.y + 10.0f;
-    if (!has_tool_strip(model))
+    const float left_of_cube = view_cube(model, free, commands);
+    view.free.high.x = left_of_cube;
+    view.lowest = left_of_cube < free.high.x ? free.low.y + kViewCubeEnd : chip.y;
+    float below = chip.y + 6.0f;
+    if (has_tool_strip(model)) {
+        ImGui::SetNextWindowPos({chip.x + kApart, free.low.y + 10.0f});
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kPadding, 3.0f});
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
+        ImGui::Begin("###tool", nullptr,
+                     kPart | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoFocusOnAppearing);
+        tool_strip(model, left_of_cube - chip.x - 2 * (kApart + kPadding), commands);
+        view.free.low.y += ImGui::GetWindowHeight() + 6.0f;
+        below = std::max(below, view.free.low.y);
+        view.lowest = std::max(view.lowest, below);
+        ImGui::End();
+        ImGui::PopStyleColor();
+        ImGui::PopStyleVar();
+    } else {
+        view.free.low.x = chip.x + kApart;
+    }
+    if (!view.statistics)
         return;
-    ImGui::SetNextWindowPos({right + 8.0f, free.low.y + 10.0f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0f, 3.0f});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, color_of(Ink::bar));
-    ImGui::Begin("###tool", nullptr,
-                 kPart | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-    tool_strip(model, commands);
-    view.below_chip += ImGui::GetWindowHeight() + 6.0f;
-    ImGui::End();
-    ImGui::PopStyleColor();
-    ImGui::PopStyleVar();
+    const glm::vec2 corner = statistics_window(model, free, below, pages);
+    view.lowest = std::max(view.lowest, corner.y);
+    if (left_of_cube - corner.x >= kLeast)
+        view.free.low.x = corner.x;
+    else
+        view.free.low.y = corner.y + 6.0f;
 }
 
 } // namespace
@@ -139,7 +157,7 @@ Commands draw_panel(const PanelModel& model, PanelView& view, PanelPages& pages)
     else
         section_column(model, pages, commands, view.pointed);
     if (model.place == PanelPlace::in_room && has_tool_strip(model))
-        tool_strip(model, commands);
+        tool_strip(model, ImGui::GetContentRegionAvail().x, commands);
     if (model.place != PanelPlace::over && empty_rows(model))
         interaction::merge(commands, model.notes.empty->commands);
     end_part();

@@ -18,7 +18,8 @@ struct PanelView {
     bool statistics = false;            ///< open below the chip
     /// Section that the search points at until the next click; kSections: the bar of the time.
     std::optional<std::size_t> pointed;
-    float below_chip = 0;               ///< where the rest of what lies over the picture may begin
+    float lowest = 0; ///< where chip, tools, statistics and cube end
+    PanelBox free;    ///< what chip, tools, statistics and cube leave of the picture
 };
 
 /// Lays the panel out in the current Dear ImGui frame. @return commands of the user

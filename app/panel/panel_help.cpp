@@ -54,6 +54,7 @@ HelpAnswer help_window(const PanelModel& model) {
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoSavedSettings);
     const bool tour = model.place == PanelPlace::over && ImGui::Button("Take the tour: six steps");
+    note("Ctrl + K finds any of this by its words, and does it.", color_of(Ink::dim));
     ImGui::BeginChild("controls"); // its lines end above the window's rounded edge
     ImGui::Indent(4.0f);           // letters reach beyond their own place
     controls_of(model.at_hand, model.controls);

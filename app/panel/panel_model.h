@@ -8,6 +8,7 @@
 #include "index/file/read_use.h"
 #include "interaction/control_context.h"
 #include "interaction/input/actions.h"
+#include "interaction/pointed.h"
 #include "render/gl/image.h"
 
 #include <array>
@@ -86,12 +87,20 @@ struct OfferedSession {
         picture{}; ///< what was seen last, once it is read; may be none
 };
 
+/// Something that was said.
+struct PastMessage {
+    std::string time; ///< of the day: `14:05:09`
+    std::string words;
+};
+
 /// What the user is told.
 struct PanelNotes {
-    std::string failure{};    ///< failure of the worker; empty when all is well
-    std::string message{};    ///< newest note, such as a saved screenshot
+    std::string failure{}; ///< failure of the worker; empty when all is well
+    std::span<const PastMessage>
+        past{};               ///< the last notes, such as a saved screenshot; newest last
     std::size_t messages = 0; ///< number of notes so far
-    std::string standing{};   ///< note that stays in the picture as long as it is true
+    std::string message() const { return past.empty() ? std::string() : past.back().words; }
+    std::string standing{};              ///< note that stays in the picture as long as it is true
     std::optional<EmptyPicture> empty{}; ///< why the picture shows no surface; empty: it does
 };
 
@@ -116,13 +125,17 @@ struct PanelModel {
     interaction::Ways ways{};
     interaction::Pose head{};   ///< head of the first viewer
     bool quad_buffered = false; ///< the windows have a right buffer, which mode quadbuffer needs
+    bool room_from_outside = false; ///< the window shows an emulated installation
+    /// The place on a surface under the cursor; may be empty.
+    std::function<std::optional<interaction::Pointed>()> pointed{};
 };
 
 /// What the user asks for that no command is for.
 struct PanelPages {
     bool offers_files = false;  ///< the user can open other data
     bool offers_arrays = false; ///< the files have arrays that cannot be shown with these
-    bool files = false, help = false, search = false, arrays = false; ///< opened in this frame
+    /// Opened in this frame.
+    bool files = false, help = false, search = false, arrays = false, messages = false;
     std::optional<MovieWish> movie{};     ///< movie that the user asked for in this frame
     std::optional<std::size_t> session{}; ///< session that they go on with
 };

@@ -58,9 +58,4 @@ void complaints(const PanelModel& model) {
         note(model.notes.failure, color_of(Ink::error));
 }
 
-void newest_note(const PanelModel& model) {
-    if (!model.notes.message.empty())
-        note(model.notes.message, color_of(Ink::dim));
-}
-
 } // namespace isochron::app

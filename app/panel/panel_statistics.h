@@ -11,8 +11,6 @@ namespace isochron::app {
 std::string words_for_cells(const FrameReport& frame);
 /// Figures of the shown cells, of reading and of the last frames.
 void measurements(const PanelModel& model);
-/// The newest message, which also lay over the picture when it came.
-void newest_note(const PanelModel& model);
 /// What fails at present.
 void complaints(const PanelModel& model);
 

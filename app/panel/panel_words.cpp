@@ -38,6 +38,11 @@ void tip(const char* words) {
         tooltip(words);
 }
 
+void popup_title(const char* words) {
+    ImGui::TextColored(color_of(Ink::dim), "%s", words);
+    ImGui::Separator();
+}
+
 void point_at(const ImVec2& low, const ImVec2& high) {
     ImGui::GetWindowDrawList()->AddRect({low.x + 1.0f, low.y + 1.0f}, {high.x - 1.0f, high.y - 1.0f},
                                         packed(Ink::accent), 3.0f, 0, 2.0f);

@@ -11,6 +11,8 @@ namespace isochron::app {
 void text(const std::string& line);
 /// Text that is wrapped to several lines.
 void note(const std::string& line, const ImVec4& color);
+/// What a popup is about, at its top.
+void popup_title(const char* words);
 /// A tip under the mouse on the control that was laid out last: what it does, and its key.
 void tip(const char* words);
 /// A frame that points at a part of the panel. @param low, high its corners, panel pixels

@@ -1,6 +1,7 @@
 // Ranks the lines of the search.
 #include "app/panel/search_rank.h"
 
+#include "app/text.h"
 #include "index/lower_case.h"
 
 #include <algorithm>
@@ -187,6 +188,28 @@ Score score_of(const Typed& typed, const SearchLine& line, const LineWords& word
     return score;
 }
 
+/// How alike two words are by their letters, 0 to 1: a common beginning counts as much as few
+/// changes.
+double likeness(std::string_view typed, std::string_view word) {
+    const auto longer = static_cast<double>(std::max(typed.size(), word.size()));
+    const auto same = static_cast<double>(std::ranges::mismatch(typed, word).in1 - typed.begin());
+    const double changed = static_cast<double>(edit_distance(typed, word));
+    return std::max(same, longer - changed) / longer;
+}
+
+/// How alike the typed words and those of a line are, 0 to 1.
+double likeness(const Typed& typed, const LineWords& line) {
+    double all = 0;
+    for (std::size_t i = 0; i < typed.words.size(); ++i) {
+        double best = 0;
+        for (const auto& phrase : line.phrases)
+            for (const std::string& word : phrase)
+                best = std::max(best, likeness(typed.words[i], word));
+        all += best * typed.weights[i] / typed.whole;
+    }
+    return all;
+}
+
 } // namespace
 
 Ranking ranked(std::span<const SearchLine> lines, std::string_view text) {
@@ -225,12 +248,20 @@ Ranking ranked(std::span<const SearchLine> lines, std::string_view text) {
     std::vector<std::pair<Score, const SearchLine*>> scored;
     for (std::size_t i = 0; i < lines.size(); ++i)
         scored.emplace_back(score_of(typed, lines[i], words[i]), &lines[i]);
-    std::ranges::stable_sort(
-        scored, [](const auto& a, const auto& b) { return a.first.total > b.first.total; });
+    const auto sort = [&] {
+        std::ranges::stable_sort(
+            scored, [](const auto& a, const auto& b) { return a.first.total > b.first.total; });
+    };
+    sort();
     if (scored.empty())
         return ranking;
     const double best = scored.front().first.total;
     ranking.only_near = scored.front().first.found < kFound;
+    if (ranking.only_near) { // letters tell what words do not
+        for (auto& [score, line] : scored)
+            score.total += likeness(typed, words[static_cast<std::size_t>(line - lines.data())]);
+        sort();
+    }
     for (const auto& [score, line] : scored) {
         const bool near = ranking.lines.size() < kNearest;
         if (ranking.only_near ? near : score.found > 0 && score.total >= kMuchWorse * best)

@@ -14,7 +14,8 @@ namespace isochron::app {
 struct Ranking {
     std::vector<const SearchLine*> lines;
     std::optional<double> number; ///< that the text holds: `opacity 40`
-    /// No line has all that was typed: these are the nearest three, and the help.
+    /// No line has all that was typed: these are the nearest three, by words and by letters, and the
+    /// help.
     bool only_near = false;
 };
 

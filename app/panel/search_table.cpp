@@ -3,6 +3,7 @@
 
 #include "app/config/config.h"
 #include "app/config/first_placement.h"
+#include "app/frame/history.h"
 #include "app/panel/parts/color_section.h"
 #include "app/panel/parts/sections.h"
 #include "app/panel/parts/surfaces_section.h"
@@ -102,15 +103,17 @@ constexpr OtherNames kOtherNames[] = {
     {"color_bands", "discretize, discrete colors, number of colors, steps of color, table values, "
                     "contour bands, posterize"},
     // Look.
-    {"background", "backdrop, background color, canvas, theme, world color, sky, bg"},
+    {"background", "backdrop, background color, canvas, theme, world color, sky, bg, viewport "
+                   "background, bgcolor"},
     {"background=light", "white background, light mode, light theme, bright background, paper, "
                          "for printing, white"},
     {"background=dark", "black background, dark mode, dark theme, night mode, black"},
     {"background=gradient", "gradient background, sky, two colors"},
     {"background=white", "pure white, paper, print, publication, #ffffff"},
     {"background=gray", "grey background, neutral background, too dark, brighter"},
-    {"lift_background", "dark colors, dark surface, too dark, cannot see dark colors, black on black, "
-                        "brighter background, contrast, original background"},
+    {"lift_background",
+     "dark colors, dark surface, too dark, cannot see dark colors, black on black, "
+     "brighter background, contrast, original background"},
     {"material", "shading, shininess, specular, highlights, reflection, gloss, roughness, surface "
                  "representation, smooth shading, flat shading, normals, phong, lighting model"},
     {"material=matte", "no specular, diffuse, dull, flat, rough"},
@@ -125,7 +128,7 @@ constexpr OtherNames kOtherNames[] = {
                      "coordinates, frame, show bounds, extent, ticks, ruler axes, dimensions"},
     {"grid", "floor, ground, ground plane, horizon, floor grid"},
     {"orthographic", "orthogonal, ortho, parallel projection, perspective, camera projection, "
-                     "isometric projection, projection, switch perspective ortho"},
+                     "isometric projection, projection, switch perspective ortho, numpad 5"},
     {"heights", "vertical exaggeration, z scale, stretch z, scale z, aspect ratio, anisotropic "
                 "scale, relief, stretch"},
     {"exaggerate", "stretch z, taller"},
@@ -184,6 +187,8 @@ constexpr OtherNames kOtherNames[] = {
     {"statistics", "frame rate, fps, frames per second, timing, memory, cache, cache size, ram, "
                    "number of triangles, number of cells, triangle count, polygons, performance "
                    "monitor, info, counts, gpu, benchmark, profile"},
+    {"messages", "notifications, log, console, output, what was said, warnings, errors, saved "
+                 "files, status, where is my file, open folder, copy path"},
     // Tools.
     {"pick_tool", "probe, pick value, pick point, select, inspect, hover, value at point, add "
                   "marker, add mark, add point, marker, landmark, point selection, query, seed, "
@@ -382,16 +387,26 @@ void add_way_out(Lines& lines) {
     if (empty && !empty->way.empty())
         lines.add({.name = "way_out",
                    .words = empty->sentence + " " + empty->way,
-                   .others = "way out, nothing shown, no surface, empty picture, blank, black, where "
-                             "is my data, data gone, lost, invisible, why is it empty",
+                   .others =
+                       "way out, nothing shown, no surface, empty picture, blank, black, where "
+                       "is my data, data gone, lost, invisible, why is it empty",
                    .key = "Enter",
                    .commands = empty->commands});
+}
+
+/// What undo or redo would change.
+std::string way_words(const PanelModel& model, std::optional<interaction::Action> action) {
+    const bool undo = action == interaction::Action::undo;
+    if (!undo && action != interaction::Action::redo)
+        return "";
+    return words_for_way(model.asked, undo ? model.ways.undo : model.ways.redo, model.info.steps());
 }
 
 void add_keys(Lines& lines) {
     for (const KeyCommand& each : key_commands())
         lines.add({.name = std::string(each.action ? name_of(*each.action) : each.found_as),
                    .words = each.words,
+                   .value = way_words(lines.model(), each.action),
                    .key = each.name,
                    .press = &each,
                    .in_room = each.in_room});
@@ -640,6 +655,16 @@ void add_view(Lines& lines) {
         effect.words = fmt::format("{:.0f} mm", std::clamp(number, 0.0, widest));
         return effect;
     };
+    lines.add({.name = "messages",
+               .words = "messages: what was said, and when",
+               .page = SearchPage::messages,
+               .in_room = false});
+    if (model.room_from_outside)
+        lines.add({.name = "about_room",
+                   .words = "the emulated room: what the window shows",
+                   .others = "cave, emulation, outside, walls, introduction, card",
+                   .page = SearchPage::room,
+                   .in_room = false});
     if (model.place == PanelPlace::over)
         lines.add({.name = "statistics",
                    .words = "figures of drawing and memory",

@@ -37,7 +37,7 @@ std::vector<interaction::WindowEvent> presses_of(const KeyCommand& command);
 const std::vector<KeyCommand>& key_commands();
 
 /// A page beside the panel that a line of the search opens.
-enum class SearchPage : std::uint8_t { none, help, statistics };
+enum class SearchPage : std::uint8_t { none, help, statistics, messages, room };
 
 /// What a number leads to that was typed with a line's name, such as `opacity 40`.
 struct NumberEffect {

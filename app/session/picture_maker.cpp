@@ -5,12 +5,32 @@
 #include "app/scene/mark.h"
 #include "app/scene/overlay_colors.h"
 #include "interaction/input/device_reading.h"
+#include "interaction/navigation/navigation.h"
 #include "interaction/navigation/navigator.h"
 #include "interaction/tools/tool_table.h"
+
+#include <glm/geometric.hpp>
 
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+/// Whether a place is the mark's, as far as the viewer can tell the two apart.
+bool is_marked(const interaction::Pointed& pointed, const interaction::Pose& viewer,
+               const ExplorerState& state) {
+    constexpr double kApart = 0.012; // [rad] some pixels more than the arms of the mark
+    const auto& mark = state.mark.point;
+    if (!mark || mark->instant != pointed.point.instant)
+        return false;
+    const auto way = [&](const interaction::MarkedPoint& point) {
+        return glm::normalize(transform(state.room_from_physical, point.position) -
+                              glm::dvec3(viewer.position));
+    };
+    return glm::distance(way(*mark), way(pointed.point)) < kApart;
+}
+
+} // namespace
 
 std::vector<stereo::ViewerPose> PictureMaker::viewers(const interaction::InputState& input,
                                                       const ExplorerState& state) const {
@@ -80,13 +100,17 @@ float PictureMaker::text_share(const ExplorerState& state) const {
 }
 
 /// The ray of a wand that mouse and keyboard play shows nothing that the cursor does not show.
+/// What the cursor points at has no words while a button is down, and none where the mark has them.
 Aids PictureMaker::aids(const interaction::InputState& input, const ExplorerState& state) const {
-    const bool touched = panel_.in_room().touched();
+    const interaction::Reading now(input);
+    const bool aims = !panel_.in_room().touched() && interaction::Reading::buttons(now.mouse) == 0;
     const bool points = !panel_.head_is_emulated();
     const interaction::DeviceState* wand =
         config_.rendering.wand_ray && points ? input.find("wand") : nullptr;
-    return {wand ? wand->pose : std::nullopt,
-            picker_.pointed(input, !touched, state, sets_.shown())};
+    auto pointed = picker_.pointed(input, aims, state, sets_.shown());
+    if (pointed && is_marked(*pointed, now.viewer(), state))
+        pointed.reset();
+    return {wand ? wand->pose : std::nullopt, pointed};
 }
 
 /// At a desktop often nothing but the cursor moves: the picture below the cursor stays as it is.
@@ -162,12 +186,17 @@ void PictureMaker::show_cells(Picture& picture, const ExplorerState& state) cons
     picture.scale = shown_scale(state);
 }
 
+std::optional<interaction::Pointed> PictureMaker::pointed(const interaction::InputState& input,
+                                                          const ExplorerState& state) const {
+    return picker_.pointed(input, !panel_.in_room().touched(), state, sets_.shown());
+}
+
 std::string PictureMaker::words_under_pointer(const interaction::InputState& input,
                                               const ExplorerState& state) const {
-    const auto pointed = picker_.pointed(input, !panel_.in_room().touched(), state, sets_.shown());
-    if (!pointed && !state.mark.point)
+    const auto at = pointed(input, state);
+    if (!at && !state.mark.point)
         return "";
-    return mark_text(pointed ? pointed->point : *state.mark.point, arrays_.shown(state).info());
+    return mark_text(at ? at->point : *state.mark.point, arrays_.shown(state).info());
 }
 
 interaction::WrittenPictures

@@ -37,6 +37,9 @@ class PictureMaker {
     /// What is to be drawn over the last picture, which lacks it.
     const Aids& over() const { return over_; }
 
+    /// The place on a surface under the cursor.
+    std::optional<interaction::Pointed> pointed(const interaction::InputState& input,
+                                                const ExplorerState& state) const;
     /// Value, place and time under the cursor, or else of the mark; empty if there is neither.
     std::string words_under_pointer(const interaction::InputState& input,
                                     const ExplorerState& state) const;

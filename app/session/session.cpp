@@ -169,7 +169,9 @@ PanelModel Session::panel_model(const FrameReport& report) const {
             .ways = {.undo = history_.undo(), .redo = history_.redo()},
             .head = outputs_.audience().viewers.empty() ? interaction::Pose{}
                                                         : outputs_.audience().viewers.front().head,
-            .quad_buffered = outputs_.windows()[0].has_stereo_buffers()};
+            .quad_buffered = outputs_.windows()[0].has_stereo_buffers(),
+            .room_from_outside = outputs_.room() != nullptr,
+            .pointed = [this] { return pictures_.pointed(note_.input, state_); }};
 }
 
 void Session::warm_up(const std::function<bool(float)>& goes_on) {
@@ -370,6 +372,9 @@ void Session::obey(const Commands& commands, const interaction::InputState& inpu
     if (times_.at.size() != steps())
         times_ = known_times(arrays_.file()->info(), steps());
     history_.add(before, state_, commands, input);
+    if (commands.undo || commands.redo)
+        show_messages({fmt::format("{}: {}", commands.undo ? "Undo" : "Redo",
+                                   words_for_change(before, state_))});
     if (commands.screenshot)
         captures_.ask();
 }

@@ -4,11 +4,24 @@
 #include "interaction/controls/room_panel.h"
 #include "interaction/navigation/navigation.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include <ctime>
 #include <utility>
 
 namespace isochron::app {
+namespace {
+
+/// The time of the clock on the wall.
+std::string time_of_day() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    localtime_r(&now, &parts);
+    return fmt::format("{:02}:{:02}:{:02}", parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+} // namespace
 
 std::vector<interaction::DeviceKind> kinds_at_hand(bool hands,
                                                    const interaction::InputState& input) {
@@ -27,10 +40,11 @@ SessionPanel::SessionPanel(const Config& config, const Outputs& outputs)
       in_room_(outputs.gl(), config_.panel) {}
 
 void SessionPanel::show_messages(std::vector<std::string> messages) {
-    if (messages.empty())
-        return;
-    message_ = std::move(messages.back());
     messages_ += messages.size();
+    for (std::string& words : messages)
+        past_.push_back({time_of_day(), std::move(words)});
+    if (past_.size() > kMessagesKept)
+        past_.erase(past_.begin(), past_.end() - kMessagesKept);
 }
 
 interaction::Commands SessionPanel::take_commands() {
@@ -47,7 +61,7 @@ PanelModel SessionPanel::told(PanelModel model, PanelPlace place) const {
     model.movies = movies_;
     if (place != PanelPlace::in_room)
         model.sessions = sessions_;
-    model.notes.message = message_;
+    model.notes.past = past_;
     model.notes.messages = messages_;
     model.notes.standing = outputs_.headset() && outputs_.shows_windows()
                                ? "No picture in the headset: the window shows the data instead. " +
@@ -97,8 +111,8 @@ void SessionPanel::draw_alone(const Facts& facts, interaction::Seconds time) {
 }
 
 stereo::Margins SessionPanel::covered(const ExplorerState& state) const {
-    return is_flat(state) ? over_.covered(outputs_.windows()[0].framebuffer_size() / places(state))
-                          : stereo::Margins{};
+    const glm::ivec2 size = outputs_.windows().first().framebuffer_size();
+    return is_flat(state) ? over_.covered(size / places(state)) : stereo::Margins{};
 }
 
 float SessionPanel::text_share(const ExplorerState& state) const {

@@ -37,6 +37,8 @@ class SessionPanel {
     PanelInRoom& in_room() { return in_room_; }
     const PanelInRoom& in_room() const { return in_room_; }
 
+    /// Messages that can be read again.
+    static constexpr std::size_t kMessagesKept = 50;
     /// Shows the last of these messages on the panel until there is a newer one.
     void show_messages(std::vector<std::string> messages);
     /// Shows this on the picture as long as it is not empty.
@@ -96,7 +98,8 @@ class SessionPanel {
     OperatorPanel over_;
     PanelInRoom in_room_;
     interaction::Commands commands_;
-    std::string message_, standing_;
+    std::vector<PastMessage> past_; ///< the last messages, newest last
+    std::string standing_;
     std::size_t messages_ = 0;
     bool recording_ = false;
     MovieState movies_;

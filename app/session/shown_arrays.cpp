@@ -32,8 +32,8 @@ std::optional<std::size_t> next_with_surfaces(const index::IndexFile& file, std:
 
 ShownArrays::ShownArrays(const Config& config, std::shared_ptr<const index::IndexFile> file,
                          const ExplorerState& home)
-    : file_(std::move(file)), color_names_(index::color_source_names(*file_)),
-      first_surfaces_{home.isosurfaces} {
+    : file_(std::move(file)),
+      color_names_(index::color_source_names(*file_)), first_surfaces_{home.isosurfaces} {
     for (std::size_t number = 0; number < file_->arrays(); ++number) {
         const index::IndexFile& array = file_->array(number);
         names_.push_back(array.info().array);

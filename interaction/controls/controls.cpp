@@ -3,6 +3,7 @@
 
 #include "interaction/controls/action_table.h"
 #include "interaction/controls/key_repeat.h"
+#include "interaction/controls/key_words.h"
 #include "interaction/controls/room_panel.h"
 #include "interaction/controls/time_controls.h"
 #include "interaction/input/actions.h"
@@ -161,11 +162,29 @@ struct Controls::State {
     }
 };
 
+namespace {
+
+/// What is left of the devices while the program asks whether to quit: the keys that answer.
+InputState only_answers(InputState input) {
+    const ActionSet answers = bit(Action::quit) | bit(Action::pick) | bit(Action::ask_to_quit);
+    for (DeviceState& device : input.devices) {
+        device.actions &= answers;
+        if (device.name == "mouse" || device.name == "keys") {
+            device.buttons = 0;
+            device.valuators.clear();
+        }
+    }
+    return input;
+}
+
+} // namespace
+
 Controls::Controls() : state_(std::make_unique<State>()) {}
 Controls::~Controls() = default;
 
-Commands Controls::update(const InputState& input, const ControlContext& context) {
+Commands Controls::update(const InputState& devices, const ControlContext& context) {
     State& s = *state_;
+    const InputState input = context.settings.leaving ? only_answers(devices) : devices;
     const Reading now(input, s.before);
     s.before = now.levels();
     const double elapsed = s.last_time ? std::max((input.time - *s.last_time).count(), 0.0) : 0.0;
@@ -191,6 +210,8 @@ Commands Controls::update(const InputState& input, const ControlContext& context
     merge(commands, made.commands);
     merge(s.found, made.found);
     s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
+    for (std::string& words : words_of_keys(now, context, commands))
+        s.notes.push_back(std::move(words));
     if (now.pressed(Action::reset) && context.ways.start)
         merge(commands, *context.ways.start);
     s.take_back(now, context, commands);

@@ -36,12 +36,13 @@ std::string name_of(const KeyStroke& stroke) {
 
 std::span<const ControlLine> control_lines() {
     using enum DeviceKind;
-    static constexpr std::array<ControlLine, 38> kLines{{
+    static constexpr std::array<ControlLine, 39> kLines{{
         {mouse, "Click", "pick the surface there, or what the chosen tool does"},
         {mouse, "Double click", "bring that place of a surface to the middle of the view"},
         {mouse, "Left drag", "orbit: turn the volume about its center"},
         {mouse, "Middle drag, or Shift + left", "move the volume"},
         {mouse, "Right drag", "look around"},
+        {mouse, "Right click", "menu: copy value, mark, clip, isovalue here, show all"},
         {mouse, "Wheel", "scale about the place under the cursor"},
         {mouse, "Ctrl + wheel", "isovalue by 0.1 % of the range"},
         {mouse, "Mouse", "aims the wand"},

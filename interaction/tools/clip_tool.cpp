@@ -129,9 +129,8 @@ ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext&
                                    ? now.session.find_surface(*hand.ray)
                                    : std::nullopt;
             if (found)
-                outcome.commands.clip =
-                    ClipPlane{true, found->point.position,
-                              normal_in_physical(now.room_from_physical, -ahead_of(*hand.ray))};
+                outcome.commands.clip = laid_through(found->point.position, now.room_from_physical,
+                                                     ahead_of(*hand.ray));
             else if (hand.chosen)
                 outcome.note = "no surface there to lay the clip plane through";
             continue;
@@ -151,6 +150,11 @@ ToolOutcome ClipTool::update(std::span<const ToolHand> hands, const ToolContext&
     if (!pulls)
         pulled_.reset();
     return outcome;
+}
+
+ClipPlane laid_through(const glm::dvec3& place, const Similarity& room_from_physical,
+                       const glm::dvec3& ahead) {
+    return {true, place, normal_in_physical(room_from_physical, -glm::normalize(ahead))};
 }
 
 ClipPlane snapped(const ClipPlane& plane, int axis, const DataFrame& data) {

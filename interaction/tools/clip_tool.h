@@ -32,6 +32,11 @@ class ClipTool final : public Tool {
     std::optional<Pulled> pulled_;
 };
 
+/// The plane through a place, across a direction in the room; the side that it comes from is cut away.
+/// @param place in physical space @param ahead of any length but 0
+ClipPlane laid_through(const glm::dvec3& place, const Similarity& room_from_physical,
+                       const glm::dvec3& ahead);
+
 /// The plane turned across one of the data's axes. It keeps its point; a plane that is not shown
 /// goes through the middle of the data. It cuts away the part towards the axis's higher end; a
 /// plane that already did so cuts away the other part. @param axis 0 to 2

@@ -3,12 +3,14 @@
 
 #include "app/panel/imgui/event_taker.h"
 #include "app/panel/parts/messages.h"
+#include "app/panel/parts/place_menu.h"
 #include "app/panel/parts/theme.h"
 #include "app/scene/font.h"
 #include "interaction/controls/controls.h"
 #include "render/gl/limits.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -26,7 +28,10 @@ namespace {
 
 using namespace interaction;
 
-constexpr Seconds kMessageShown{4.0};
+/// A message that names a path, of which something can be done, stays longer.
+Seconds shown_for(const std::string& message) {
+    return Seconds(path_in(message) ? 8.0 : 4.0);
+}
 
 } // namespace
 
@@ -125,12 +130,37 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
             continue;
         const bool open = shown || pages_.any();
         const bool taken = std::visit(taker, event);
+        follow_right_button(event, taken);
         if (!taken || !open)
             left.push_back(event);
     }
     if (taker.begun)
         pages_.begin();
     return left;
+}
+
+/// A press of the right button on the picture that moves nothing opens the menu of the place.
+void PanelLayer::follow_right_button(const WindowEvent& event, bool taken) {
+    constexpr float kStill = 4.0f; // panel pixels
+    const auto* button = std::get_if<MouseButtonEvent>(&event);
+    if (!button || button->button != MouseButton::right || !cursor_)
+        return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const glm::vec2 at = *cursor_ * glm::vec2(screen.x, screen.y);
+    const auto pressed = std::exchange(right_pressed_, std::nullopt);
+    if (button->down && !taken)
+        right_pressed_ = at;
+    else if (!button->down && pressed && glm::distance(*pressed, at) <= kStill)
+        opens_menu_ = true;
+}
+
+void PanelLayer::lay_out_menu(const PanelModel& model, Commands& commands) {
+    if (std::exchange(opens_menu_, false) && !pages_.any() && !model.asked.leaving) {
+        menu_place_ = model.pointed ? model.pointed() : std::nullopt;
+        open_place_menu();
+    }
+    if (place_menu(model, menu_place_, commands, pages_.desktop_wish()))
+        pages_.press(Action::recenter);
 }
 
 void PanelLayer::point(const std::optional<glm::vec2>& at, bool pressed, float notches) {
@@ -172,27 +202,30 @@ Commands PanelLayer::say(const PanelModel& model, Seconds time) {
         complaint_ = std::move(complaint);
     }
     const bool stands_else = std::exchange(standing_, model.notes.standing) != standing_;
-    const bool fresh = time < said_ + kMessageShown;
+    const std::string message = complaint_.empty() ? model.notes.message() : complaint_;
+    shown_until_ = said_ + shown_for(message);
+    const bool fresh = time < shown_until_;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const bool hidden = view_.layout == PanelLayout{};
     const PanelBox picture = hidden ? PanelBox{{0, 0}, {screen.x, screen.y}} : view_.layout.picture;
-    const float top = hidden ? picture.low.y + 10.0f : view_.below_chip;
+    const PanelBox free = hidden ? PanelBox{{0, 10}, {screen.x, screen.y}} : view_.free;
     if (model.place == PanelPlace::over) {
         const bool closed = !model.notes.failure.empty() && model.notes.failure == closed_;
         if (message_window({.failure = closed ? std::string() : model.notes.failure,
                             .standing = standing_,
-                            .message = !fresh               ? std::string()
-                                       : complaint_.empty() ? model.notes.message
-                                                            : complaint_},
-                           picture, top))
+                            .message = fresh ? message : std::string()},
+                           free, pages_.desktop_wish()))
             closed_ = model.notes.failure;
     } else if (model.place == PanelPlace::whole) {
         message_window({.failure = {}, .standing = {}, .message = fresh ? complaint_ : ""},
-                       {{0, 0}, {screen.x, screen.y}}, 44.0f);
+                       {{0, 44}, {screen.x, screen.y}}, pages_.desktop_wish());
     }
+    float lowest = hidden ? free.low.y : view_.lowest;
+    if (const ImGuiWindow* said = ImGui::FindWindowByName("###message"); said && said->Active)
+        lowest = std::max(lowest, said->Pos.y + said->Size.y);
     const PanelBox below_title{{0, view_.layout.top.low.y}, {screen.x, screen.y}};
     Commands commands = pages_.lay_out(
-        model, model.place == PanelPlace::in_room ? below_title : picture, top, time);
+        model, model.place == PanelPlace::in_room ? below_title : picture, lowest, time);
     changed_by_words_ =
         said_ != said_before || stands_else || pages_.turned(); // ImGui shows a new window late
     return commands;
@@ -221,12 +254,16 @@ Commands PanelLayer::lay_out(glm::ivec2 picture, const PanelModel& model, Second
         pages_.open_search();
     if (asked.arrays)
         pages_.open_arrays();
+    if (asked.messages)
+        pages_.open_messages();
     if (asked.movie)
         wanted_movie_ = asked.movie;
     pages_.go_on_with(model, asked.session);
+    if (model.place == PanelPlace::over)
+        lay_out_menu(model, commands);
+    merge(commands, say(model, time));
     if (model.place != PanelPlace::in_room)
         leaving_window(model, commands);
-    merge(commands, say(model, time));
     const OpenPages::FoundControl found = pages_.take_found();
     if (found.section) {
         view_.pointed = found.section;
@@ -247,7 +284,7 @@ void PanelLayer::lay_out_files(glm::ivec2 picture, const std::string& complaint,
     pages_.lay_out_files();
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     message_window({.failure = {}, .standing = complaint, .message = {}},
-                   {{0, 0}, {screen.x, screen.y}}, 10.0f);
+                   {{0, 10}, {screen.x, screen.y}}, pages_.desktop_wish());
     end_frame();
 }
 
@@ -304,7 +341,7 @@ FrameOutlook PanelLayer::outlook() const {
                 std::ranges::any_of(io.KeysDown, is_down);
     if (io.WantTextInput)
         next.until = laid_out_ + kCaretBlinks;
-    for (const Seconds moment : {said_ + kMessageShown, pages_.introduction_ends()})
+    for (const Seconds moment : {shown_until_, pages_.introduction_ends()})
         if (moment > laid_out_)
             next.until = std::min(next.until, moment);
     return next;

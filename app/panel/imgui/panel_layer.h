@@ -110,6 +110,8 @@ class PanelLayer {
     void end_frame();
     std::size_t hash_of_layout() const;
     bool has_popup() const;
+    void follow_right_button(const interaction::WindowEvent& event, bool taken);
+    void lay_out_menu(const PanelModel& model, interaction::Commands& commands);
     interaction::Commands say(const PanelModel& model, interaction::Seconds time);
     void begin_frame(glm::ivec2 picture, interaction::Seconds time);
 
@@ -127,14 +129,19 @@ class PanelLayer {
     bool fed_ = false;                ///< events came for it
     std::size_t messages_ = 0;        ///< number so far
     interaction::Seconds said_{-1e9}; ///< when the newest one came
-    std::string standing_;            ///< in the last layout
-    std::string closed_;              ///< the failure that the user has read and closed
-    bool changed_by_words_ = false;   ///< a window with words has come or gone
+    interaction::Seconds shown_until_{-1e9};
+    std::string standing_;          ///< in the last layout
+    std::string closed_;            ///< the failure that the user has read and closed
+    bool changed_by_words_ = false; ///< a window with words has come or gone
     NumberEntry numbers_;
     std::string complaint_;     ///< complaint of `numbers_`, if nothing was said since
     bool closes_popup_ = false; ///< Escape was pressed
     OpenPages pages_;
-    RoomKeys room_keys_; ///< keys of the panel in the room
+    /// Where the right button went down on the picture, panel pixels; empty: it is up.
+    std::optional<glm::vec2> right_pressed_;
+    bool opens_menu_ = false;                        ///< it came up there again
+    std::optional<interaction::Pointed> menu_place_; ///< place of the menu that is open
+    RoomKeys room_keys_;                             ///< keys of the panel in the room
     std::optional<MovieWish> wanted_movie_;
     render::LazyProgram program_;
     render::VertexArray vertex_array_;

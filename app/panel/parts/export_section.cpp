@@ -88,6 +88,7 @@ void export_button(const PanelModel& model, Commands& commands) {
         ImGui::OpenPopup("exports");
     if (!ImGui::BeginPopup("exports"))
         return;
+    popup_title("Export surfaces");
     export_rows(model, commands);
     ImGui::EndPopup();
 }

@@ -8,9 +8,11 @@
 #include "app/panel/parts/time_track.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace isochron::app {
@@ -22,17 +24,6 @@ constexpr float kMargin = 10.0f; ///< between the picture's edges and what lies 
 constexpr ImGuiWindowFlags kFixed =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
-
-void statistics_window(const PanelModel& model, const PanelBox& picture, float top) {
-    constexpr float kWidth = 380.0f;
-    ImGui::SetNextWindowPos({picture.low.x + kMargin, top});
-    ImGui::SetNextWindowSize({std::min(kWidth, picture.size().x - 2 * kMargin), 0.0f});
-    ImGui::Begin("###statistics", nullptr, kFixed & ~ImGuiWindowFlags_AlwaysAutoResize);
-    note(quality_line(model.frame), color_of(Ink::text));
-    measurements(model);
-    newest_note(model);
-    ImGui::End();
-}
 
 } // namespace
 
@@ -69,7 +60,7 @@ std::string quality_line(const FrameReport& frame) {
     return line;
 }
 
-float state_chip(const PanelModel& model, const PanelBox& picture, bool& open) {
+glm::vec2 state_chip(const PanelModel& model, const PanelBox& picture, bool& open) {
     const StateWords state = model.notes.empty
                                  ? StateWords{short_words(model.notes.empty->why), false}
                                  : state_words(model.frame, model.asked.quality);
@@ -91,9 +82,22 @@ float state_chip(const PanelModel& model, const PanelBox& picture, bool& open) {
     tip("how exact the picture is; a click shows the times and numbers behind it");
     ImGui::End();
     ImGui::PopStyleVar();
-    if (open)
-        statistics_window(model, picture, corner.y + height + 6.0f);
-    return corner.x + width;
+    return {corner.x + width, corner.y + height};
+}
+
+glm::vec2 statistics_window(const PanelModel& model, const PanelBox& picture, float top,
+                            PanelPages& pages) {
+    constexpr float kWidth = 380.0f;
+    ImGui::SetNextWindowPos({picture.low.x + kMargin, top});
+    ImGui::SetNextWindowSize({std::min(kWidth, picture.size().x - 2 * kMargin), 0.0f});
+    ImGui::Begin("###statistics", nullptr, kFixed & ~ImGuiWindowFlags_AlwaysAutoResize);
+    note(quality_line(model.frame), color_of(Ink::text));
+    measurements(model);
+    if (!model.notes.past.empty() && ImGui::Button("messages ..."))
+        pages.messages = true;
+    const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    ImGui::End();
+    return {corner.x + size.x, corner.y + size.y};
 }
 
 void gap_window(const PanelModel& model, const PanelBox& picture) {
@@ -107,16 +111,58 @@ void gap_window(const PanelModel& model, const PanelBox& picture) {
     ImGui::End();
 }
 
-bool message_window(const Said& said, const PanelBox& picture, float top) {
+/// What can be done with the file or folder that a message names. @return whether it names one
+bool path_buttons(const std::string& message, DesktopWish& wish) {
+    const auto path = path_in(message);
+    if (!path)
+        return false;
+    if (can_open_folders()) {
+        if (ImGui::SmallButton("open folder"))
+            wish.folder = path->parent_path();
+        ImGui::SameLine();
+    }
+    if (ImGui::SmallButton("copy path"))
+        wish.text = path->string();
+    return true;
+}
+
+bool messages_page(const PanelModel& model, DesktopWish& wish) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize(
+        {std::min(std::floor(0.96f * screen.x), 620.0f), 2 * std::floor(0.3f * screen.y)});
+    bool open = true;
+    ImGui::Begin("Messages###messages", &open,
+                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoSavedSettings);
+    if (model.notes.past.empty())
+        note("Nothing was said so far.", color_of(Ink::dim));
+    for (std::size_t i = model.notes.past.size(); i-- > 0;) { // the newest first
+        const PastMessage& each = model.notes.past[i];
+        ImGui::PushID(static_cast<int>(i));
+        ImGui::TextColored(color_of(Ink::dim), "%s", each.time.c_str());
+        ImGui::SameLine();
+        ImGui::BeginGroup();
+        note(each.words, color_of(Ink::text));
+        path_buttons(each.words, wish);
+        ImGui::EndGroup();
+        ImGui::PopID();
+    }
+    ImGui::End();
+    return open;
+}
+
+bool message_window(const Said& said, const PanelBox& free, DesktopWish& wish) {
     if (said.failure.empty() && said.standing.empty() && said.message.empty())
         return false;
-    ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2, top}, ImGuiCond_Always,
+    ImGui::SetNextWindowPos({(free.low.x + free.high.x) / 2, free.low.y}, ImGuiCond_Always,
                             {0.5f, 0.0f});
-    const ImGuiWindowFlags quiet =
-        said.failure.empty() ? ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav : 0;
+    const ImGuiWindowFlags quiet = said.failure.empty() && !path_in(said.message)
+                                       ? ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav
+                                       : 0;
     ImGui::Begin("###message", nullptr, kFixed | quiet);
     constexpr float kButton = 22.0f;
-    const float widest = std::max(60.0f, picture.size().x - 6 * kMargin - kButton);
+    const float widest = std::max(60.0f, free.size().x - 6 * kMargin - kButton);
     bool closed = false;
     if (!said.failure.empty()) {
         closed = icon_button("close", Icon::close, "close this message", false, kButton);
@@ -133,6 +179,7 @@ bool message_window(const Said& said, const PanelBox& picture, float top) {
             ImGui::PopStyleColor();
         }
     ImGui::PopTextWrapPos();
+    path_buttons(said.message, wish);
     ImGui::EndGroup();
     ImGui::End();
     return closed;
@@ -146,14 +193,14 @@ bool way_out_button(const EmptyPicture& empty, const char* key) {
 
 } // namespace
 
-bool empty_card(const PanelModel& model, const PanelBox& picture, float least) {
+bool empty_card(const PanelModel& model, const PanelBox& picture) {
     constexpr float kWidest = 420.0f, kHeight = 0.36f; // share, above the hint for newcomers
     if (!model.notes.empty)
         return false;
     const EmptyPicture& empty = *model.notes.empty;
     const float widest = std::min(kWidest, 0.9f * picture.size().x - 2 * kMargin);
     ImGui::SetNextWindowPos({(picture.low.x + picture.high.x) / 2,
-                             picture.low.y + std::max(least, kHeight * picture.size().y)},
+                             picture.low.y + kHeight * picture.size().y},
                             ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::Begin("###empty", nullptr, kFixed | ImGuiWindowFlags_NoNav);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + widest);
@@ -185,15 +232,38 @@ void progress_window(const std::string& name, const std::string& line, float fra
     ImGui::End();
 }
 
+void bring_forward() {
+    if (!ImGui::IsWindowAppearing())
+        return;
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+    ImGui::SetWindowFocus();
+}
+
+void dim_rest() {
+    constexpr float kDarkness = 0.5f;
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.0f, 0.0f, 0.0f, kDarkness});
+    ImGui::Begin("###dim", nullptr,
+                 (kFixed | ImGuiWindowFlags_NoBringToFrontOnFocus) &
+                     ~ImGuiWindowFlags_AlwaysAutoResize);
+    bring_forward();
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+}
+
 void leaving_window(const PanelModel& model, Commands& commands) {
     if (!model.asked.leaving)
         return;
+    dim_rest();
     const ImVec2 picture = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowFocus();
     ImGui::Begin("Quit Isochron?###leaving", nullptr,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+    bring_forward();
     if (model.recording)
         ImGui::TextUnformatted("The recording will end and be saved.");
     if (model.movies.progress)

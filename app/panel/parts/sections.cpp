@@ -158,6 +158,7 @@ void viewpoint_row(const PanelModel& model, Commands& commands) {
     tip("places to look from, to come back to (B, N)");
     if (!ImGui::BeginPopup("viewpoints"))
         return;
+    popup_title("Viewpoints");
     if (ImGui::MenuItem("save this viewpoint", "B"))
         commands.views = with_view(views, model.asked.room_from_physical);
     ImGui::Separator();

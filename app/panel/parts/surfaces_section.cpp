@@ -68,6 +68,7 @@ void menu_of_surface(const PanelModel& model, std::uint32_t i, ListChange& chang
         ImGui::OpenPopup("surface");
     if (!ImGui::BeginPopup("surface"))
         return;
+    popup_title("Surface");
     if (ImGui::MenuItem("move this one with keys and wheel", "I", model.asked.picked == i))
         change.picked = i;
     const auto& mark = model.asked.mark.point;

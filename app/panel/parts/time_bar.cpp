@@ -61,6 +61,7 @@ void menu_of_time(const PanelModel& model, interaction::PlaybackState& playback,
         ImGui::OpenPopup("time");
     if (!ImGui::BeginPopup("time"))
         return;
+    popup_title("How time plays");
     ImGui::MenuItem("start again after the last step", "L", &playback.loop);
     ImGui::MenuItem("play back and forth", "Ctrl + L", &playback.ping_pong);
     ImGui::MenuItem("play backwards", "R", &playback.reverse);
@@ -166,6 +167,7 @@ void list_of_bookmarks(const PanelModel& model, interaction::PlaybackState& play
                        Commands& commands) {
     if (!ImGui::BeginPopup("bookmarks"))
         return;
+    popup_title("Bookmarks");
     auto marks = model.asked.bookmarks;
     std::vector<NamedRow> rows;
     for (const interaction::Bookmark& each : marks)

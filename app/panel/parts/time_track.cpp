@@ -1,6 +1,7 @@
 // The track of all steps: the range that plays, bookmarks as flags, and steps at hand.
 #include "app/panel/parts/time_track.h"
 
+#include "app/panel/panel_words.h"
 #include "app/panel/parts/theme.h"
 #include "index/volume/instant_text.h"
 #include "interaction/step_track.h"
@@ -271,6 +272,7 @@ void tip_of_track(const Track& track, const PanelModel& model, std::uint32_t poi
 void menu_of_step(std::uint32_t step, const PanelModel& model, Commands& commands) {
     if (!ImGui::BeginPopup("step"))
         return;
+    popup_title("This step");
     const auto& marks = model.asked.bookmarks;
     const bool marked =
         std::ranges::find(marks, index::Instant(step), &Bookmark::instant) != marks.end();

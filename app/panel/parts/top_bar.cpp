@@ -1,6 +1,7 @@
 // The bar at the top: data, undo, tools, what is written, and help.
 #include "app/panel/parts/top_bar.h"
 
+#include "app/frame/history.h"
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/clip_lines.h"
 #include "app/panel/parts/export_section.h"
@@ -34,10 +35,13 @@ void gap_between_groups() {
     ImGui::SetCursorScreenPos({corner.x + 6.0f, corner.y});
 }
 
-void way_button(const char* id, Icon icon, const char* effect, const Commands* change,
-                Commands& commands) {
+/// Undo or redo; its tip says what would change.
+void way_button(const PanelModel& model, const char* id, Icon icon, const char* key,
+                const Commands* change, Commands& commands) {
+    const std::string what = words_for_way(model.asked, change, model.info.steps());
+    const std::string effect = fmt::format("{}{}{} ({})", id, what.empty() ? "" : ": ", what, key);
     ImGui::BeginDisabled(!change);
-    if (icon_button(id, icon, effect) && change)
+    if (icon_button(id, icon, effect.c_str()) && change)
         commands = *change;
     ImGui::EndDisabled();
 }
@@ -68,6 +72,7 @@ void picture_menu(const PanelModel& model, Commands& commands) {
         ImGui::OpenPopup("pictures");
     if (!ImGui::BeginPopup("pictures"))
         return;
+    popup_title("What pictures show");
     picture_rows(model, commands);
     ImGui::EndPopup();
 }
@@ -77,6 +82,7 @@ void movie_button(const PanelModel& model, PanelPages& pages, Commands& commands
         ImGui::OpenPopup("movies");
     if (!ImGui::BeginPopup("movies"))
         return;
+    popup_title("Movies");
     pages.movie = movie_rows(model, commands);
     if (pages.movie)
         ImGui::CloseCurrentPopup();
@@ -100,9 +106,9 @@ void top_bar(const PanelModel& model, PanelPages& pages, Commands& commands) {
             pages.files = true;
         gap_between_groups();
     }
-    way_button("undo", Icon::undo, "undo (Ctrl + Z)", model.ways.undo, commands);
+    way_button(model, "undo", Icon::undo, "Ctrl + Z", model.ways.undo, commands);
     ImGui::SameLine(0.0f, 2.0f);
-    way_button("redo", Icon::redo, "redo (Ctrl + Shift + Z)", model.ways.redo, commands);
+    way_button(model, "redo", Icon::redo, "Ctrl + Shift + Z", model.ways.redo, commands);
     gap_between_groups();
     tool_buttons(model, commands);
     gap_between_groups();
@@ -166,14 +172,24 @@ void made_line(const interaction::ToolRow& tool, const PanelModel& model, Comman
         tool.remove(commands);
 }
 
-/// The place that the user picked.
-void mark_line(const PanelModel& model, Commands& commands) {
+/// The place that the user picked, as much of it as there is room for.
+void mark_line(const PanelModel& model, float width, Commands& commands) {
     const interaction::MarkedPoint& point = *model.asked.mark.point;
+    constexpr const char* kHere = "isovalue here";
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float buttons = ImGui::CalcTextSize(kHere).x + 2 * style.FramePadding.x +
+                          ImGui::GetFrameHeight() + 2 * style.ItemSpacing.x;
+    const auto fits = [&](const std::string& words) {
+        return ImGui::CalcTextSize(words.c_str()).x + buttons <= width;
+    };
     ImGui::AlignTextToFramePadding();
-    const std::string words = mark_text(point, model.info);
-    fitted_text(words.substr(0, words.find('\n')), 200.0f, color_of(Ink::text));
+    const std::string all = mark_text(point, model.info),
+                      words = mark_text(point, model.info, fits);
+    text(words);
+    if (words != all)
+        tip(all.c_str());
     ImGui::SameLine();
-    if (ImGui::Button("isovalue here"))
+    if (ImGui::Button(kHere))
         commands.isovalue = point.value;
     tip("set the isovalue to the value at the mark");
     ImGui::SameLine();
@@ -198,7 +214,7 @@ bool has_tool_strip(const PanelModel& model) {
     });
 }
 
-void tool_strip(const PanelModel& model, Commands& commands) {
+void tool_strip(const PanelModel& model, float width, Commands& commands) {
     for (const interaction::ToolRow& tool : interaction::tool_table()) {
         if (!has_line(tool, model))
             continue;
@@ -208,7 +224,7 @@ void tool_strip(const PanelModel& model, Commands& commands) {
             made_line(tool, model, commands);
     }
     if (model.asked.mark.point)
-        mark_line(model, commands);
+        mark_line(model, width, commands);
 }
 
 } // namespace isochron::app

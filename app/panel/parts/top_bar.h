@@ -10,8 +10,8 @@ namespace isochron::app {
 void top_bar(const PanelModel& model, PanelPages& pages, interaction::Commands& commands);
 
 /// What can be done with the chosen tool, and with what tools have made: a line for each in the
-/// current window.
-void tool_strip(const PanelModel& model, interaction::Commands& commands);
+/// current window. @param width that it may take, panel pixels
+void tool_strip(const PanelModel& model, float width, interaction::Commands& commands);
 /// Whether there is anything in it.
 bool has_tool_strip(const PanelModel& model);
 

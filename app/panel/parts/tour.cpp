@@ -4,12 +4,13 @@
 
 #include "app/panel/imgui/number_entry.h"
 #include "app/panel/panel_words.h"
+#include "app/panel/parts/messages.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/session_field.h"
 #include "app/panel/parts/theme.h"
 
 #include <fmt/format.h>
-#include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -86,16 +87,17 @@ Answer answer_of(const char* yes, const char* no) {
 
 constexpr float kAboveScaleBar = 62.0f; ///< the scale bar, and the words below it, stay free
 
+constexpr float kLow = 420.0f; ///< picture of which all lines of a card would hide a third
+
 } // namespace
 
 Answer hint_card(const PanelBox& picture, bool& held) {
-    begin_card("###first use", picture, 500.0f, picture.high.y - kAboveScaleBar, 1.0f);
+    begin_card(kHintCard, picture, 500.0f, picture.high.y - kAboveScaleBar, 1.0f);
     constexpr std::array<const char*, 4> kLines{
         "Drag with the left button to turn the data; the wheel scales them.",
         "Up and Down change the isovalue, or drag its line in the histogram.",
         "Space plays the steps; Left and Right go through them.",
         "Ctrl + K finds every command, F1 lists all keys."};
-    constexpr float kLow = 420.0f; // picture, of which all of them would hide a third
     for (const char* line : kLines)
         if (picture.size().y >= kLow || line == kLines.front() || line == kLines.back())
             note(line, color_of(Ink::text));
@@ -105,9 +107,31 @@ Answer hint_card(const PanelBox& picture, bool& held) {
     return answer;
 }
 
-Answer earlier_card(const PanelBox& picture, float top, std::span<const OfferedSession> earlier,
+bool has_room_for(const char* card, const PanelBox& picture, float lowest) {
+    const ImGuiWindow* const window = ImGui::FindWindowByName(card);
+    return !window || picture.high.y - kAboveScaleBar - window->Size.y >= lowest;
+}
+
+bool room_card(const PanelBox& picture) {
+    begin_card(kRoomCard, picture, 560.0f, picture.high.y - kAboveScaleBar, 1.0f);
+    constexpr std::array<const char*, 4> kLines{
+        "You look at the room from outside; each wall shows what its viewer's left eye sees.",
+        "Hold C: drag to circle round the room, middle drag to move it, wheel to come nearer.",
+        "Right drag turns the viewer's head, W A S D walk, left drag turns the data.",
+        "The lines lead from each viewer to the corners of what that viewer sees."};
+    for (const char* line : kLines)
+        if (picture.size().y >= kLow || line != kLines.front())
+            note(line, color_of(Ink::text));
+    const bool read = ImGui::Button("I see (Enter)");
+    end_card();
+    return read;
+}
+
+Answer earlier_card(const PanelBox& picture, std::span<const OfferedSession> earlier,
                     std::size_t& chosen) {
-    begin_card("###earlier", picture, 360.0f, top, 0.0f);
+    dim_rest();
+    begin_card("###earlier", picture, 360.0f, (picture.low.y + picture.high.y) / 2, 0.5f);
+    bring_forward();
     small_picture(earlier.front().picture);
     ImGui::SameLine();
     ImGui::BeginGroup();
@@ -115,6 +139,7 @@ Answer earlier_card(const PanelBox& picture, float top, std::span<const OfferedS
     note(earlier.front().words, color_of(Ink::dim));
     ImGui::EndGroup();
     Answer answer = answer_of("Continue where you left off", "Start anew");
+    note("Enter continues, Escape starts anew.", color_of(Ink::dim));
     if (earlier.size() > 1) {
         ImGui::SetNextItemWidth(-1.0f);
         if (const auto other = session_field("##earlier sessions",
@@ -152,7 +177,7 @@ void Tour::draw(const PanelModel& model, const PanelBox& picture) {
     }
     const TourStep& step = kTour[*step_];
     done_ = done_ || step.is_done(before_, model.asked);
-    begin_card("###tour", picture, 420.0f, picture.high.y - kAboveScaleBar, 1.0f);
+    begin_card(kTourCard, picture, 420.0f, picture.high.y - kAboveScaleBar, 1.0f);
     ImGui::TextColored(color_of(Ink::dim), "%s",
                        fmt::format("{} of {}", *step_ + 1, kSteps).c_str());
     ImGui::SameLine();

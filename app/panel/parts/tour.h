@@ -21,9 +21,18 @@ enum class Answer : std::uint8_t { none, yes, no };
 /// The hint for newcomers, with the offer of the tour.
 /// @param held the pointer is on it, so that a press there is an answer
 Answer hint_card(const PanelBox& picture, bool& held);
+inline constexpr const char *kHintCard = "###first use", *kRoomCard = "###room",
+                            *kTourCard = "###tour";
+/// Whether there is room for a card at the bottom of the picture; else it waits.
+/// @param lowest what lies at the top of the picture ends there
+bool has_room_for(const char* card, const PanelBox& picture, float lowest);
+
+/// What the window of an emulated room shows. @return whether the user has read it
+bool room_card(const PanelBox& picture);
+
 /// The offer to go on with one of the sessions before: the first one, or another one of the list.
 /// @param chosen number of the session that the user wants
-Answer earlier_card(const PanelBox& picture, float top, std::span<const OfferedSession> earlier,
+Answer earlier_card(const PanelBox& picture, std::span<const OfferedSession> earlier,
                     std::size_t& chosen);
 /// The question for the name of this session. @return yes: `name` is its name
 Answer name_card(const PanelBox& picture, float top, std::string& name);

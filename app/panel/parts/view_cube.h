@@ -9,9 +9,13 @@
 
 namespace isochron::app {
 
+/// From the upper edge of the picture to the lower one of the cube.
+inline constexpr float kViewCubeEnd = 98.0f;
+
 /// Lays it out at the upper right of the picture. A face that is clicked looks at the viewer then;
 /// the corner that is nearest to the viewer leads to the isometric view.
-void view_cube(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands);
+/// @return the left end of the cube; of a picture without room for it the right end
+float view_cube(const PanelModel& model, const PanelBox& picture, interaction::Commands& commands);
 
 /// A small picture of how the data lie at a viewpoint: a cube whose faces across x, y and z are red,
 /// green and blue. @param half_edge of the cube, panel pixels

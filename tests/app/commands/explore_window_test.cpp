@@ -64,7 +64,7 @@ TEST_F(ExploreWindow, CopiesTheValueUnderTheCursorAndSavesTheSession) {
         screen_.xdotool({"key", "ctrl+c"});
         await_frame();
         copied = screen_.clipboard();
-        return copied.find(" mm: 8 at 0 s") != copied.npos;
+        return copied.find(" 8, t 0 s") != copied.npos;
     })) << copied;
     screen_.xdotool({"key", "ctrl+s"});
     await_frame();

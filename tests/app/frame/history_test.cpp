@@ -201,5 +201,45 @@ TEST(History, UndoAfterHomeShowsWhatWasSeen) {
               1e-5);
 }
 
+TEST(History, SaysInWordsWhatUndoAndRedoChange) {
+    Explorer explorer;
+    explorer.state.set_isovalue(9.4);
+    const ExplorerState start = explorer.state;
+    const auto said = [&](const Commands* way) {
+        return words_for_way(explorer.state, way, kSteps);
+    };
+    EXPECT_EQ(said(explorer.history.undo()), "");
+    Commands lower;
+    lower.isovalue = 7.2;
+    explorer.obey(lower, 1);
+    EXPECT_EQ(said(explorer.history.undo()), "isovalue 7.2 to 9.4");
+    ASSERT_TRUE(explorer.undo(2));
+    EXPECT_EQ(said(explorer.history.redo()), "isovalue 9.4 to 7.2");
+    Commands two;
+    two.orthographic = true;
+    two.clip = interaction::ClipPlane{true, {1, 2, 3}, {0, 0, 1}};
+    explorer.obey(two, 3);
+    EXPECT_EQ(said(explorer.history.undo()), "clip plane, projection");
+    Commands surface;
+    surface.isosurfaces = start.isosurfaces;
+    surface.isosurfaces->front().opacity = 0.5f;
+    explorer.obey(surface, 4);
+    EXPECT_EQ(said(explorer.history.undo()), "opacity 50 to 100 %");
+    surface.isosurfaces->emplace_back();
+    explorer.obey(surface, 5);
+    EXPECT_EQ(said(explorer.history.undo()), "surface removed");
+}
+
+TEST(History, HasWordsForEveryChangeThatCanBeUndone) {
+    interaction::Random random(test_seed());
+    for (int round = 0; round < 300; ++round) {
+        Explorer explorer;
+        const ExplorerState start = explorer.state;
+        explorer.obey(one_change(random), 1);
+        EXPECT_EQ(words_for_change(start, explorer.state).empty(),
+                  same_to_undo(start, explorer.state));
+    }
+}
+
 } // namespace
 } // namespace isochron::app

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +42,8 @@ class LayerTest : public testing::Test {
                                .notes = notes_,
                                .movies = {.offered = true},
                                .sessions = sessions_,
-                               .controls = controls_},
+                               .controls = controls_,
+                               .pointed = pointed_},
                               time_);
     }
     void point(glm::vec2 at) {
@@ -106,6 +109,7 @@ class LayerTest : public testing::Test {
     PanelArrays arrays_;
     PanelNotes notes_;
     std::vector<OfferedSession> sessions_;
+    std::function<std::optional<interaction::Pointed>()> pointed_;
     std::vector<interaction::ControlGroup> controls_;
     interaction::Seconds time_{0};
     std::vector<interaction::WindowEvent> left_; ///< that the last frame did not use

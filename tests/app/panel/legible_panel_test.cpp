@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -191,9 +192,18 @@ TEST_P(LegiblePanel, WithWhatToolsHaveMade) {
 
 TEST_P(LegiblePanel, WithMessages) {
     notes_.failure = "/data/flow.isochron: block 17 cannot be read: Input/output error";
-    notes_.message = "saved isochron_0001.png";
+    const std::array<PastMessage, 2> past{
+        {{"14:05:09", "stereo: side_by_side"},
+         {"14:06:10", "saved /home/somebody/a rather long name of a folder, as disks have "
+                      "them/isochron_0001.png"}}};
+    notes_.past = past;
     notes_.messages = 1;
     expect_legible("with messages");
+    if (GetParam().place == PanelPlace::in_room)
+        return;
+    layer_.pages().open_messages();
+    expect_legible("with all messages", true);
+    notes_.past = {};
 }
 
 TEST_P(LegiblePanelOverAPicture, WithStatistics) {

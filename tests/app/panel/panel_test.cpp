@@ -109,7 +109,7 @@ TEST_F(PanelTest, MeasurementsAreSaidInWords) {
                      .frame = frame_,
                      .work = {.frames = {.times = {}, .per_second = 59.6},
                               .reading = {.bytes = 1 << 21, .held = 1 << 20, .budget = 1 << 30}},
-                     .notes = {.failure = "the disk is gone", .message = "written to a.png"},
+                     .notes = {.failure = "the disk is gone"},
                      .controls = controls_};
     const auto said = [&] {
         ImGui::NewFrame();
@@ -117,7 +117,6 @@ TEST_F(PanelTest, MeasurementsAreSaidInWords) {
         ImGui::Begin("panel");
         ImGui::LogToClipboard();
         measurements(model);
-        newest_note(model);
         complaints(model);
         ImGui::LogFinish();
         ImGui::End();
@@ -128,7 +127,7 @@ TEST_F(PanelTest, MeasurementsAreSaidInWords) {
     const std::string text = said();
     for (const char* words :
          {"4321 cells", "of 9000 candidates, 17 reused", "volume 10 x 20 x 5 mm", "60 frames/s",
-          "cache 1.00 MiB of 1.00 GiB", "head", "the disk is gone", "written to a.png"})
+          "cache 1.00 MiB of 1.00 GiB", "head", "the disk is gone"})
         EXPECT_THAT(text, testing::HasSubstr(words));
     model.work.searching = true;
     EXPECT_THAT(said(), testing::HasSubstr("searching ..."));

@@ -151,6 +151,25 @@ TEST(Ranked, AllWordsInAnyOrderCaseSpellingAndWithATypo) {
         EXPECT_EQ(first(session, text).name, name) << text;
 }
 
+TEST(Ranked, OffersTheNearestByLettersWhereNoWordIsFound) {
+    Searched session;
+    const std::vector<SearchLine> lines = session.lines();
+    for (const auto& [text, name] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"opasitty", "opacity"},
+                                                                    {"hystrogam", "histogram"},
+                                                                    {"isolvaulue", "isovalue"},
+                                                                    {"bookmrak", "save_time"},
+                                                                    {"screnschot", "screenshot"},
+                                                                    {"stereoscpoy", "stereo"}}) {
+        const Ranking found = ranked(lines, text);
+        const auto end =
+            found.lines.begin() + std::min<long>(3, found.lines.end() - found.lines.begin());
+        EXPECT_TRUE(std::any_of(found.lines.begin(), end,
+                                [&](const SearchLine* line) { return line->name.starts_with(name); }))
+            << text << ": " << found.lines.front()->name;
+    }
+}
+
 TEST(Ranked, SaysWhenNothingHasTheWordsAndOffersThreeAndTheHelp) {
     Searched session;
     const std::vector<SearchLine> lines = session.lines();

@@ -58,14 +58,64 @@ TEST(Callouts, OfAPlaceBetweenStepsSayBetweenWhich) {
     index::SeriesInfo info;
     info.times = {0, 2, 4};
     info.time_unit = "s";
+    info.array = "flow";
+    info.length_unit = "m";
     const interaction::MarkedPoint at_step{{1, 2, 3}, index::Instant(1), 9.25},
         between{{1, 2, 3}, {1, 32768}, 9.25}, last{{1, 2, 3}, {2, 32768}, 9.25};
-    EXPECT_EQ(mark_lines(at_step, info).back(), "at 2 s");
-    EXPECT_EQ(mark_lines(between, info).back(), "at 3 s, between steps 2 and 3");
-    EXPECT_EQ(mark_text(between, info), "1, 2, 3: 9.25 at 3 s, between steps 2 and 3");
-    EXPECT_EQ(mark_lines(last, info).back(), "at 4 s") << "the last step holds";
-    EXPECT_EQ(pointed_lines({at_step, 0}, 1, info).back(), "1, 2, 3");
+    EXPECT_EQ(mark_lines(at_step, info).back(), "t 2 s");
+    EXPECT_EQ(mark_lines(between, info).back(), "t 3 s, between steps 2 and 3");
+    EXPECT_EQ(mark_text(between, info),
+              "x 1.0 y 2.0 z 3.0 m, flow 9.25, t 3 s, between steps 2 and 3");
+    EXPECT_EQ(mark_lines(last, info).back(), "t 4 s") << "the last step holds";
+    EXPECT_EQ(pointed_lines({at_step, 0}, 1, info).back(), "x 1.0 y 2.0 z 3.0 m");
     EXPECT_EQ(pointed_lines({between, 0}, 1, info).back(), "between steps 2 and 3");
+}
+
+TEST(MarkText, HasTheDigitsThatGridAndValuesCarryAndLosesTheLeastImportantPartFirst) {
+    index::SeriesInfo info;
+    info.times = {0, 2.908};
+    info.time_unit = "s";
+    info.array = "vorticity";
+    info.value_unit = "1/s";
+    info.length_unit = "m";
+    info.grid.vertices = {64, 64, 64};
+    info.grid.spacing = {0.1, 0.1, 0.1};
+    info.type = index::ValueType::f32;
+    const interaction::MarkedPoint point{{3.4159, 4.41, 5.6}, index::Instant(1), 9.446};
+    EXPECT_EQ(mark_text(point, info), "x 3.42 y 4.41 z 5.60 m, vorticity 9.446 1/s, t 2.908 s");
+    const auto within = [&](std::size_t letters) {
+        return mark_text(point, info, [&](const auto& text) { return text.size() <= letters; });
+    };
+    EXPECT_EQ(within(47), "x 3.42 y 4.41 z 5.60 m, vorticity 9.446 1/s");
+    EXPECT_EQ(within(30), "vorticity 9.446 1/s");
+    EXPECT_EQ(within(12), "9.446 1/s");
+    EXPECT_EQ(within(1), "9.446 1/s") << "the value is never cut";
+    const struct {
+        double spacing, place;
+        const char* words;
+    } rows[] = {{10, 4500000.25, "4500000"},
+                {1, 12.34, "12.3"},
+                {0.002, 0.12344, "0.1234"},
+                {1e-9, 1.5e-8, "1.5e-08"},
+                {25000, -3e10, "-3e+10"}};
+    for (const auto& row : rows) {
+        info.grid.spacing = glm::dvec3(row.spacing);
+        EXPECT_EQ(mark_lines({glm::dvec3(row.place), {}, 1}, info)[1],
+                  std::string("x ") + row.words + " y " + row.words + " z " + row.words + " m");
+    }
+    info.type = index::ValueType::f64;
+    EXPECT_EQ(mark_lines({{}, {}, 101325.125}, info)[0], "vorticity 101325.125 1/s");
+    info.type = index::ValueType::f32;
+    EXPECT_EQ(mark_lines({{}, {}, 101325.125}, info)[0], "vorticity 101325 1/s");
+    info.axis_names = {"longitude (degrees)", "latitude (degrees)", "height"};
+    info.grid.spacing = {0.5, 0.5, 100};
+    EXPECT_EQ(mark_lines({{12.25, -5, 1200}, {}, 1}, info)[1],
+              "longitude 12.2 degrees latitude -5.0 degrees height 1200 m");
+    info.grid.direction =
+        glm::dmat3(0, 1, 0, 1, 0, 0, 0, 0, 1); // each axis of space has its spacing
+    info.grid.spacing = {0.5, 10, 100};
+    EXPECT_EQ(mark_lines({{12.25, -5, 1200}, {}, 1}, info)[1],
+              "longitude 12 degrees latitude -5.0 degrees height 1200 m");
 }
 
 TEST(Callouts, NeverCoverEachOtherInEitherEye) {

@@ -141,14 +141,56 @@ TEST(Controls, SwitchesReportOnlyChanges) {
     EXPECT_EQ(desk.tap(bit(Action::next_stereo)).stereo, "mono");
     EXPECT_EQ(desk.tap(bit(Action::panel)).panel, false);
     EXPECT_TRUE(desk.tap(bit(Action::screenshot)).screenshot);
+    EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-1"});
+    EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-2"});
     EXPECT_TRUE(desk.tap(bit(Action::quit)).empty()) << "Escape never asks";
     EXPECT_EQ(desk.tap(bit(Action::ask_to_quit)).leaving, true);
     EXPECT_EQ(desk.tap(bit(Action::quit)).leaving, false) << "stays";
     EXPECT_FALSE(desk.tap(bit(Action::pick)).quit) << "nobody asks any more";
     desk.tap(bit(Action::ask_to_quit));
     EXPECT_TRUE(desk.tap(bit(Action::pick)).quit);
-    EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-1"});
-    EXPECT_EQ(desk.tap(bit(Action::stamp)).stamps, std::vector<std::string>{"stamp-2"});
+}
+
+TEST(Controls, SayWhatKeysHaveDoneThatThePictureDoesNotShow) {
+    Desk desk;
+    desk.settings.isosurfaces.resize(2);
+    const struct {
+        Action action;
+        const char* words;
+    } rows[] = {{Action::next_stereo, "stereo: side_by_side"},
+                {Action::quality_fast, "quality: fast"},
+                {Action::next_surface, "surface 2 of 2"},
+                {Action::orthographic, "parallel projection: on"},
+                {Action::between_steps, "between steps: blend"},
+                {Action::follow, "following the last step: on"},
+                {Action::loop, "loop: off"},
+                {Action::ping_pong, "back and forth: on"},
+                {Action::reverse, "time runs back"},
+                {Action::faster, "speed: x 2"},
+                {Action::skip_more, "1 step in 2 is played"},
+                {Action::range_first, "steps 5 to the last play"},
+                {Action::range_all, "all steps play"},
+                {Action::eyes_apart, "eyes 64 mm apart"},
+                {Action::next_view, "no viewpoint is saved: B saves this one"},
+                {Action::save_view, "viewpoint view-1 saved: N goes there"},
+                {Action::next_view, "viewpoint view-1"},
+                {Action::teleport, "no floor there: T teleports to a place on the floor"}};
+    for (const auto& row : rows) {
+        desk.notes();
+        desk.tap(row.action);
+        EXPECT_EQ(desk.notes(), std::vector<std::string>{row.words});
+    }
+}
+
+TEST(Controls, KeysAndMouseOnlyAnswerWhileTheProgramAsksWhetherToQuit) {
+    Desk desk;
+    desk.tap(Action::ask_to_quit);
+    for (const Action action : {Action::play, Action::step_forward, Action::orthographic,
+                                Action::reset, Action::next_view, Action::isovalue_up})
+        EXPECT_EQ(desk.tap(action), Commands()) << name_of(action);
+    EXPECT_EQ(desk.wheel(3), Commands());
+    EXPECT_EQ(desk.tap(Action::quit).leaving, false);
+    EXPECT_TRUE(desk.tap(Action::orthographic).orthographic);
 }
 
 TEST(Controls, LooksGoRoundByKeys) {

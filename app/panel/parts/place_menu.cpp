@@ -1,0 +1,47 @@
+// The menu of a place in the picture.
+#include "app/panel/parts/place_menu.h"
+
+#include "app/panel/panel_words.h"
+#include "app/scene/mark.h"
+#include "interaction/navigation/navigation.h"
+#include "interaction/tools/clip_tool.h"
+
+#include <imgui.h>
+
+#include <string>
+
+namespace isochron::app {
+namespace {
+
+constexpr const char* kMenu = "place";
+
+} // namespace
+
+void open_place_menu() {
+    ImGui::OpenPopup(kMenu);
+}
+
+bool place_menu(const PanelModel& model, const std::optional<interaction::Pointed>& place,
+                interaction::Commands& commands, DesktopWish& wish) {
+    if (!ImGui::BeginPopup(kMenu))
+        return false;
+    const interaction::Similarity& room = model.asked.room_from_physical;
+    const interaction::MarkedPoint point = place ? place->point : interaction::MarkedPoint{};
+    popup_title(place ? mark_lines(point, model.info).front().c_str() : "no surface here");
+    if (ImGui::MenuItem("copy value", nullptr, false, place.has_value()))
+        wish.text = mark_text(point, model.info);
+    if (ImGui::MenuItem("mark here", nullptr, false, place.has_value()))
+        commands.mark = interaction::Mark{point};
+    if (ImGui::MenuItem("clip here", nullptr, false, place.has_value()))
+        commands.clip = interaction::laid_through(point.position, room,
+                                                  transform(room, point.position) -
+                                                      glm::dvec3(model.head.position));
+    if (ImGui::MenuItem("isovalue here", nullptr, false, place.has_value()))
+        commands.isovalue = point.value;
+    ImGui::Separator();
+    const bool all = ImGui::MenuItem("show all", "C");
+    ImGui::EndPopup();
+    return all;
+}
+
+} // namespace isochron::app

@@ -10,7 +10,7 @@
 #include "app/choice/frame.h"
 #include "app/config/config.h"
 #include "app/quality/cell_room.h"
-#include "app/quality/detail_choice.h"
+#include "app/quality/detail_chooser.h"
 #include "app/scene/cell_sets.h"
 #include "app/scene/cells_picture.h"
 #include "index/extraction/extractor.h"
@@ -100,7 +100,7 @@ class CellSupply {
     CellSets& sets_;
     std::shared_ptr<index::NewestIndex> newest_; ///< the index, for the worker
     index::Extractor extractor_;
-    DetailChoice details_;
+    DetailChooser details_;
     std::vector<render::View> views_;
     index::ExtractionPtr refused_; ///< the newest set if it is not shown; else null
     std::vector<std::string> messages_;

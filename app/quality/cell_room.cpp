@@ -27,7 +27,7 @@ std::uint64_t cells_in_memory(std::uint64_t memory, std::uint64_t cache) {
     return std::max(kFewest, (memory - std::min(memory, others)) / kBytesOfCell);
 }
 
-std::optional<std::string> limit_to_memory(DetailChoice& details, std::uint64_t cells,
+std::optional<std::string> limit_to_memory(DetailChooser& details, std::uint64_t cells,
                                            std::uint64_t memory, std::uint64_t cache) {
     const std::uint64_t room = cells_in_memory(memory, cache);
     if (room >= std::min(details.most(), cells))
@@ -38,7 +38,7 @@ std::optional<std::string> limit_to_memory(DetailChoice& details, std::uint64_t 
                        room, memory >> 20);
 }
 
-std::vector<std::string> limit_to_memory(DetailChoice& details, const index::IndexFile& file) {
+std::vector<std::string> limit_to_memory(DetailChooser& details, const index::IndexFile& file) {
     std::vector<std::string> lines;
     if (auto line = limit_to_memory(details, file.info().grid.cell_count(), index::memory_limit(),
                                     file.cache_bytes()))

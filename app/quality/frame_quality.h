@@ -17,7 +17,7 @@
 #include "app/quality/cell_resolution.h"
 #include "app/quality/draw_meter.h"
 #include "app/quality/frame_plan.h"
-#include "app/quality/mesh_level_choice.h"
+#include "app/quality/mesh_level_chooser.h"
 #include "app/quality/motion_promise.h"
 #include "app/quality/quality_controller.h"
 
@@ -146,7 +146,7 @@ class FrameQuality {
     Milliseconds period_;                             ///< period of frames now
     MotionPromise promise_;
     CellResolution resolution_;
-    MeshLevelChoice mesh_levels_;
+    MeshLevelChooser mesh_levels_;
     bool begun_ = false;                     ///< a picture without cells was measured
     std::optional<std::uint64_t> all_cells_; ///< cells of level 0, as last counted, or guessed
     bool counted_ = false;

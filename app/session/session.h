@@ -24,7 +24,7 @@
 #include "app/scene/scene.h"
 #include "app/session/nothing_seen.h"
 #include "app/session/picker.h"
-#include "app/session/picture_choice.h"
+#include "app/session/frame_planner.h"
 #include "app/session/picture_maker.h"
 #include "app/session/preparation.h"
 #include "app/session/session_panel.h"
@@ -216,7 +216,7 @@ class Session {
     FrameLog log_;
     CellSupply supply_;
     PictureMaker pictures_;
-    PictureChoice choice_;
+    FramePlanner choice_;
     PartialPictures partial_;
     SettledSamples samples_;
     NothingSeen nothing_;

@@ -58,7 +58,7 @@ class IndexFile {
     Error damaged(const std::string& what) const;
     const SeriesInfo& info() const { return metadata_.info; }
     const IndexStats& stats() const { return metadata_.stats; }
-    const TierPlan& plan() const { return metadata_.plan; }
+    const ChosenTiers& plan() const { return metadata_.plan; }
     Codec codec() const { return metadata_.codec; }
     const ThiOptions& tree_options() const { return metadata_.tree; }
     const std::optional<Referral>& referral() const { return metadata_.referral; }

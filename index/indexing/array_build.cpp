@@ -146,8 +146,8 @@ class ArrayBuild::Work {
     }
 
     /// What is asked for, else what an index that is written anew had, else bricks.
-    TierPlan planned() const {
-        TierPlan plan{TierSet().with(Tier::bricks),
+    ChosenTiers planned() const {
+        ChosenTiers plan{TierSet().with(Tier::bricks),
                       {"bricks: exact with the volume, for every type and size"}};
         if (options_.plan)
             plan = *options_.plan;

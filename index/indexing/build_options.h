@@ -19,13 +19,13 @@ struct FurtherArray {
     VolumeSeries* series = nullptr; ///< a series of the same files; outlives the build
     /// The options that select it in the files.
     std::optional<std::string> array = {}, component = {};
-    std::optional<TierPlan> plan = {}; ///< as BuildOptions::plan
+    std::optional<ChosenTiers> plan = {}; ///< as BuildOptions::plan
 };
 
 struct BuildOptions {
     std::optional<TierSet> tiers = {}; ///< none: bricks
     /// The plan of an index that is written anew: kept, instead of `tiers`.
-    std::optional<TierPlan> plan = {};
+    std::optional<ChosenTiers> plan = {};
     bool with_tree = false; ///< add the tree
     ThiOptions tree = {};
     unsigned threads = 0; ///< 0: one for each processor

@@ -100,7 +100,7 @@ ValueCounts counts_of(const json& j, ValueType type) {
     return counts;
 }
 
-json json_of(const TierPlan& plan) {
+json json_of(const ChosenTiers& plan) {
     json tiers = json::array();
     for (std::size_t i = 0; i < kTierNames.size(); ++i)
         if (plan.tiers.has(static_cast<Tier>(i)))
@@ -109,8 +109,8 @@ json json_of(const TierPlan& plan) {
         {"tiers", tiers}, {"reasons", plan.reasons}, {"asked", plan.asked}, {"steps", plan.steps}};
 }
 
-TierPlan plan_of(const json& j) {
-    TierPlan plan;
+ChosenTiers plan_of(const json& j) {
+    ChosenTiers plan;
     for (const json& name : j.at("tiers")) {
         const auto tier = tier_from_name(name.get<std::string>());
         if (tier)

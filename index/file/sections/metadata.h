@@ -31,7 +31,7 @@ struct ArrayPlace {
 struct Metadata {
     SeriesInfo info = {};
     IndexStats stats = {};
-    TierPlan plan = {};
+    ChosenTiers plan = {};
     Codec codec = Codec::fitting; ///< with which values were packed
     /// Content hashes of the states from which the index has grown, oldest first.
     std::vector<std::uint64_t> earlier = {};

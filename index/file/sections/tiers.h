@@ -47,7 +47,7 @@ class TierSet {
 };
 
 /// Which tiers an index has, and why.
-struct TierPlan {
+struct ChosenTiers {
     TierSet tiers;
     std::vector<std::string> reasons; ///< sentences for `info`
     bool asked = false;               ///< chosen by the user

@@ -20,7 +20,7 @@ TEST(CellRoom, GrowsWithTheMemoryAndIsNeverNothing) {
 TEST(CellRoom, LimitsAChoiceWithALineWhereAVolumeMayHaveMoreCells) {
     index::Grid grid;
     grid.vertices = {320, 320, 320};
-    DetailChoice small(grid, 8'000'000), large(grid, 8'000'000);
+    DetailChooser small(grid, 8'000'000), large(grid, 8'000'000);
     const auto line = limit_to_memory(small, grid.cell_count(), 768 * kMiB, 192 * kMiB);
     ASSERT_TRUE(line);
     EXPECT_THAT(*line, HasSubstr("surfaces of more than 615164 cells"));

@@ -227,7 +227,7 @@ TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
     FrameReport report = first_frame(session, true);
     ASSERT_TRUE(test_support::eventually([&] {
         report = frame(session, true);
-        return report.cells > 0 && report.cells < 2 * DetailChoice::kFewest;
+        return report.cells > 0 && report.cells < 2 * DetailChooser::kFewest;
     }));
     const std::uint64_t moving = report.cells;
     std::uint64_t most = moving;
@@ -248,7 +248,7 @@ TEST_P(SessionRest, SomeMoreCellsComeBeforeFarMoreThanWereDrawn) {
 TEST_P(SessionRest, FarMoreCellsThanWereDrawnAreDrawnInPartsThoughTheyAreExpectedToFit) {
     const index::Extract real = extract();
     const index::Extract controlled = [&](const index::SurfacesQuery& query, std::stop_token stop) {
-        return with_cells(real, query.detail.at_rest ? 0 : DetailChoice::kFewest, query, stop);
+        return with_cells(real, query.detail.at_rest ? 0 : DetailChooser::kFewest, query, stop);
     };
     Session session(config_with(20), large_, *context_, controlled);
     session.share_frames(std::make_unique<KnownTimes>()); // all know 14 ms

@@ -255,7 +255,7 @@ TEST_P(MixedLevels, OnStretchedAxesASurfaceKeepsItsPlaceAndItsOutline) {
 }
 
 /// Where a level gives way to the next one, a voxel of the coarser one is at most 1.2 pixels (with
-/// the hysteresis of app/quality/detail_choice.cpp): no outline moves by more than a pixel, though
+/// the hysteresis of app/quality/detail_chooser.cpp): no outline moves by more than a pixel, though
 /// the coarser level has flatter bumps.
 TEST_P(MixedLevels, WhereALevelGivesWayNoOutlineMovesByMoreThanAPixel) {
     const index::TestField bumpy(

@@ -1,5 +1,5 @@
 // Chooses numbers of cells and levels of detail.
-#include "app/quality/detail_choice.h"
+#include "app/quality/detail_chooser.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -32,7 +32,7 @@ constexpr int kParts = index::DetailQuery::kPartsOfLevel;
 
 /// The numbers of cells to choose from: each is larger than the one before by a half or a third.
 std::uint64_t cells_of(int step) {
-    const std::uint64_t base = DetailChoice::kFewest << (step / 2);
+    const std::uint64_t base = DetailChooser::kFewest << (step / 2);
     return step % 2 == 0 ? base : base + base / 2;
 }
 
@@ -79,13 +79,13 @@ bool may_be_seen(const glm::mat4& clip_from_index, const glm::vec3& low, const g
 
 } // namespace
 
-DetailChoice::DetailChoice(const index::Grid& grid, std::uint64_t most)
+DetailChooser::DetailChooser(const index::Grid& grid, std::uint64_t most)
     : regions_(grid), most_(most), small_(grid.cell_count() <= kSmallVolume) {
     for (std::size_t i = 0; i < regions_.size(); ++i)
         boxes_.push_back(box_of(i, grid));
 }
 
-DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& grid) const {
+DetailChooser::Box DetailChooser::box_of(std::size_t region, const index::Grid& grid) const {
     const auto at = regions_.at(region);
     Box box{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -99,7 +99,7 @@ DetailChoice::Box DetailChoice::box_of(std::size_t region, const index::Grid& gr
     return box;
 }
 
-void DetailChoice::look(std::span<const render::View> views, const render::Placement& placement) {
+void DetailChooser::look(std::span<const render::View> views, const render::Placement& placement) {
     ideal_.assign(views.empty() ? 0 : regions_.size(), kFarthest);
     visible_.assign(ideal_.size(), false);
     beside_.assign(ideal_.size(), true);
@@ -132,11 +132,11 @@ void DetailChoice::look(std::span<const render::View> views, const render::Place
             static_cast<double>(std::max<std::size_t>(visible_.size(), 1));
 }
 
-bool DetailChoice::cells_look_small() const {
+bool DetailChooser::cells_look_small() const {
     return !ideal_.empty() && std::exp2(-std::ranges::min(ideal_)) <= kSmallCell;
 }
 
-index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint64_t drawn,
+index::DetailQuery DetailChooser::for_motion(std::optional<double> fit, std::uint64_t drawn,
                                             std::uint64_t least) {
     const double cells = fit.value_or(static_cast<double>(kAtFirst));
     const auto holds = [&](int step, double share) {
@@ -167,7 +167,7 @@ index::DetailQuery DetailChoice::for_motion(std::optional<double> fit, std::uint
     return {std::min(cells_of(step_), most_), false, kept_};
 }
 
-bool DetailChoice::lacks_what_is_seen(const index::DetailQuery& chosen) const {
+bool DetailChooser::lacks_what_is_seen(const index::DetailQuery& chosen) const {
     constexpr std::ptrdiff_t kPart = 20; // share of the regions that are seen
     if (chosen.wished.size() != ideal_.size())
         return false;
@@ -177,16 +177,16 @@ bool DetailChoice::lacks_what_is_seen(const index::DetailQuery& chosen) const {
     return kPart * without > std::ranges::count(visible_, true);
 }
 
-index::DetailQuery DetailChoice::at_first_rest(std::uint64_t cells) const {
+index::DetailQuery DetailChooser::at_first_rest(std::uint64_t cells) const {
     return resting(cells, kFinerAtFirst);
 }
 
-index::DetailQuery DetailChoice::at_rest() const {
+index::DetailQuery DetailChooser::at_rest() const {
     return resting(most_, kFinerAtLast);
 }
 
 /// @param finer how many levels finer than a pixel the voxels are
-index::DetailQuery DetailChoice::resting(std::uint64_t cells, double finer) const {
+index::DetailQuery DetailChooser::resting(std::uint64_t cells, double finer) const {
     index::DetailQuery query{std::min(cells, most_), true, {}};
     const auto level = [finer](double ideal) {
         return static_cast<std::int8_t>(kParts * std::max(std::floor(ideal - finer), 0.0));

@@ -1,11 +1,11 @@
 // Goes through the meshes from the finest on.
-#include "app/quality/mesh_level_choice.h"
+#include "app/quality/mesh_level_chooser.h"
 
 #include <algorithm>
 
 namespace isochron::app {
 
-std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) const {
+std::optional<std::size_t> MeshLevelChooser::wanted(const MeshesAtHand& meshes) const {
     constexpr double kFinerFits = 0.75, kSameFits = 0.9; // shares of the budget
     constexpr double kHardlyLonger = 1.3;                // than quads
     // Times the budget, where quads are no more like the surface.
@@ -34,7 +34,7 @@ std::optional<std::size_t> MeshLevelChoice::wanted(const MeshesAtHand& meshes) c
     return coarsest;
 }
 
-std::optional<std::size_t> MeshLevelChoice::choose(const MeshesAtHand& meshes) {
+std::optional<std::size_t> MeshLevelChooser::choose(const MeshesAtHand& meshes) {
     const std::optional<std::size_t>& before = level_.value();
     const bool gone = before && meshes.triangles[*before] == 0;
     return level_.turn(wanted(meshes), meshes.now, gone);

@@ -1,5 +1,5 @@
 // The choice of numbers of cells and levels: by view and budget, with hysteresis.
-#include "app/quality/detail_choice.h"
+#include "app/quality/detail_chooser.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ render::View view_from(float distance, int pixels, bool away = false) {
     return view;
 }
 
-TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
+TEST(DetailChooser, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
     const index::Grid grid = cube(513);
     const index::DetailRegions regions(grid);
     const render::Placement placement = a_meter_wide(grid);
@@ -48,7 +48,7 @@ TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
     for (int i = 0; i < 40; ++i) {
         const float distance = std::uniform_real_distribution<float>(1.5f, 12.0f)(random);
         const render::View view = view_from(distance, 400);
-        DetailChoice choice(grid, 1'000'000);
+        DetailChooser choice(grid, 1'000'000);
         choice.look(std::span(&view, 1), placement);
         const auto wished = choice.at_first_rest(1'000'000).wished;
         const auto last = choice.at_rest().wished;
@@ -83,16 +83,16 @@ TEST(DetailChoice, AVoxelAtRestIsOfLevelZeroWhereverItIsLargerThanHalfAPixel) {
     EXPECT_GT(small, 100);
 }
 
-TEST(DetailChoice, NearRegionsAreFinerAndUnseenOnesCoarser) {
+TEST(DetailChooser, NearRegionsAreFinerAndUnseenOnesCoarser) {
     const index::Grid grid = cube(513);
     const index::DetailRegions regions(grid);
-    DetailChoice choice(grid, 1'000'000);
+    DetailChooser choice(grid, 1'000'000);
     const std::array views{view_from(0.6f, 1000)};
     choice.look(views, a_meter_wide(grid));
     const auto wished = choice.for_motion(1e6, 0).wished;
     EXPECT_LT(wished[regions.number({8, 8, 15})], wished[regions.number({8, 8, 0})]);
     // One that looks at it decides for all.
-    DetailChoice both(grid, 1'000'000), behind(grid, 1'000'000);
+    DetailChooser both(grid, 1'000'000), behind(grid, 1'000'000);
     const std::array two{views[0], view_from(0.6f, 1000, true)};
     both.look(two, a_meter_wide(grid));
     behind.look(std::span(two).last(1), a_meter_wide(grid));
@@ -101,26 +101,26 @@ TEST(DetailChoice, NearRegionsAreFinerAndUnseenOnesCoarser) {
               wished[regions.number({8, 8, 15})] + 2 * kParts);
 }
 
-TEST(DetailChoice, CellsLookSmallWhereTheyTakeAFewPixels) {
+TEST(DetailChooser, CellsLookSmallWhereTheyTakeAFewPixels) {
     const index::Grid grid = cube(129);
-    DetailChoice choice(grid, 1'000'000);
+    DetailChooser choice(grid, 1'000'000);
     EXPECT_FALSE(choice.cells_look_small()) << "nobody has looked yet";
     const float one_pixel = 1.0f / std::tan(0.5f) * 500 / 128; // [m] from the nearest cells
     for (const float pixels : {1.0f, 5.0f, 7.0f, 20.0f}) {
         const render::View view = view_from(0.5f + one_pixel / pixels, 1000);
         choice.look(std::span(&view, 1), a_meter_wide(grid));
-        EXPECT_EQ(choice.cells_look_small(), pixels < DetailChoice::kSmallCell) << pixels;
+        EXPECT_EQ(choice.cells_look_small(), pixels < DetailChooser::kSmallCell) << pixels;
     }
 }
 
-TEST(DetailChoice, OnStretchedAxesAVoxelIsAsLargeAsItIsSeen) {
+TEST(DetailChooser, OnStretchedAxesAVoxelIsAsLargeAsItIsSeen) {
     index::Grid grid = cube(513);
     std::vector<double> at{0.0};
     while (at.size() < 513) // cells of the left half are a quarter as wide as the others
         at.push_back(at.back() + (at.size() <= 256 ? 0.4 : 1.6));
     grid.positions[0] = index::AxisPositions(at);
     const index::DetailRegions regions(grid);
-    DetailChoice choice(grid, 1'000'000), even(cube(513), 1'000'000);
+    DetailChooser choice(grid, 1'000'000), even(cube(513), 1'000'000);
     const std::array views{view_from(2.0f, 1000)};
     choice.look(views, a_meter_wide(grid));
     even.look(views, a_meter_wide(cube(513)));
@@ -134,9 +134,9 @@ TEST(DetailChoice, OnStretchedAxesAVoxelIsAsLargeAsItIsSeen) {
               choice.for_motion(1e6, 0).wished[regions.number({15, 8, 0})]);
 }
 
-TEST(DetailChoice, AHeadThatSwaysAsksForNothingNew) {
+TEST(DetailChooser, AHeadThatSwaysAsksForNothingNew) {
     const index::Grid grid = cube(513);
-    DetailChoice choice(grid, 1'000'000);
+    DetailChooser choice(grid, 1'000'000);
     std::set<std::vector<std::int8_t>> asked;
     for (int i = 0; i < 200; ++i) {
         const auto view = view_from(2.0f + 0.02f * std::sin(0.1f * float(i)), 1000);
@@ -148,8 +148,8 @@ TEST(DetailChoice, AHeadThatSwaysAsksForNothingNew) {
     EXPECT_EQ(asked.size(), 1u);
 }
 
-TEST(DetailChoice, WhatAPictureIsRecognizedByIsChosenAtOnceWhateverFits) {
-    DetailChoice choice(cube(513), 3'000'000);
+TEST(DetailChooser, WhatAPictureIsRecognizedByIsChosenAtOnceWhateverFits) {
+    DetailChooser choice(cube(513), 3'000'000);
     EXPECT_LT(choice.for_motion(1'000, 0).most_cells, 10'000u);
     const std::uint64_t cells = choice.for_motion(1'000, 4096, 300'000).most_cells;
     EXPECT_GE(cells, 300'000u);
@@ -159,8 +159,8 @@ TEST(DetailChoice, WhatAPictureIsRecognizedByIsChosenAtOnceWhateverFits) {
     EXPECT_LT(choice.for_motion(1'000, cells, 0).most_cells, 10'000u);
 }
 
-TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
-    DetailChoice choice(cube(513), 3'000'000);
+TEST(DetailChooser, NumbersOfCellsFitAndAreLeftLate) {
+    DetailChooser choice(cube(513), 3'000'000);
     std::mt19937 random(3);
     std::set<std::uint64_t> chosen;
     std::uint64_t drawn = 0;
@@ -173,8 +173,8 @@ TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
         drawn = cells;
     }
     EXPECT_LE(chosen.size(), 2u);
-    EXPECT_EQ(choice.for_motion(0, drawn).most_cells, DetailChoice::kFewest);
-    EXPECT_EQ(choice.for_motion(1e9, drawn).most_cells, DetailChoice::kFewest) << "not yet drawn";
+    EXPECT_EQ(choice.for_motion(0, drawn).most_cells, DetailChooser::kFewest);
+    EXPECT_EQ(choice.for_motion(1e9, drawn).most_cells, DetailChooser::kFewest) << "not yet drawn";
     for (drawn = 0; drawn < 3'000'000;) {
         const std::uint64_t cells = choice.for_motion(1e9, drawn).most_cells;
         ASSERT_GT(cells, drawn);
@@ -184,25 +184,25 @@ TEST(DetailChoice, NumbersOfCellsFitAndAreLeftLate) {
     choice.limit(100'000);
     EXPECT_EQ(choice.for_motion(1e9, drawn).most_cells, 100'000u);
     EXPECT_EQ(choice.at_rest().most_cells, 100'000u);
-    EXPECT_TRUE(DetailChoice(cube(65), 1000).small());
-    EXPECT_FALSE(DetailChoice(cube(66), 1000).small());
-    DetailChoice little(cube(65), 100'000);
+    EXPECT_TRUE(DetailChooser(cube(65), 1000).small());
+    EXPECT_FALSE(DetailChooser(cube(66), 1000).small());
+    DetailChooser little(cube(65), 100'000);
     little.limit(50'000);
     EXPECT_FALSE(little.small()) << "it does not fit as it is";
     EXPECT_EQ(little.most(), 50'000u);
 }
 
-TEST(DetailChoice, WhatFitsIsUsedByTheSecondSet) {
-    DetailChoice choice(cube(513), 3'000'000);
+TEST(DetailChooser, WhatFitsIsUsedByTheSecondSet) {
+    DetailChooser choice(cube(513), 3'000'000);
     std::uint64_t drawn = choice.for_motion({}, 0).most_cells;
-    EXPECT_EQ(drawn, DetailChoice::kAtFirst);
+    EXPECT_EQ(drawn, DetailChooser::kAtFirst);
     for (int set = 0; set < 2; ++set)
         drawn = choice.for_motion(1e6, drawn).most_cells;
     EXPECT_GE(1.5 * 1.4 * double(drawn), 1e6);
     EXPECT_LE(double(drawn), 1e6);
 }
 
-TEST(DetailChoice, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
+TEST(DetailChooser, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
     const index::Grid grid = cube(513);
     const index::DetailRegions regions(grid);
     const auto turned = [&](float degrees) {
@@ -214,7 +214,7 @@ TEST(DetailChoice, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
     };
     const auto wished_of = [&](std::span<const render::View> views, std::uint64_t least,
                                std::size_t region) {
-        DetailChoice choice(grid, 1'000'000);
+        DetailChooser choice(grid, 1'000'000);
         choice.look(views, a_meter_wide(grid));
         return choice.for_motion(100'000, 0, least).wished[region];
     };
@@ -228,7 +228,7 @@ TEST(DetailChoice, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
     EXPECT_LT(wished_of(both, kScarce, left), nothing) << "somebody sees it";
     // Just beside the view, where a head may turn within a moment, nothing is given up.
     const std::array ahead{turned(0)};
-    DetailChoice choice(grid, 1'000'000);
+    DetailChooser choice(grid, 1'000'000);
     choice.look(ahead, a_meter_wide(grid));
     const auto wished = choice.for_motion(100'000, 0, kScarce).wished;
     ASSERT_EQ(wished.size(), regions.size());
@@ -238,7 +238,7 @@ TEST(DetailChoice, RegionsFarBesideAllViewsCountForNothingInWhatMoves) {
         EXPECT_LT(wished_of(view, 10'000, left), nothing);
 }
 
-TEST(DetailChoice, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
+TEST(DetailChooser, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
     const index::Grid grid = cube(513);
     const auto turned = [&](float degrees) {
         render::View view = view_from(0.6f, 1000);
@@ -248,7 +248,7 @@ TEST(DetailChoice, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
         return std::array{view};
     };
     const auto lacks = [&](float then, float now, std::uint64_t least) {
-        DetailChoice choice(grid, 1'000'000);
+        DetailChooser choice(grid, 1'000'000);
         choice.look(turned(then), a_meter_wide(grid));
         const index::DetailQuery chosen = choice.for_motion(100'000, 0, least);
         choice.look(turned(now), a_meter_wide(grid));
@@ -261,7 +261,7 @@ TEST(DetailChoice, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
     EXPECT_FALSE(lacks(60, 50, kScarce)) << "heads turn a little";
     EXPECT_FALSE(lacks(60, -60, 10'000)) << "no region was left out";
     // It is made anew for the views of now, also where fewer cells fit than then; once.
-    DetailChoice dearer(grid, 1'000'000);
+    DetailChooser dearer(grid, 1'000'000);
     dearer.look(turned(60), a_meter_wide(grid));
     const index::DetailQuery then = dearer.for_motion(200'000, 0, kScarce);
     dearer.look(turned(-60), a_meter_wide(grid));
@@ -271,14 +271,14 @@ TEST(DetailChoice, ASetThatWasChosenForOtherViewsLacksWhatTheseShow) {
     EXPECT_FALSE(dearer.is_for_other_views(now, now));
     EXPECT_FALSE(dearer.is_for_other_views(then, then)) << "another one would be the same";
     // A set whose levels were not chosen by views lacks nothing.
-    DetailChoice choice(grid, 1'000'000);
+    DetailChooser choice(grid, 1'000'000);
     choice.look(turned(0), a_meter_wide(grid));
     EXPECT_FALSE(choice.lacks_what_is_seen({}));
 }
 
-TEST(DetailChoice, CellsThatNobodySeesMakeNoRoomForMore) {
+TEST(DetailChooser, CellsThatNobodySeesMakeNoRoomForMore) {
     const index::Grid grid = cube(513);
-    DetailChoice choice(grid, 1'000'000);
+    DetailChooser choice(grid, 1'000'000);
     std::uint64_t drawn = 0;
     const auto cells = [&](const render::View& view, double fit) {
         choice.look(std::span(&view, 1), a_meter_wide(grid));

@@ -1,5 +1,5 @@
 // The finest mesh that fits is drawn, and the choice does not go to and fro.
-#include "app/quality/mesh_level_choice.h"
+#include "app/quality/mesh_level_chooser.h"
 
 #include <gtest/gtest.h>
 
@@ -22,30 +22,30 @@ MeshesAtHand taking(double ms, interaction::Seconds now = kLater) {
             .now = now};
 }
 
-TEST(MeshLevelChoice, IsTheFinestThatFits) {
-    EXPECT_EQ(MeshLevelChoice().choose(taking(5)), 0u);
-    EXPECT_EQ(MeshLevelChoice().choose(taking(15)), 1u);
-    EXPECT_EQ(MeshLevelChoice().choose(taking(40)), 2u);
-    EXPECT_EQ(MeshLevelChoice().choose(taking(100)), 3u);
-    EXPECT_EQ(MeshLevelChoice().choose(taking(1000)), std::nullopt);
+TEST(MeshLevelChooser, IsTheFinestThatFits) {
+    EXPECT_EQ(MeshLevelChooser().choose(taking(5)), 0u);
+    EXPECT_EQ(MeshLevelChooser().choose(taking(15)), 1u);
+    EXPECT_EQ(MeshLevelChooser().choose(taking(40)), 2u);
+    EXPECT_EQ(MeshLevelChooser().choose(taking(100)), 3u);
+    EXPECT_EQ(MeshLevelChooser().choose(taking(1000)), std::nullopt);
 }
 
-TEST(MeshLevelChoice, IsNoneWhereNothingIsKnownOrThereIsNone) {
+TEST(MeshLevelChooser, IsNoneWhereNothingIsKnownOrThereIsNone) {
     MeshesAtHand meshes = taking(1);
     meshes.expected = [](std::size_t) { return std::optional<Milliseconds>(); };
-    EXPECT_EQ(MeshLevelChoice().choose(meshes), std::nullopt);
+    EXPECT_EQ(MeshLevelChooser().choose(meshes), std::nullopt);
     meshes = taking(1);
     meshes.triangles = {};
-    EXPECT_EQ(MeshLevelChoice().choose(meshes), std::nullopt);
+    EXPECT_EQ(MeshLevelChooser().choose(meshes), std::nullopt);
     meshes.triangles = {0, 0, 12'000, 0};
-    EXPECT_EQ(MeshLevelChoice().choose(meshes), 2u) << "of those that are there";
+    EXPECT_EQ(MeshLevelChooser().choose(meshes), 2u) << "of those that are there";
 }
 
-TEST(MeshLevelChoice, GivesWayToQuadsOfSoManyCellsThatTheyAreMoreLikeTheSurface) {
+TEST(MeshLevelChooser, GivesWayToQuadsOfSoManyCellsThatTheyAreMoreLikeTheSurface) {
     const auto beside = [](double quads, double all_ms) {
         MeshesAtHand meshes = taking(all_ms);
         meshes.quads = quads;
-        return MeshLevelChoice().choose(meshes);
+        return MeshLevelChooser().choose(meshes);
     };
     EXPECT_EQ(beside(1, 15), 1u) << "thin things are thinner as a mesh";
     EXPECT_EQ(beside(1, 40), std::nullopt);
@@ -54,13 +54,13 @@ TEST(MeshLevelChoice, GivesWayToQuadsOfSoManyCellsThatTheyAreMoreLikeTheSurface)
     EXPECT_EQ(beside(0.1, 100), 3u);
 }
 
-TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuads) {
+TEST(MeshLevelChooser, OfTranslucentSurfacesIsAnyMeshBeforeQuads) {
     const auto beside = [](double quads, double all_ms) {
         MeshesAtHand meshes = taking(all_ms);
         meshes.translucent = true;
         meshes.quads = quads;
         meshes.longest = Milliseconds(100);
-        return MeshLevelChoice().choose(meshes);
+        return MeshLevelChooser().choose(meshes);
     };
     EXPECT_EQ(beside(0.25, 15), 1u);
     EXPECT_EQ(beside(0.9, 40), 2u);
@@ -70,12 +70,12 @@ TEST(MeshLevelChoice, OfTranslucentSurfacesIsAnyMeshBeforeQuads) {
     EXPECT_EQ(beside(1, 100), 3u) << "also before quads of all cells";
 }
 
-TEST(MeshLevelChoice, TheCoarsestMayTakeLongerThanTheBudgetWhereQuadsAreLessLikeTheSurface) {
+TEST(MeshLevelChooser, TheCoarsestMayTakeLongerThanTheBudgetWhereQuadsAreLessLikeTheSurface) {
     const auto beside = [](double quads, double coarsest_ms, double longest_ms = 100) {
         MeshesAtHand meshes = taking(20 * coarsest_ms);
         meshes.quads = quads;
         meshes.longest = Milliseconds(longest_ms);
-        return MeshLevelChoice().choose(meshes);
+        return MeshLevelChooser().choose(meshes);
     };
     EXPECT_EQ(beside(0.15, 14), 3u) << "of a budget of 10 ms";
     EXPECT_EQ(beside(0.15, 16), std::nullopt);
@@ -83,11 +83,11 @@ TEST(MeshLevelChoice, TheCoarsestMayTakeLongerThanTheBudgetWhereQuadsAreLessLike
     EXPECT_EQ(beside(0.15, 14, 12), std::nullopt) << "no picture may take so long";
 }
 
-TEST(MeshLevelChoice, TakesHardlyLongerThanQuadsThatDoNotFitEither) {
+TEST(MeshLevelChooser, TakesHardlyLongerThanQuadsThatDoNotFitEither) {
     const auto beside = [](double quads_ms, double all_ms) {
         MeshesAtHand meshes = taking(all_ms);
         meshes.quads_take = Milliseconds(quads_ms);
-        return MeshLevelChoice().choose(meshes);
+        return MeshLevelChooser().choose(meshes);
     };
     const double budget = taking(1).budget.count();
     EXPECT_EQ(beside(1.1 * budget, 1.4 * budget), 0u);
@@ -95,8 +95,8 @@ TEST(MeshLevelChoice, TakesHardlyLongerThanQuadsThatDoNotFitEither) {
     EXPECT_NE(beside(0.99 * budget, 1.2 * budget), 0u) << "quads fit";
 }
 
-TEST(MeshLevelChoice, StaysWhereTimesScatterAboutALimitAndFollowsThemTwiceASecondAtMost) {
-    MeshLevelChoice choice;
+TEST(MeshLevelChooser, StaysWhereTimesScatterAboutALimitAndFollowsThemTwiceASecondAtMost) {
+    MeshLevelChooser choice;
     interaction::Seconds now{0};
     EXPECT_EQ(choice.choose(taking(20, now)), 1u);
     for (int i = 0; i < 400; ++i, now += interaction::Seconds(0.01))

@@ -34,7 +34,7 @@ struct MeshesAtHand {
 /// than they do. A finer one than before has to fit with room to spare. The coarsest may take half as
 /// long again as the budget where quads are of so few cells that they are less like the surface. Of
 /// translucent surfaces it is taken before quads, as long as it takes no longer than any picture may.
-class MeshLevelChoice {
+class MeshLevelChooser {
   public:
     /// @return its level; empty: none fits, there is none, or quads of all cells are more like the
     /// surface

@@ -11,10 +11,10 @@
 
 namespace isochron::app {
 
-class PictureChoice {
+class FramePlanner {
   public:
     /// All outlive the choice.
-    PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log, const Scene& scene,
+    FramePlanner(const Config& config, const Outputs& outputs, FrameLog& log, const Scene& scene,
                   CellSupply& supply, const PictureMaker& pictures);
 
     FrameQuality& quality() { return quality_; }

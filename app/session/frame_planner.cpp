@@ -1,5 +1,5 @@
 // Chooses how a frame's picture is drawn.
-#include "app/session/picture_choice.h"
+#include "app/session/frame_planner.h"
 
 #include "app/choice/moved_picture.h"
 
@@ -25,7 +25,7 @@ bool has_opaque(const ExplorerState& state) {
 
 } // namespace
 
-PictureChoice::PictureChoice(const Config& config, const Outputs& outputs, FrameLog& log,
+FramePlanner::FramePlanner(const Config& config, const Outputs& outputs, FrameLog& log,
                              const Scene& scene, CellSupply& supply, const PictureMaker& pictures)
     : outputs_(outputs), log_(log), scene_(scene), sets_(scene.cells()), supply_(supply),
       pictures_(pictures),
@@ -34,14 +34,14 @@ PictureChoice::PictureChoice(const Config& config, const Outputs& outputs, Frame
                outputs.headset() ? std::nullopt : outputs.windows().first().refresh_rate()) {}
 
 /// Learns the draw costs of the slowest process, as all draw with the same footprint.
-void PictureChoice::learn_costs(const Frame& frame) {
+void FramePlanner::learn_costs(const Frame& frame) {
     quality_.learn(frame.sharing.samples(quality_.collect(log_)));
     quality_.charge(frame.sharing.largest(quality_.view()));
 }
 
 /// Whether a picture at rest differs from the one that is shown in nothing but more detail, and may
 /// be made in parts.
-bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) const {
+bool FramePlanner::only_gets_finer(const Frame& frame, const Picture& now) const {
     if (!supply_.rests() || !frame.drawn || frame.choosing() != Choosing::with_parts ||
         now.cells == frame.drawn->cells || now.cells != sets_.held(CellSets::Use::at_rest))
         return false;
@@ -49,7 +49,7 @@ bool PictureChoice::only_gets_finer(const Frame& frame, const Picture& now) cons
 }
 
 /// Whether an exact picture only gets another size, as the panel beside it comes or goes.
-bool PictureChoice::is_only_laid_out(const Frame& frame, const Picture& now) const {
+bool FramePlanner::is_only_laid_out(const Frame& frame, const Picture& now) const {
     const std::optional<Picture>& drawn = frame.drawn;
     if (!drawn || !frame.sharing.alone() || !supply_.may_be_partial(frame) ||
         (drawn->footprint != render::Footprint::surface && !drawn->moved) ||
@@ -61,7 +61,7 @@ bool PictureChoice::is_only_laid_out(const Frame& frame, const Picture& now) con
 }
 
 /// Those of the footprints whose programs are ready for the surfaces of this state.
-render::FootprintSet PictureChoice::ready(const Frame& frame, render::FootprintSet all) const {
+render::FootprintSet FramePlanner::ready(const Frame& frame, render::FootprintSet all) const {
     const bool by_value = frame.state.coloring.by != interaction::ColorBy::surface;
     const bool translucent = is_translucent(frame.state), opaque = has_opaque(frame.state);
     for (const auto footprint :
@@ -71,7 +71,7 @@ render::FootprintSet PictureChoice::ready(const Frame& frame, render::FootprintS
     return all;
 }
 
-PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) const {
+FramePlanner::Options FramePlanner::options(const Frame& frame, bool changed) const {
     Options options{changed, ready(frame, sets_.footprints()),
                     ready(frame, sets_.possible_footprints())};
     if (frame.report.cells > frame.sharing.surface_limit())
@@ -81,7 +81,7 @@ PictureChoice::Options PictureChoice::options(const Frame& frame, bool changed) 
 }
 
 /// Rank 0's plan, before the others follow it.
-FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
+FramePlan FramePlanner::wanted(const Frame& frame, const Options& options) {
     FramePlan plan = quality_.choose(frame.state, options.changed, frame.choosing(),
                                      options.available, options.possible, frame.report);
     if (!scene_.is_ready_to_move())
@@ -100,7 +100,7 @@ FramePlan PictureChoice::wanted(const Frame& frame, const Options& options) {
 
 /// A mesh takes the place of quads where it fits while the picture moves, until the picture
 /// at rest is made.
-void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
+void FramePlanner::choose_mesh(const Frame& frame, FramePlan& plan) {
     if (!frame.is_live() || frame.state.quality != interaction::QualityMode::automatic ||
         !sets_.may_have_meshes() || !ready(frame, kAllFootprints).has(render::Footprint::mesh))
         return;
@@ -129,7 +129,7 @@ void PictureChoice::choose_mesh(const Frame& frame, FramePlan& plan) {
 }
 
 /// Whether the last exact picture is moved, as what a frame can draw of what moves is worse.
-bool PictureChoice::moves_exact(const Frame& frame, const Picture& now,
+bool FramePlanner::moves_exact(const Frame& frame, const Picture& now,
                                 const FramePlan& plan) const {
     const Picture* exact = scene_.movable_picture(outputs_.viewports(now.audience));
     const bool all_triangles = plan.footprint == render::Footprint::mesh && plan.mesh_level == 0;
@@ -147,14 +147,14 @@ bool PictureChoice::moves_exact(const Frame& frame, const Picture& now,
 }
 
 /// Whether the exact picture that is moved should be drawn anew for where the eyes are.
-bool PictureChoice::grows_old(const Picture& now) const {
+bool FramePlanner::grows_old(const Picture& now) const {
     constexpr double kOld = kMovedAtMost / 3;
     return moved_by(*scene_.movable_picture(1), now) > kOld;
 }
 
 /// Whether a headset is given its last layer again, if that is exact: its runtime moves the layer to
 /// where the eyes are. Not for long, and only where nothing else moves.
-bool PictureChoice::shows_layer_again(const Frame& frame, const Picture& now) {
+bool FramePlanner::shows_layer_again(const Frame& frame, const Picture& now) {
     constexpr interaction::Seconds kLongest{0.2};
     const std::optional<Picture>& drawn = frame.drawn;
     const bool may = supply_.may_be_partial(frame) && !now.audience.eyes.empty() && drawn &&
@@ -172,7 +172,7 @@ bool PictureChoice::shows_layer_again(const Frame& frame, const Picture& now) {
 
 /// Whether nothing is new but isovalues whose cells are still to come: until then the last picture
 /// says by its legend what it shows.
-bool PictureChoice::only_awaits_cells(const Frame& frame, const Picture& now) const {
+bool FramePlanner::only_awaits_cells(const Frame& frame, const Picture& now) const {
     const std::optional<Picture>& drawn = frame.drawn;
     if (!frame.is_live() || frame.is_kept || !frame.sharing.alone() || !drawn || !drawn->cells ||
         !now.cells || !supply_.set_comes() || frame.report.shown == frame.report.asked ||
@@ -186,7 +186,7 @@ bool PictureChoice::only_awaits_cells(const Frame& frame, const Picture& now) co
 }
 
 /// What is drawn stays, and the report says how it was drawn.
-void PictureChoice::show_last(const Frame& frame) const {
+void FramePlanner::show_last(const Frame& frame) const {
     FrameReport& report = frame.report;
     frame.plan.state.hold();
     report.footprint = frame.drawn->footprint;
@@ -196,7 +196,7 @@ void PictureChoice::show_last(const Frame& frame) const {
 }
 
 /// Takes over rank 0's plan.
-void PictureChoice::agree(const Frame& frame, FramePlan plan) {
+void FramePlanner::agree(const Frame& frame, FramePlan plan) {
     // More cells than a frame can draw come in parts alone, which may begin some frames later. So
     // do far more cells than the last frame drew: their time is not known well.
     constexpr std::size_t kFarMore = 4;
@@ -220,7 +220,7 @@ void PictureChoice::agree(const Frame& frame, FramePlan plan) {
     report.final = frame.plan.state.is_final();
 }
 
-void PictureChoice::choose(const Frame& frame, Picture& now) {
+void FramePlanner::choose(const Frame& frame, Picture& now) {
     FrameReport& report = frame.report;
     learn_costs(frame);
     if (supply_.choose_set(frame, now))
@@ -282,7 +282,7 @@ void PictureChoice::choose(const Frame& frame, Picture& now) {
 }
 
 /// Shows the picture at rest that was made in parts for as long as nothing changes.
-void PictureChoice::rest_in_parts(const Frame& frame, Picture& now) const {
+void FramePlanner::rest_in_parts(const Frame& frame, Picture& now) const {
     FrameReport& report = frame.report;
     if (!report.in_parts || !frame.drawn)
         return;

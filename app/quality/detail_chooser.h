@@ -17,7 +17,7 @@ namespace isochron::app {
 
 /// One choice for all eyes and windows. The number of cells is one of a few fixed ones, and small
 /// changes of the budget do not change it, so that new sets are not asked for all the time.
-class DetailChoice {
+class DetailChooser {
   public:
     /// However small the budget, moving pictures may have at least this many cells.
     static constexpr std::uint64_t kFewest = 1 << 12;
@@ -28,7 +28,7 @@ class DetailChoice {
     static constexpr std::uint64_t kSmallVolume = 1 << 18;
 
     /// @param most cells that a set may have at all
-    DetailChoice(const index::Grid& grid, std::uint64_t most);
+    DetailChooser(const index::Grid& grid, std::uint64_t most);
 
     /// Whether the volume is so small that nothing has to be chosen.
     bool small() const { return small_; }

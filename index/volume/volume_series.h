@@ -89,7 +89,7 @@ struct ReadOptions {
 
 /// Counts the ways in which programs have understood the same files: raised when axes, places,
 /// times or missing values of some format are read otherwise than before.
-constexpr std::uint32_t kReading = 3;
+constexpr std::uint32_t kReading = 4;
 
 /// Receives the stored values of a step, piece by piece.
 using TakePiece = std::function<void(std::span<const std::byte>)>;

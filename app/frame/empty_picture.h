@@ -1,7 +1,4 @@
 // Why a picture shows no surface, in a sentence, and the way out of it.
-//
-//     if (const auto empty = why_empty(facts))
-//         say(empty->sentence, empty->way);   // "No surface at 500: ...", "Go to 9.4"
 #pragma once
 
 #include "app/frame/explorer_state.h"

@@ -1,8 +1,5 @@
 // What the values of one step are like: their range, their histogram, and how many cells are active
 // at each isovalue.
-//
-//     const StepSurvey step = survey_of(values, 7, true);
-//     surfaces.push_back({further_isovalue(step, surfaces.front().isovalue, isovalues)});
 #pragma once
 
 #include "index/volume/step_values.h"

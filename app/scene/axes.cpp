@@ -69,8 +69,8 @@ std::optional<std::array<double, 2>> seen_part(const glm::vec3& from, const glm:
 /// Ticks of an axis, of which at least two are in the part that is seen.
 Ticks ticks_of(const AxisScale& scale, const std::array<double, 2>& seen, int most) {
     const auto at = [&](double share) { return scale.low + share * (scale.high - scale.low); };
-    const auto [low, high] = std::minmax(scale.low, scale.high);
-    const auto [first, last] = std::minmax(at(seen[0]), at(seen[1]));
+    const auto [low, high] = std::minmax({scale.low, scale.high});
+    const auto [first, last] = std::minmax({at(seen[0]), at(seen[1])});
     Ticks ticks = nice_ticks(low, high, most);
     constexpr int kNearlyAlways = 8;
     for (int finer = 2; finer <= kNearlyAlways; ++finer) {

@@ -217,6 +217,8 @@ struct Gl {
 
     /// Whether passes draw as suits a GPU or a processor, see `is_drawn_for_processor`.
     DrawnBy drawn_by;
+    /// Programs are linked when their pass is made, not when they are first used: for who wants them all.
+    bool links_at_once = false;
 };
 
 } // namespace isochron::render

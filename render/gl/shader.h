@@ -56,7 +56,10 @@ class LazyProgram {
     /// that stay; empty: nothing is set
     LazyProgram(const Gl& gl, std::vector<ShaderSource> sources, std::string_view prelude = {},
                 std::function<void(GLuint)> linked = {})
-        : gl_(&gl), sources_(std::move(sources)), prelude_(prelude), linked_(std::move(linked)) {}
+        : gl_(&gl), sources_(std::move(sources)), prelude_(prelude), linked_(std::move(linked)) {
+        if (gl.links_at_once)
+            program_.emplace(link_program(gl, sources_, prelude_));
+    }
 
     /// @throws Error as `link_program`, on the first call
     GLuint name() const;

@@ -99,6 +99,7 @@ Gl listening_driver() {
     ISOCHRON_GL_ENTRY_POINTS(SILENT_ENTRY)
 #undef SILENT_ENTRY
     Gl gl([&](const char* name) { return entries.at(name); });
+    gl.links_at_once = true;
     gl.ShaderSource = take_source;
     gl.GetShaderiv = say_yes;
     gl.GetProgramiv = say_yes;

@@ -40,7 +40,7 @@ double luminance(const PaintColor& color) {
     return 0.2126 * light(color.r) + 0.7152 * light(color.g) + 0.0722 * light(color.b);
 }
 double contrast(const PaintColor& a, const PaintColor& b) {
-    const auto [low, high] = std::minmax(luminance(a), luminance(b));
+    const auto [low, high] = std::minmax({luminance(a), luminance(b)});
     return (high + 0.05) / (low + 0.05);
 }
 

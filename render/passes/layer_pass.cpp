@@ -15,7 +15,10 @@
 
 namespace isochron::render {
 
-LayerPass::LayerPass(const Gl& gl) : gl_(&gl), no_attributes_(gl) {}
+LayerPass::LayerPass(const Gl& gl) : gl_(&gl), no_attributes_(gl) {
+    for (std::size_t layers = 1; gl.links_at_once && layers <= kMost; ++layers)
+        program(layers);
+}
 
 const Program& LayerPass::program(std::size_t layers) {
     std::optional<Program>& program = programs_[layers - 1];

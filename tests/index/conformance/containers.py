@@ -60,6 +60,7 @@ NIfTI-1 | uneven, times uneven | nifti1.h, pixdim and srow: one number an axis
 NIfTI-1 | time axis, components last, extra axis | nifti1.h, dim: x, y, z, t, then components
 NIfTI-1 | unit by axis, unit words, unit other, time dates | nifti1.h, xyzt_units: one unit of length, seconds and their parts
 NIfTI-1 | names | nifti1.h, qform and sform: places are RAS, axes have no names
+NIfTI-1 | remark | nifti1.h, descrip: "any text you like", which names the data and makes no note
 NIfTI-1 | values gaps, values unit, arrays | nifti1.h: one array of numbers
 MetaImage | uneven, times uneven | MetaIO, tags: ElementSpacing is one number an axis
 MetaImage | unit by axis, unit words, unit other, time unit, time dates | MetaIO, tags: DistanceUnits is one word, mm, um or cm

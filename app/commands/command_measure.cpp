@@ -231,7 +231,7 @@ void add_measure(Command& program) {
         "measure", "Measure surfaces: their area, the volume that they enclose, their connected "
                    "pieces and more.");
     command.examples({"isochron measure run42.isochron --isovalue 100",
-                      "isochron measure run42.isochron --isovalue 100 --steps 7 --pieces"});
+                      "isochron measure run42.isochron --isovalue 100 --steps 2 --pieces"});
     command.option("file", arguments->file, "Index whose surfaces are measured")
         .required()
         .type_name("INDEX");

@@ -100,8 +100,10 @@ class OpenPages {
     /// Whether cards have come, gone or changed in the last layout: Dear ImGui shows new windows late.
     bool turned() const { return turned_; }
 
-    /// A page lies over the picture, which Escape closes.
-    bool any() const { return help_ || messages_ || has_list(); }
+    /// A page lies over the picture, which Escape closes; cards are no pages.
+    bool any() const {
+        return help_ || messages_ || search_.is_open() || files_.is_open() || lists_arrays_;
+    }
 
     /// Obeys F1, `?`, Ctrl + K, Ctrl + O and Ctrl + Shift + A, wherever the mouse is, Escape, which
     /// closes a page, and Enter, which takes the way out of an empty picture.

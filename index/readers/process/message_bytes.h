@@ -22,9 +22,12 @@
 
 namespace isochron::index {
 
-/// The last value of an enumeration whose values count from 0; greater numbers are invalid.
 template <class Enum>
-constexpr Enum kLastValue = Enum{};
+constexpr Enum value_that_is_not_listed() = delete;
+/// The last value of an enumeration whose values count from 0; greater numbers are invalid. Each
+/// enumeration that crosses lists its own.
+template <class Enum>
+constexpr Enum kLastValue = value_that_is_not_listed<Enum>();
 
 template <class T>
 concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;

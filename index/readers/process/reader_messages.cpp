@@ -14,6 +14,8 @@ template <>
 constexpr ValueType kLastValue<ValueType> = ValueType::f64;
 template <>
 constexpr Anatomy kLastValue<Anatomy> = Anatomy::enu;
+template <>
+constexpr DayMonth kLastValue<DayMonth> = DayMonth::month_first;
 
 namespace {
 

@@ -119,6 +119,9 @@ TEST_F(ExploreTest, KeysLeadToCommandsThatTheRecordingHoldsAndReplays) {
 TEST_F(ExploreTest, EndedByASignalItLeavesAWholeRecordingUnderItsName) {
     for (const int number : {SIGTERM, SIGINT}) {
         const auto program = explore({"--record", file("walk.jsonl")});
+        // The second one asks whether to go on with the first, which Escape declines.
+        screen_.xdotool({"key", "Escape"});
+        await_frame();
         screen_.xdotool({"key", "2"});
         ASSERT_TRUE(comes("walk.jsonl.part", "\"fast\""));
         program->signal(number);

@@ -122,7 +122,7 @@ TEST_F(Installed, HasAManualPageAndCompletionsForEachCommand) {
     while (std::getline(help, line) && line != "Commands to begin with:") {
     }
     std::vector<std::string> commands;
-    while (std::getline(help, line) && line != "Output:")
+    while (std::getline(help, line) && line != "Options:")
         if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
             commands.push_back(line.substr(2, line.find(' ', 2) - 2));
     ASSERT_GE(commands.size(), 10u);

@@ -66,6 +66,7 @@ index::Extract uncounted(const index::Extract& extract) {
 TEST_P(SessionRest, PartsBeginAnewWhereAFinerSetComes) {
     Config config = config_with(1e-6);
     config.quality.still_budget_ms = 1e-6; // a piece in each frame
+    config.quality.settled = render::Footprint::gaussian; // coarse cells are made in parts, too
     const auto second_picture = [&](bool in_the_midst) {
         test_support::Gate at_rest;
         std::atomic<bool> asked = false, found = false;

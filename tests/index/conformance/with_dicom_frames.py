@@ -290,7 +290,7 @@ for t in range(12):  # a file for each frame, at one place
     cine.append(save(blank(flat[t], series, PixelSpacing=[0.75, 0.5], TriggerTime=30 * t, ImagePositionPatient=[-10, 20, 5],
                            ImageOrientationPatient=[1, 0, 0, 0, 1, 0]), named("cine")))
 refuse(cine, "a film, 12 frames of one slice (steps by TriggerTime")
-expect(cine, flat, spacing=(0.5, 0.75, 3), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
+expect(cine, flat, spacing=(0.5, 0.75, 3), origin=(-10, 20, 5), spacing_given=[0.5, 0.75, 3], note="they are taken for slices")
 offsets = blank(flat, new_series(), Modality="RTDOSE", PixelSpacing=[0.75, 0.5], ImagePositionPatient=[-10, 20, 5],
                 ImageOrientationPatient=[1, 0, 0, 0, 1, 0], GridFrameOffsetVector=[-2 * i for i in range(12)],
                 FrameIncrementPointer=[Tag("GridFrameOffsetVector")])

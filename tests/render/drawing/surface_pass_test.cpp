@@ -129,12 +129,18 @@ TEST_P(SurfacePasses, ATransparentSurfaceShowsEveryLayerFarToNear) {
     int seen = 0, wrong_alpha = 0, wrong_order = 0, within_a_cell = 0;
     for (int y = 0; y < view.size.y; ++y)
         for (int x = 0; x < view.size.x; ++x) {
-            const std::vector<RayHit> hits = reference.hits({x + 0.5, y + 0.5});
+            const glm::dvec2 pixel(x + 0.5, y + 0.5);
+            const std::vector<RayHit> hits = reference.hits(pixel);
+            const glm::dvec3 along =
+                glm::normalize(reference.point(pixel, 1.0) - reference.point(pixel, 0.0));
             glm::dvec3 color(0.0);
             double through = 1.0;
             for (std::size_t i = 0; i < hits.size(); ++i) {
-                color += through * kOpacity * hits[i].normal;
-                through *= 1.0 - kOpacity;
+                const double facing = std::abs(glm::dot(glm::normalize(hits[i].normal), along));
+                // Towards its rim a layer covers as up to seven would.
+                const double left = std::pow(1.0 - kOpacity, 1.0 + 6.0 * std::pow(1.0 - facing, 3));
+                color += through * (1.0 - left) * hits[i].normal;
+                through *= left;
                 within_a_cell += i > 0 && hits[i].cell == hits[i - 1].cell;
             }
             seen += !hits.empty();

@@ -120,6 +120,13 @@ void Display::begin_mean() {
     in_mean_ = 1;
 }
 
+void Display::prepare_mean() {
+    const render::RenderTarget pixel(*gl_, glm::ivec2(1));
+    for (std::optional<render::SampleSum>& sum : sums_)
+        if (!sum)
+            sum.emplace(*gl_).begin(pixel);
+}
+
 void Display::add_to_mean() {
     for (std::size_t i = 0; i < targets_.size(); ++i)
         sums_[i]->add(*next_[i]);

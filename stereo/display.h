@@ -85,6 +85,8 @@ class Display {
     /// Begins the mean of several pictures of all viewports with what is shown; and ends it.
     void begin_mean();
     void end_mean() { in_mean_ = 0; }
+    /// Uses once all that a mean needs.
+    void prepare_mean();
     /// Pictures in the mean; 0: there is none. While there is one, each next picture is moved by so
     /// much of a pixel that it takes another sample.
     int in_mean() const { return in_mean_; }

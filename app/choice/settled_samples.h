@@ -18,7 +18,9 @@ class SettledSamples {
     /// Begins a frame. @param settled its picture is exact, and nothing else is going on
     void begin_frame(bool settled) { settled_ = settled; }
     /// Whether the picture will get more samples if nothing changes.
-    bool are_missing() const { return settled_ && outputs_.in_mean() < outputs_.passes(); }
+    bool are_missing() const {
+        return settled_ && outputs_.passes() > 1 && outputs_.in_mean() < outputs_.passes();
+    }
     /// Takes some, in the time that a frame may spend on parts. The first are those of the picture
     /// that the windows show.
     /// @return whether a better mean is there, to be shown as a picture in parts is

@@ -220,6 +220,12 @@ void Outputs::end_mean() {
         display.end_mean();
 }
 
+void Outputs::prepare_mean() {
+    if (passes() > 1)
+        for (stereo::Display& display : displays_)
+            display.prepare_mean();
+}
+
 void Outputs::add_to_mean() {
     for (stereo::Display& display : displays_)
         display.add_to_mean();

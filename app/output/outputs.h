@@ -131,6 +131,8 @@ class Outputs {
     /// As `stereo::Display` has them, for all windows.
     void begin_mean();
     void end_mean();
+    /// Uses once all that a mean needs, where settled windows show one.
+    void prepare_mean();
     int in_mean() const { return displays_.empty() ? 0 : displays_.front().in_mean(); }
     void add_to_mean();
     void complete_mean();

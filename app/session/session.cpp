@@ -192,6 +192,7 @@ void Session::warm_up(const std::function<bool(float)>& goes_on) {
                 share = scene_.warm_up(picture, views, part = place.begins ? 0 : part + 1);
                 return share >= 1;
             });
+    outputs_.prepare_mean();
 }
 
 void Session::prepare_first(const std::function<bool(float)>& goes_on,
@@ -224,8 +225,10 @@ void Session::prepare_first(const std::function<bool(float)>& goes_on,
 
 bool Session::prepare_some() {
     const bool has = preparation_ && preparation_->advance();
-    if (preparation_ && preparation_->is_done())
+    if (preparation_ && preparation_->is_done()) {
         preparation_.reset();
+        outputs_.prepare_mean();
+    }
     return has;
 }
 
@@ -239,7 +242,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
     const auto parts = plan_.state.in_parts();
     const bool in_parts = parts == now.footprint;
     partial_.begin_frame(in_parts);
-    samples_.begin_frame(is_settled(frame));
+    samples_.begin_frame(is_settled(frame) && !prepares());
     if (parts && !frame.report.redrawn && !in_parts && outputs_.want(now.audience)) {
         samples_.give_up();
         if (auto whole = partial_.draw(frame, now, overlay)) {

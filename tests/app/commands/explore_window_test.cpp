@@ -69,9 +69,9 @@ TEST_F(ExploreWindow, CopiesTheValueUnderTheCursorAndSavesTheSession) {
     screen_.xdotool({"key", "ctrl+s"});
     await_frame();
     EXPECT_TRUE(comes("kept.isochron-session", "\"isovalue\": 8"));
-    screen_.xdotool({"key", "Escape"}); // the session's name is asked for
+    screen_.xdotool({"key", "ctrl+q"});
     await_frame();
-    leave();
+    screen_.xdotool({"key", "Return"});
     EXPECT_EQ(program->exit_status(), 0);
     const auto recording = read_recording(file("walk.jsonl"));
     const auto any = [&](auto claim) {

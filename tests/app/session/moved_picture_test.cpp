@@ -79,6 +79,11 @@ TEST_P(MovedPicture, IsThatOfTheNewPlaceWhereTheOldOneWouldNotBe) {
     EXPECT_FALSE(last.moved);
     Session other(config_in_parts(), file_, *context_);
     EXPECT_TRUE(test_support::eventually([&] { return is_exact(with_head(other, aside)); }));
+    EXPECT_TRUE(test_support::eventually([&] { // both with all samples of their pixels
+        with_head(session, aside);
+        with_head(other, aside);
+        return !session.outlook().busy && !other.outlook().busy;
+    }));
     EXPECT_TRUE(shown(session) == shown(other));
 }
 

@@ -10,7 +10,7 @@
 namespace isochron::app {
 namespace {
 
-constexpr std::uint16_t kNoBin = 0xffff; ///< of a vertex without a value
+constexpr std::uint16_t kNoBin = 0xffff; ///< bin of a vertex without a value
 
 std::vector<std::uint16_t> bins_of(const index::StepValues& values, std::size_t step,
                                    StepSurvey& survey) {
@@ -141,7 +141,7 @@ std::optional<double> further_isovalue(const StepSurvey& step, double first,
             continue;
         const double off =
             std::abs(std::log(static_cast<double>(step.cells[bin]) / base / kWanted));
-        // Of two that are as good, the one with the higher isovalue lies inside the other.
+        // Among two that are as good, the one with the higher isovalue lies inside the other.
         if (!best || off <= best_off) {
             best = bin;
             best_off = off;

@@ -21,7 +21,7 @@ struct StepSurvey {
     bool whole = false;
     /// Range of the finite scaled values; `low` is above `high` if there are none.
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    std::vector<std::uint64_t> histogram; ///< of kBins equal bins over the range
+    std::vector<std::uint64_t> histogram; ///< counts in kBins equal bins over the range
     std::vector<std::uint64_t> cells;     ///< active cells at the middle of each bin
     /// The nearest other step that has different values; looked for only where this step has none.
     std::optional<std::uint32_t> other_step = {};

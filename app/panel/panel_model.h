@@ -89,7 +89,7 @@ struct OfferedSession {
 
 /// Something that was said.
 struct PastMessage {
-    std::string time; ///< of the day: `14:05:09`
+    std::string time; ///< time of the day: `14:05:09`
     std::string words;
 };
 

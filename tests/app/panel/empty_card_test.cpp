@@ -113,7 +113,7 @@ TEST_F(EmptyCard, AFurtherSurfaceIsChosenByTheStep) {
     step.histogram.assign(StepSurvey::kBins, 1);
     step.cells.assign(StepSurvey::kBins, 1000);
     for (std::size_t bin = step.bin_of(80); bin < StepSurvey::kBins; ++bin)
-        step.cells[bin] = 300; // of the first one's 1000
+        step.cells[bin] = 300; // where the first one has 1000
     model.work.survey = &step;
     for (const SearchLine& line : search_lines(model))
         if (line.name == "add_surface" && line.commands.isosurfaces) {

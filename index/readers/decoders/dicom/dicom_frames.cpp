@@ -56,7 +56,7 @@ struct PrivateKind {
     std::string_view name;
     gdcm::PrivateTag tag;
     char form;         ///< t: text, f: f32, d: f64
-    std::size_t count; ///< of its numbers, those that count
+    std::size_t count; ///< numbers of it that count
 };
 const std::array<PrivateKind, 12> kPrivateKinds{{
     {"b-value", {0x0019, 0x0c, "SIEMENS MR HEADER"}, 't', 1},

@@ -26,7 +26,7 @@ struct TiffStack {
     std::size_t channels = 1, slices = 1, frames = 1;
     std::vector<std::string> channel_names = {};
     std::array<StatedAxis, 3> axes{}; ///< x, y and z: spacing, origin and unit
-    StatedAxis time{.name = "time"};  ///< of the frames
+    StatedAxis time{.name = "time"};  ///< times of the frames
     glm::dvec2 field_of_view{0.0};    ///< extent of all pixels along x and y; 0: not said
     Scaling scaling = {};
     std::string value_unit = {};

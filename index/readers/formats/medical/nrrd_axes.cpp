@@ -99,7 +99,7 @@ enum class Role : std::uint8_t { components, time };
 /// The role of an axis that is not an axis of space.
 Role role_of(const NrrdHeader& header, std::size_t axis, const std::string& kind, NrrdAxes& axes,
              const ReadOptions& options) {
-    if (header.own("modality") == "DWMRI" && !options.extra_axis_is_time) // of diffusion
+    if (header.own("modality") == "DWMRI" && !options.extra_axis_is_time) // directions of diffusion
         return Role::components;
     if (kind == "time" || kind == "list" || is_unknown(kind))
         axes.listed =

@@ -131,7 +131,7 @@ Positions positions_along(const StatedArray& array, const StatedAxis& axis, int 
 
 /// Along x, y and z, of axes that have directions: each has the name of the axis that runs along it.
 std::array<Positions, 3> positions_by(const StatedArray& array, const ArrayLayout& layout) {
-    constexpr double kAligned = 1e-6; // of the length
+    constexpr double kAligned = 1e-6; // share of the length
     const StatedDirections& stated = *array.directions;
     std::array<Positions, 3> axes;
     for (int physical = 0; physical < 3; ++physical) {

@@ -2,6 +2,7 @@
 # Builds the module of the page: build.sh OUT.wasm, with Debian's clang-19, lld-19, libc++-19-dev-wasm32,
 # libclang-rt-19-dev-wasm32 and wasi-libc.
 set -eu
+out=$(realpath "$1")
 cd "$(dirname "$0")/../../.."
 here=app/web/module
 flags="--target=wasm32-wasi --sysroot=/usr -stdlib=libc++ -isystem $here/stubs
@@ -11,7 +12,7 @@ flags="--target=wasm32-wasi --sysroot=/usr -stdlib=libc++ -isystem $here/stubs
 objects=$(mktemp -d)
 trap 'rm -rf "$objects"' EXIT
 for source in $here/module.cpp index/scan/scan.cpp index/surface/mesh_maker.cpp index/surface/mesh_vertices.cpp \
-  index/surface/mesh_cases.cpp index/surface/cell_mesh.cpp index/file/chunks/packed_rows.cpp \
+  index/surface/mesh_cases.cpp index/surface/cell_mesh.cpp index/surface/cell_colors.cpp index/file/chunks/packed_rows.cpp \
   index/file/chunks/chunk_sums.cpp index/file/chunks/chunk_codec.cpp index/file/chunks/chunk_grid.cpp \
   index/file/chunks/chunk_differences.cpp index/file/sections/step_levels.cpp index/volume/stored_cut.cpp \
   index/volume/grid.cpp index/volume/level_map.cpp index/volume/value_type.cpp; do
@@ -21,4 +22,4 @@ for source in $here/module.cpp index/scan/scan.cpp index/surface/mesh_maker.cpp 
   clang++-19 $flags $how -c "$source" -o "$objects/$(basename "$source" .cpp).o"
 done
 clang++-19 --target=wasm32-wasi --sysroot=/usr -mexec-model=reactor -fuse-ld=lld -nostdlib++ -Wl,--gc-sections,--strip-all,-z,stack-size=262144 \
-  "$objects"/*.o -L/usr/lib/llvm-19/lib/wasm32-wasi -lc++ -lc++abi -o "$1"
+  "$objects"/*.o -L/usr/lib/llvm-19/lib/wasm32-wasi -lc++ -lc++abi -o "$out"

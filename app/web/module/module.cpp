@@ -10,6 +10,7 @@
 #include "index/file/sections/step_levels.h"
 #include "index/scan/scan.h"
 #include "index/search/brick_reach.h"
+#include "index/surface/cell_colors.h"
 #include "index/surface/mesh_maker.h"
 #include "index/volume/level_map.h"
 
@@ -341,21 +342,8 @@ EXPORT("values")
 const float* values(Volume* other, const Volume* of, std::uint32_t layer, std::uint32_t place,
                     const std::byte* const* around) {
     const Cube of_chunk = fill_cube(*other, layer, place, around);
-    const auto n = of_chunk.values.grid.vertices;
-    const std::array<std::size_t, 3> step{1, n[0], std::size_t{n[0]} * n[1]};
-    std::vector<float>& out = other->surface.values;
-    out.clear();
-    visit_value_type(other->type, [&]<class T>(std::type_identity<T>) {
-        const T* const stored = of_chunk.values.step<T>(0).data();
-        for (const MeshVertex& vertex : of->surface.mesh.vertices) {
-            const T* const low = stored + vertex.x + vertex.y * step[1] + vertex.z * step[2];
-            const double a = other->scaling(static_cast<double>(low[0]));
-            const double b = other->scaling(static_cast<double>(low[step[vertex.axis]]));
-            const double share = static_cast<double>(vertex.share) / MeshVertex::kWhole;
-            out.push_back(static_cast<float>(a + share * (b - a)));
-        }
-    });
-    return out.data();
+    other->surface.values = values_at(of_chunk.values, Instant(0), of->surface.mesh.vertices, 0);
+    return other->surface.values.data();
 }
 
 /// What `find` has found: cells, points, normals, triangles as places in memory, then how many points

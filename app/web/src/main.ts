@@ -41,10 +41,12 @@ let state: Linked = linked(location.hash);
 let infos: Info[] = [];
 let levels = 1;
 let asked: Asked = { array: 0, step: 0, isovalue: 0, colors: null };
-let last: Found | null = null;
+let last: { asked: Asked; found: Found } | null = null;
 let number = 0;
 let shown = 0;
 let playing = false;
+let turn = 0; // the timer of the next step
+let later = 0; // the timer of the address
 
 const info = (): Info => infos[asked.array]!;
 const words = (value: number): string => String(+value.toPrecision(6));
@@ -76,7 +78,14 @@ function ask(coarse: boolean): void {
   time.value = String(asked.step);
   const { times, timeUnit } = info();
   moment.textContent = `step ${asked.step + 1} of ${times.length}: ${words(times[asked.step]!)} ${timeUnit}`;
-  keep();
+  if (coarse) keepSoon();
+  else keep();
+}
+
+/** Puts the state into the address when nothing has moved for a moment: browsers count how often. */
+function keepSoon(): void {
+  clearTimeout(later);
+  later = window.setTimeout(keep, 300);
 }
 
 /** Puts the state into the address, without a new page in the history. */
@@ -91,9 +100,8 @@ function keep(): void {
   history.replaceState(null, "", linkOf(state));
 }
 
-function choose(array: number): void {
-  asked = { ...asked, array, isovalue: state.isovalue ?? firstIsovalue(infos[array]!) };
-  delete state.isovalue;
+function choose(array: number, isovalue = firstIsovalue(infos[array]!)): void {
+  asked = { ...asked, array, isovalue };
   arrays.value = String(array);
   unit.textContent = info().valueUnit;
   time.max = String(info().times.length - 1);
@@ -102,20 +110,21 @@ function choose(array: number): void {
 
 /** Shows what was found last in its colors, with their legend. */
 function paint(): void {
-  const of = asked.colors === null ? null : infos[asked.colors]!;
+  const colors = (last?.asked ?? asked).colors;
+  const of = colors === null ? null : infos[colors]!;
   const name = map.value as MapName;
   part("legend").hidden = of === null;
   if (of) {
     drawLegend(part<HTMLCanvasElement>("legend-colors"), name);
     part("legend-words").textContent = `${words(of.low)} to ${words(of.high)} ${of.valueUnit}`;
   }
-  if (last) scene.show(last, of && last.values ? colorsOf(name, last.values, of.low, of.high) : null);
+  if (last) scene.show(last.found, of && last.found.values ? colorsOf(name, last.found.values, of.low, of.high) : null);
 }
 
 function clip(): void {
   clipShare.hidden = clipAxis.value === "";
   scene.clip(info(), clipAxis.value === "" ? null : { axis: Number(clipAxis.value), share: Number(clipShare.value) });
-  keep();
+  keepSoon();
 }
 
 function opened(found: Info[], count: number): void {
@@ -124,7 +133,7 @@ function opened(found: Info[], count: number): void {
   arrays.replaceChildren(...infos.map((each, i) => new Option(each.array || "values", String(i))));
   const linkedView = state.view;
   asked.step = Math.min(state.step ?? 0, infos[0]!.times.length - 1);
-  choose(Math.min(state.array ?? 0, infos.length - 1));
+  choose(Math.min(state.array ?? 0, infos.length - 1), state.isovalue);
   colorBy.replaceChildren(new Option("one color", ""), ...infos.map((each, i) => new Option(each.array || "values", String(i))));
   colorBy.parentElement!.hidden = infos.length < 2;
   if (state.colors !== undefined && state.colors < infos.length) asked.colors = state.colors;
@@ -147,11 +156,12 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   if (data.kind === "failed") {
     chip.textContent = data.words;
     chip.classList.add("failed");
+    if (playing) play.click();
     return;
   }
   if (data.number < shown) return; // an older wish
   shown = data.number;
-  last = data.found;
+  last = data;
   paint();
   const exact = data.level === 0;
   const cells = data.found.cells.toLocaleString("en");
@@ -160,7 +170,9 @@ worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
   chip.dataset["exact"] = String(exact);
   chip.dataset["cells"] = String(data.found.cells);
   chip.title = `${data.requests} requests, ${(data.bytes / 1e6).toFixed(1)} MB`;
-  if (playing && data.last) setTimeout(next, 1000 / MOST_PLAYED);
+  if (!playing || !data.last) return;
+  clearTimeout(turn);
+  turn = window.setTimeout(next, 1000 / MOST_PLAYED);
 };
 
 function next(): void {
@@ -196,7 +208,7 @@ play.addEventListener("click", () => {
 const style = () => {
   scene.color(color.value, Number(opacity.value));
   scene.background(background.value);
-  keep();
+  keepSoon();
 };
 for (const input of [color, opacity, background]) input.addEventListener("input", style);
 colorBy.addEventListener("change", () => {
@@ -260,11 +272,7 @@ void scene
     enter.hidden = false;
     enter.addEventListener("click", () => void begin().catch((error: unknown) => (chip.textContent = String(error))));
   });
-let later = 0;
-scene.moved = () => {
-  clearTimeout(later);
-  later = window.setTimeout(keep, 300);
-};
+scene.moved = keepSoon;
 
 async function begin(): Promise<void> {
   if (state.color) color.value = state.color;

@@ -3,12 +3,12 @@ import type { FromWorker, Found, ToWorker } from "./messages";
 import { Module } from "./module";
 import { IndexFile } from "./reader/index_file";
 import { FileChanged, HttpSource } from "./reader/ranges";
-import { Surfaces, type Piece } from "./search/surfaces";
+import { newerWishes, Surfaces, type Piece } from "./search/surfaces";
 
 const scope = self as unknown as DedicatedWorkerGlobalScope;
 let source: HttpSource;
 let file: IndexFile;
-let running: { number: number; stop: AbortController } | null = null;
+let running: AbortController | null = null;
 let idle: Promise<void> = Promise.resolve();
 const known = new Map<string, Surfaces>();
 
@@ -57,6 +57,7 @@ function surfacesOf(array: number, level: number): Surfaces {
 async function find(wish: Extract<ToWorker, { kind: "find" }>, stop: AbortSignal): Promise<void> {
   const { number, asked, levels } = wish;
   for (const level of levels) {
+    await newerWishes();
     if (stop.aborted) return;
     const surfaces = surfacesOf(asked.array, level);
     const colors = asked.colors === null ? undefined : surfacesOf(asked.colors, level);
@@ -81,9 +82,8 @@ scope.onmessage = ({ data }: MessageEvent<ToWorker>) => {
     idle = open(data.address, data.headers).catch((error: unknown) => failed(0, error));
     return;
   }
-  running?.stop.abort(new DOMException("a newer wish", "AbortError"));
-  const stop = new AbortController();
-  running = { number: data.number, stop };
+  running?.abort(new DOMException("a newer wish", "AbortError"));
+  const stop = (running = new AbortController());
   // One search at a time: the module has one memory.
   idle = idle.then(() => find(data, stop.signal)).catch((error: unknown) => failed(data.number, error));
 };

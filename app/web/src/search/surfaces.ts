@@ -9,6 +9,13 @@ const ALL_BRICKS = 0xffffffff;
 const ALL_AROUND = 0x7ffffff;
 /** Values of chunks that are kept unpacked, in bytes. */
 const MOST_KEPT = 256 << 20;
+/** Records that are kept as they were read, in bytes. */
+const MOST_RECORDS = 64 << 20;
+/** Milliseconds of work without a look at newer wishes. */
+const MOST_AT_ONCE = 30;
+
+/** Lets messages of the page come in: data that are at hand never do. */
+export const newerWishes = (): Promise<void> => new Promise((go) => setTimeout(go));
 
 /** The triangles of one chunk; what the arrays hold is copied out of the module. */
 export interface Piece {
@@ -47,6 +54,7 @@ export class Surfaces {
   private readonly records = new Map<number, Uint8Array>();
   private readonly kept = new Map<number, Kept>();
   private keptBytes = 0;
+  private recordBytes = 0;
   private clock = 0;
 
   constructor(
@@ -129,7 +137,8 @@ export class Surfaces {
       const sound = module.calls.check(this.volume, at, bytes.length);
       module.give(at);
       if (!sound) throw this.damaged(step, `chunk ${place} of layer ${layer}: its checksum does not match`);
-      this.records.set(this.key(step, layer, place), bytes);
+      this.records.set(this.key(step, layer, place), bytes.slice()); // alone, not the whole answer
+      this.recordBytes += bytes.length;
     });
   }
 
@@ -168,12 +177,17 @@ export class Surfaces {
 
   /** Forgets what was used longest ago. Not while a search holds places of memory. */
   private forget(): void {
+    if (this.recordBytes > MOST_RECORDS) {
+      this.records.clear();
+      this.recordBytes = 0;
+    }
     if (this.keptBytes <= MOST_KEPT) return;
     const oldest = [...this.kept.entries()].sort((a, b) => a[1].used - b[1].used);
     for (const [key, { place, bytes }] of oldest) {
       if (this.keptBytes <= MOST_KEPT / 2) break;
       this.file.module.give(place);
       this.kept.delete(key);
+      this.recordBytes -= this.records.get(key)?.length ?? 0;
       this.records.delete(key);
       this.keptBytes -= bytes;
     }
@@ -257,31 +271,39 @@ export class Surfaces {
 
     const pointers = module.take(4 * AROUND);
     const found = module.take(24);
-    for (const { layer, place, bricks, needs } of asked) {
-      stop?.throwIfAborted();
-      this.point(step, needs, pointers);
-      const count = calls.find(this.volume, layer, place, bricks, pointers);
-      if (count === 0) continue;
-      calls.found(this.volume, found);
-      const [cells, points, normals, triangles, pointCount, triangleCount] = module.words(found, 6) as unknown as [number, number, number, number, number, number];
-      let values: Float32Array | null = null;
-      if (colors) {
-        colors.point(step, needs, pointers);
-        const at = calls.values(colors.volume, this.volume, layer, place, pointers);
-        values = new Float32Array(calls.memory.buffer, at, pointCount).slice();
+    let began = performance.now();
+    try {
+      for (const { layer, place, bricks, needs } of asked) {
+        if (performance.now() - began > MOST_AT_ONCE) {
+          await newerWishes();
+          began = performance.now();
+        }
+        stop?.throwIfAborted();
+        this.point(step, needs, pointers);
+        const count = calls.find(this.volume, layer, place, bricks, pointers);
+        if (count === 0) continue;
+        calls.found(this.volume, found);
+        const [cells, points, normals, triangles, pointCount, triangleCount] = module.words(found, 6) as unknown as [number, number, number, number, number, number];
+        let values: Float32Array | null = null;
+        if (colors) {
+          colors.point(step, needs, pointers);
+          const at = calls.values(colors.volume, this.volume, layer, place, pointers);
+          values = new Float32Array(calls.memory.buffer, at, pointCount).slice();
+        }
+        const memory = calls.memory.buffer;
+        take({
+          cells: new Uint16Array(memory, cells, 3 * count).slice(),
+          points: new Float32Array(memory, points, 3 * pointCount).slice(),
+          normals: new Float32Array(memory, normals, 3 * pointCount).slice(),
+          triangles: new Uint32Array(memory, triangles, 3 * triangleCount).slice(),
+          values,
+        });
       }
-      const memory = calls.memory.buffer;
-      take({
-        cells: new Uint16Array(memory, cells, 3 * count).slice(),
-        points: new Float32Array(memory, points, 3 * pointCount).slice(),
-        normals: new Float32Array(memory, normals, 3 * pointCount).slice(),
-        triangles: new Uint32Array(memory, triangles, 3 * triangleCount).slice(),
-        values,
-      });
+    } finally {
+      module.give(pointers);
+      module.give(found);
+      this.forget();
+      colors?.forget();
     }
-    module.give(pointers);
-    module.give(found);
-    this.forget();
-    colors?.forget();
   }
 }

@@ -68,23 +68,25 @@ void write_site(const ServeArguments& arguments) {
     print_note("writing {}: {}", folder.string(), human_bytes(static_cast<double>(bytes)));
     const CancelOnSignal signals;
     fs::create_directories(folder);
+    // It looks at the names first, and makes the folder one that may be written again.
+    site_module().write_page(folder, arguments.files);
     for (const fs::path& file : arguments.files) {
-        signals.check();
         const fs::path copy = folder / file.filename();
         if (fs::exists(copy) && fs::equivalent(copy, file))
             continue;
+        const index::InputFile in(file);
         index::NewFile out(copy);
-        std::ifstream in(file, std::ios::binary);
-        std::vector<char> block(4 << 20);
-        for (std::uint64_t at = 0; in; signals.check()) {
-            in.read(block.data(), static_cast<std::streamsize>(block.size()));
-            const auto count = static_cast<std::size_t>(in.gcount());
-            out.write_at(at, std::as_bytes(std::span(block).first(count)));
+        std::vector<std::byte> block(4 << 20);
+        for (std::uint64_t at = 0; at < in.size();) {
+            signals.check();
+            const std::size_t count = in.read(at, block);
+            if (count == 0)
+                throw index::Error(file.string() + ": became shorter while it was copied");
+            out.write_at(at, std::span(block).first(count));
             at += count;
         }
         out.commit();
     }
-    site_module().write_page(folder, arguments.files);
     tell_result({{"folder", folder.string()}, {"bytes", bytes}});
     print_report(
         "wrote {}: put it on any web server that answers ranges; a link to its folder opens "

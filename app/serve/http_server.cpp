@@ -155,12 +155,15 @@ class Server final : public HttpServer {
         socklen_t got = sizeof where;
         getsockname(listener_, reinterpret_cast<sockaddr*>(&where), &got);
         port_ = ntohs(is_v6 ? v6->sin6_port : v4->sin_port);
+        const bool secure = !place.certificate.empty();
         // Names under which this server is asked. One that is open to others is asked under any.
         if (place.address == "127.0.0.1" || place.address == "::1")
-            for (const char* name : {"127.0.0.1", "localhost", "[::1]"})
+            for (const char* name : {"127.0.0.1", "localhost", "[::1]"}) {
                 parts.hosts.push_back(fmt::format("{}:{}", name, port_));
+                if (port_ == (secure ? 443 : 80)) // which browsers leave out
+                    parts.hosts.emplace_back(name);
+            }
         site_.emplace(std::move(parts));
-        const bool secure = !place.certificate.empty();
         if (secure && MHD_is_feature_supported(MHD_FEATURE_TLS) != MHD_YES)
             refuse("--certificate: this libmicrohttpd has no TLS");
         // Copies: libmicrohttpd reads them as long as it runs.

@@ -54,7 +54,7 @@ struct FileNow {
     std::string tag;
 };
 std::optional<FileNow> file_now(const fs::path& path) {
-    struct stat found {};
+    struct stat found{};
     if (stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode))
         return std::nullopt;
     return FileNow{static_cast<std::uint64_t>(found.st_size),
@@ -65,8 +65,9 @@ std::optional<FileNow> file_now(const fs::path& path) {
 } // namespace
 
 std::string_view media_type(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kTypes{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kTypes{
         {{".html", "text/html; charset=utf-8"},
+         {".txt", "text/plain; charset=utf-8"},
          {".js", "text/javascript; charset=utf-8"},
          {".css", "text/css; charset=utf-8"},
          {".wasm", "application/wasm"},

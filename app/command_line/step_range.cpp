@@ -44,4 +44,9 @@ std::vector<std::uint32_t> steps_of(const std::string& text, const std::string& 
     return named;
 }
 
+std::vector<std::uint32_t> steps_or_all(const std::string& text, const std::string& option,
+                                        std::size_t steps) {
+    return steps_of(text.empty() ? fmt::format("0:{}", steps - 1) : text, option, steps);
+}
+
 } // namespace isochron::app

@@ -49,7 +49,7 @@ struct ExportArguments {
 };
 
 /// @param has what the formats have; null: all formats
-std::vector<std::string> format_names(bool index::SurfaceFormat::*has = nullptr) {
+std::vector<std::string> format_names(bool index::SurfaceFormat::* has = nullptr) {
     std::vector<std::string> names;
     for (const index::SurfaceFormat& format : index::surface_formats())
         if (!has || format.*has)
@@ -85,14 +85,7 @@ Target target_of(const ExportArguments& arguments) {
 
 /// What the values of an array are to look like.
 index::ValuesWish values_of(const ExportArguments& arguments, const index::IndexFile& file) {
-    const std::vector<std::string> names = index::color_source_names(file);
-    const auto found = std::ranges::find(names, *arguments.color_by);
-    if (found == names.end())
-        throw index::Error(fmt::format(
-            "{}: no array {} to color by, expected {}", file.name(), *arguments.color_by,
-            names.empty() ? "an index with several arrays: isochron build --array A --array B ..."
-                          : fmt::format("{}", fmt::join(names, ", "))));
-    const auto number = static_cast<std::size_t>(found - names.begin());
+    const std::size_t number = array_on_surface(file, *arguments.color_by, "to color by");
     const index::ColorSource source(file, number);
     const auto map = render::color_map_from_name(arguments.color_map);
     if (!map)
@@ -137,9 +130,7 @@ index::ExportRequest request_of(const ExportArguments& arguments, const index::I
     plan.quantized = arguments.quantize;
     plan.packing = arguments.compress ? mesh_packing() : nullptr;
     plan.rate = arguments.rate.value_or(plan.rate);
-    plan.steps = arguments.steps.empty()
-                     ? steps_of(fmt::format("0:{}", info.steps() - 1), "--steps", info.steps())
-                     : steps_of(arguments.steps, "--steps", info.steps());
+    plan.steps = steps_or_all(arguments.steps, "--steps", info.steps());
     plan.fraction = arguments.fraction;
     if (plan.fraction > 0) // each step must have a next one
         index::instant_named(file, plan.steps.back(), plan.fraction);
@@ -164,7 +155,7 @@ void check(const ExportArguments& arguments, const index::SurfaceFormat& format)
     struct Need {
         const char* option;
         bool given;
-        bool index::SurfaceFormat::*held;
+        bool index::SurfaceFormat::* held;
     };
     for (const Need& need :
          {Need{"--precision double", arguments.precision == "double",
@@ -235,10 +226,9 @@ void warn_of_rounding(const index::SurfaceFormat& format, const index::Grid& gri
     const double share = moved / (plan.unit_factor * index::shortest_side(grid));
     if (share <= index::ExportedPlaces::kMostOfSide)
         return;
-    print_safely(
-        stderr,
-        "isochron: note: coordinates of single precision are off by up to {} ({} of a "
-        "cell's shortest side){}\n",
+    print_note(
+        "note: coordinates of single precision are off by up to {} ({} of a "
+        "cell's shortest side){}",
         upper_text(moved, plan.length_unit), upper_text(share, ""),
         format.with_doubles
             ? "; --precision double keeps them"

@@ -56,22 +56,6 @@ std::vector<std::size_t> chosen(const MeasureArguments& arguments) {
     return numbers;
 }
 
-/// The number of the other array.
-std::optional<std::size_t> array_on_surface(const MeasureArguments& arguments,
-                                            const index::IndexFile& file) {
-    if (!arguments.on_surface)
-        return std::nullopt;
-    const std::vector<std::string> names = index::color_source_names(file);
-    const auto found = std::ranges::find(names, *arguments.on_surface);
-    if (found == names.end())
-        throw index::Error(fmt::format(
-            "{}: no array {} to measure on the surface, expected {}", file.name(),
-            *arguments.on_surface,
-            names.empty() ? "an index with several arrays: isochron build --array A --array B ..."
-                          : fmt::format("{}", fmt::join(names, ", "))));
-    return static_cast<std::size_t>(found - names.begin());
-}
-
 Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json();
 }
@@ -106,8 +90,9 @@ Rows measured(const MeasureArguments& arguments,
               const std::shared_ptr<const index::IndexFile>& file,
               const std::vector<std::size_t>& numbers) {
     const index::SeriesInfo& info = file->info();
-    index::MeasureWishes wishes{
-        .array = array_on_surface(arguments, *file), .pieces = arguments.pieces, .only = numbers};
+    index::MeasureWishes wishes{.pieces = arguments.pieces, .only = numbers};
+    if (arguments.on_surface)
+        wishes.array = array_on_surface(*file, *arguments.on_surface, "to measure on the surface");
     const std::string other =
         wishes.array ? index::ColorSource(*file, *wishes.array).array().value_unit : "";
     Rows made{.columns = {"step", "fraction", "time", "isovalue"},
@@ -129,10 +114,7 @@ Rows measured(const MeasureArguments& arguments,
             made.units.push_back(index::unit_of(index::measures()[i], info, other));
         }
     }
-    const std::vector<std::uint32_t> steps =
-        arguments.steps.empty()
-            ? steps_of(fmt::format("0:{}", info.steps() - 1), "--steps", info.steps())
-            : steps_of(arguments.steps, "--steps", info.steps());
+    const std::vector<std::uint32_t> steps = steps_or_all(arguments.steps, "--steps", info.steps());
     const CancelOnSignal signals;
     ProgressBar bar;
     index::SurfaceMeasures measuring(file);
@@ -203,7 +185,7 @@ SafeText as_table(const Rows& made) {
 
 void run_measure(const MeasureArguments& arguments) {
     const std::vector<std::size_t> numbers = chosen(arguments);
-    const auto file = open_array(arguments.file, arguments.array);
+    const auto file = open_array(arguments.file, arguments.array, 0, arguments.on_surface);
     for (const double isovalue : arguments.isovalues)
         warn_beyond(isovalue, *file);
     if (!arguments.out.empty())
@@ -211,7 +193,8 @@ void run_measure(const MeasureArguments& arguments) {
                       arguments.force);
     const Rows made = measured(arguments, file, numbers);
     if (arguments.out.empty()) {
-        tell_result(as_json(arguments, *file, made));
+        if (tells_json())
+            return tell_result(as_json(arguments, *file, made));
         return print_answer(arguments.csv ? SafeText::lines(csv_of(made.rows, made.columns))
                                           : as_table(made));
     }
@@ -266,7 +249,8 @@ void add_measure(Command& program) {
         .option("--measure", arguments->measures,
                 "What to measure; again for another one (default: all)")
         .repeatable()
-        .one_of(names);
+        .one_of(names)
+        .type_name("MEASURE");
     command
         .option("--on-surface", arguments->on_surface,
                 "Another array of the index, whose values on the surface are measured")

@@ -5,6 +5,7 @@
 #include "app/text.h"
 #include "index/error.h"
 #include "index/extraction/volume_blocks.h"
+#include "index/file/color_source.h"
 #include "index/file/index_states.h"
 #include "index/shell_word.h"
 
@@ -62,6 +63,17 @@ std::shared_ptr<const index::IndexFile> open_array(const std::filesystem::path& 
             named.push_back(*one);
     const auto file = open_index(path, cache_bytes, LostState::is_said, named);
     return name ? index::array_of(file, array_number(*file, *name)) : file;
+}
+
+std::size_t array_on_surface(const index::IndexFile& file, const std::string& name,
+                             std::string_view what_for) {
+    if (const auto number = index::color_source_named(file, name))
+        return *number;
+    const std::vector<std::string> names = index::color_source_names(file);
+    throw index::Error(fmt::format(
+        "{}: no array {} {}, expected {}", file.name(), name, what_for,
+        names.empty() ? "an index with several arrays: isochron build --array A --array B ..."
+                      : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 void warn_beyond(double isovalue, const index::IndexFile& file) {

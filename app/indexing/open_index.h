@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace isochron::app {
@@ -39,6 +40,12 @@ std::shared_ptr<const index::IndexFile> open_array(const std::filesystem::path& 
                                                    const std::optional<std::string>& name,
                                                    std::uint64_t cache_bytes = 0,
                                                    const std::optional<std::string>& color_by = {});
+
+/// The number of an array whose values on a surface are used, as `index::ColorSource` takes it.
+/// @param what_for for the message, such as `to color by`
+/// @throws index::Error naming the arrays that there are, when there is no such array
+std::size_t array_on_surface(const index::IndexFile& file, const std::string& name,
+                             std::string_view what_for);
 
 /// Warns on stderr if an isovalue lies outside the range of the data, where no surface is.
 void warn_beyond(double isovalue, const index::IndexFile& file);

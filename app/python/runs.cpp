@@ -145,11 +145,10 @@ CellDifference RunArray::change(const AskedInstant& at, double isovalue,
 std::optional<std::size_t> RunArray::source_called(const std::optional<std::string>& name) const {
     if (!name)
         return std::nullopt;
-    const std::vector<std::string> names = index::color_source_names(*file_);
-    const auto found = std::ranges::find(names, *name);
-    if (found == names.end())
+    const auto found = index::color_source_named(*file_, *name);
+    if (!found)
         throw index::Error(file_->name() + ": no array " + *name + " with values");
-    return static_cast<std::size_t>(found - names.begin());
+    return found;
 }
 
 index::CellMesh RunArray::packed_mesh(const AskedInstant& at, double isovalue, std::size_t level,

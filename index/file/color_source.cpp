@@ -64,13 +64,18 @@ std::vector<std::string> color_source_names(const IndexFile& file) {
     return names;
 }
 
-std::size_t color_source_called(const IndexFile& file, std::string_view name,
-                                std::size_t surfaces) {
-    const std::size_t count = ColorSource::count(file), before = values_alone_of(file) ? 1 : 0;
-    for (std::size_t number = 0; !name.empty() && number < count; ++number)
+std::optional<std::size_t> color_source_named(const IndexFile& file, std::string_view name) {
+    for (std::size_t number = 0; number < ColorSource::count(file); ++number)
         if (ColorSource(file, number).array().array == name)
             return number;
-    return before == 0 && surfaces == 0 && count > 1 ? 1 : 0;
+    return std::nullopt;
+}
+
+std::size_t color_source_called(const IndexFile& file, std::string_view name,
+                                std::size_t surfaces) {
+    if (const auto named = name.empty() ? std::nullopt : color_source_named(file, name))
+        return *named;
+    return !values_alone_of(file) && surfaces == 0 && ColorSource::count(file) > 1 ? 1 : 0;
 }
 
 } // namespace isochron::index

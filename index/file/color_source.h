@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -40,6 +41,9 @@ class ColorSource {
 
 /// The names of the arrays to color by, by their numbers.
 std::vector<std::string> color_source_names(const IndexFile& file);
+
+/// @return none: no array has this name
+std::optional<std::size_t> color_source_named(const IndexFile& file, std::string_view name);
 
 /// The number of the array to color by with this name. If there is none, or the name is empty: the
 /// array for colors only, or else the first array that is not the one of the surfaces.

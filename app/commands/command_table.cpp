@@ -146,13 +146,13 @@ Table table_of(const fs::path& file) {
 
 void run_table(const TableArguments& arguments) {
     const auto [columns, rows] = table_of(arguments.file);
+    if (tells_json() && arguments.out.empty())
+        return tell_result(rows);
     const SafeText text = tells_json()
                               ? SafeText::json(rows, 1)
                               : SafeText::lines(csv_of(rows, columns, arguments.keep_formulas));
-    if (arguments.out.empty()) {
-        tell_result(rows);
+    if (arguments.out.empty())
         return print_answer(text);
-    }
     guard_outputs({{arguments.out, OutputKind::surface}}, {{arguments.file}, nullptr},
                   arguments.force);
     index::NewFile file(arguments.out);

@@ -18,10 +18,11 @@
 namespace isochron::app {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 void run_verify(const std::filesystem::path& path) {
     const CancelOnSignal signals;
     std::error_code ignored;
-    using Json = nlohmann::ordered_json;
     const bool there = std::filesystem::exists(path, ignored);
     tell_result({{"file", path.string()}, {"intact", there ? Json(false) : Json()}}); // for now
     const auto file = open_index(path, 0, LostState::is_for_the_caller);

@@ -271,7 +271,7 @@ void Exploration::open_session() {
     if (const std::string note =
             earlier_ ? other_reading("--resume", earlier_->reading, *file_) : std::string();
         !note.empty())
-        print_safely(stderr, "isochron: {}\n", note);
+        print_note("{}", note);
     if (!windows_)
         open_outputs();
     if (!prepare_session())
@@ -441,7 +441,7 @@ void Exploration::say_dropped(const EarlierSession& session) {
                                          "this one is saved. Ctrl + K finds "
                                          "it, Ctrl + S gives it a name, with which it stays",
                                          kMostSessions, words_of(session));
-    print_safely(stderr, "isochron: {}\n", line);
+    print_note("{}", line);
     session_->show_messages({line});
 }
 

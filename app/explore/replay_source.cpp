@@ -5,7 +5,7 @@
 #include "app/explore/drawing_options.h"
 #include "app/explore/kept_session.h"
 #include "app/indexing/open_index.h"
-#include "app/safe_text.h"
+#include "app/telling.h"
 
 #include <fmt/format.h>
 
@@ -59,9 +59,11 @@ void add_replay_source(Command& command, ReplaySource& source, const std::string
         .option("--picture-background", source.background,
                 "Background of the pictures instead of the recorded one; movies have white in the "
                 "place of transparent")
-        .one_of(interaction::all_names<interaction::WrittenBackground>());
+        .one_of(interaction::all_names<interaction::WrittenBackground>())
+        .type_name("BACKGROUND");
     command.option("--dpi", source.dpi, "Pixels an inch that picture files say (default: nothing)")
-        .between(1.0, interaction::kMostDpi);
+        .between(1.0, interaction::kMostDpi)
+        .type_name("DPI");
     add_shape_option(command, source.shape);
     command
         .option("--config", source.config,
@@ -122,7 +124,7 @@ std::shared_ptr<const index::IndexFile> data_of(const ReplaySource& options,
     auto file = open_index_to_show(path, config.memory.cache_bytes());
     if (const std::string note = other_reading(options.recording, header.reading, *file);
         !note.empty())
-        print_safely(stderr, "isochron: {}\n", note);
+        print_note("{}", note);
     if (!options.any_data && !other_data(header, *file).empty())
         throw interaction::Error(
             fmt::format("{}: recorded on other data: expected hash {}, {} has {} "

@@ -147,9 +147,7 @@ index::ReadOptions read_options(const BuildArguments& arguments) {
         read.resample = {arguments.resample[0], arguments.resample[1], arguments.resample[2]};
     if (arguments.resample_by_cell)
         read.resample = index::kBySmallestCell;
-    if (!arguments.dates.empty())
-        read.dates =
-            arguments.dates == "dmy" ? index::DayMonth::day_first : index::DayMonth::month_first;
+    read.dates = index::day_month_of(arguments.dates);
     if (!arguments.type.empty())
         read.type = index::value_type_from_name(arguments.type);
     if (!arguments.spacing.empty())
@@ -323,7 +321,9 @@ void add_reading_options(Command& command, BuildArguments& arguments) {
         .option("--dates", arguments.dates,
                 "Order of day and month in dates whose year is last, in names and in files: "
                 "01-02-2020 is the first of February (dmy) or January 2 (mdy)")
-        .one_of({"dmy", "mdy"})
+        .one_of({std::string(word_of(index::DayMonth::day_first)),
+                 std::string(word_of(index::DayMonth::month_first))})
+        .type_name("ORDER")
         .group("Reading");
     command
         .flag("--keep-first", read.keep_first,

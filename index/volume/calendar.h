@@ -21,6 +21,17 @@ struct Date {
 
 /// What stands first in dates whose year is last: 31-01-2020 or 01-31-2020.
 enum class DayMonth : std::uint8_t { day_first, month_first };
+/// `dmy` or `mdy`
+constexpr std::string_view word_of(DayMonth order) {
+    return order == DayMonth::day_first ? "dmy" : "mdy";
+}
+/// @return none: it is neither of these words
+constexpr std::optional<DayMonth> day_month_of(std::string_view word) {
+    for (const DayMonth order : {DayMonth::day_first, DayMonth::month_first})
+        if (word == word_of(order))
+            return order;
+    return std::nullopt;
+}
 
 /// By its name in CF or FMS, in lower case: `standard` (also `gregorian` and no name), `noleap`,
 /// `360_day`, `thirty_day_months` and so on. `Calendar::gregorian` is `proleptic_gregorian`. @return none for other names

@@ -23,7 +23,7 @@ void put_decoding(json& j, const ReadOptions& options) {
     if (options.times_from_names)
         j["times_from_names"] = true;
     if (options.dates)
-        j["dates"] = *options.dates == DayMonth::day_first ? "dmy" : "mdy";
+        j["dates"] = word_of(*options.dates);
     if (options.keep_first)
         j["keep_first"] = true;
     if (options.extra_axis_is_time)
@@ -43,7 +43,7 @@ void get_decoding(const json& j, ReadOptions& options) {
     options.allow_surplus = j.value("allow_surplus", false);
     options.times_from_names = j.value("times_from_names", false);
     if (const auto dates = j.find("dates"); dates != j.end())
-        options.dates = *dates == "dmy" ? DayMonth::day_first : DayMonth::month_first;
+        options.dates = day_month_of(dates->get<std::string>());
     options.keep_first = j.value("keep_first", false);
     options.extra_axis_is_time = j.value("extra_axis_is_time", false);
     if (j.contains("member"))

@@ -22,11 +22,6 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kPiece = 1 << 20; ///< [bytes] read at a time
 
-void swap_bytes(std::span<std::byte> values, std::size_t size) {
-    for (std::size_t i = 0; i + size <= values.size(); i += size)
-        std::reverse(values.begin() + i, values.begin() + i + size);
-}
-
 class StoredFile final : public VolumeFile {
   public:
     StoredFile(std::filesystem::path header, SeriesInfo info, StoredLayout layout,

@@ -144,6 +144,11 @@ double exact(T stored, const std::string& file) {
 
 } // namespace
 
+void swap_bytes(std::span<std::byte> values, std::size_t size) {
+    for (std::size_t i = 0; i + size <= values.size(); i += size)
+        std::ranges::reverse(values.subspan(i, size));
+}
+
 std::size_t size_of(StoredType type) {
     return visit_stored_type(type, []<class T>(std::type_identity<T>) { return sizeof(T); });
 }

@@ -20,6 +20,8 @@ enum class StoredType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32
 
 std::size_t size_of(StoredType type);
 std::string_view name_of(StoredType type);
+/// Reverses the bytes of each value. @param size [bytes] of a value
+void swap_bytes(std::span<std::byte> values, std::size_t size);
 StoredType stored_type_of(ValueType type);
 
 /// Calls `f(std::type_identity<T>{})` with the C++ type of `type`.

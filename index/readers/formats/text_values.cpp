@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
 
 namespace isochron::index {
@@ -20,21 +19,6 @@ constexpr std::uint64_t kPart = 1 << 18;
 
 Error not_a_value(std::string_view word, const std::string& file) {
     return Error(fmt::format("{}: `{}` is not a value of the array's type", file, excerpt(word)));
-}
-
-template <class T>
-void parse_number(std::string_view word, std::byte* out, const std::string& file) {
-    T value{};
-    if (word.starts_with('+'))
-        word.remove_prefix(1);
-    // A wider type for types of one byte, which from_chars would read as a character.
-    std::conditional_t<sizeof(T) == 1, int, T> wide{};
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), wide);
-    value = static_cast<T>(wide);
-    if (failure != std::errc{} || end != word.data() + word.size() ||
-        (sizeof(T) == 1 && static_cast<decltype(wide)>(value) != wide))
-        throw not_a_value(word, file);
-    std::memcpy(out, &value, sizeof value);
 }
 
 } // namespace
@@ -100,7 +84,10 @@ void TextValues::read(std::uint64_t first, std::span<std::byte> out) {
                 throw Error(
                     fmt::format("{}: truncated: {} values, expected {}", name_, position_, last));
             const bool wanted = position_ >= first;
-            parse_number<T>(word, wanted ? to : passed.data(), name_);
+            T value{};
+            if (!parse_value(word, value))
+                throw not_a_value(word, name_);
+            std::memcpy(wanted ? to : passed.data(), &value, sizeof value);
             to += wanted ? sizeof(T) : 0;
         }
     });

@@ -4,7 +4,39 @@
 #include "index/readers/formats/data_stream.h"
 #include "index/readers/formats/stored_scalar.h"
 
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+
 namespace isochron::index {
+
+/// Infinities and NaN are numbers of f32 and f64, too; one that is too small for them is 0.
+/// @param word without blanks @return whether it is a number of this type
+template <class T>
+bool parse_value(std::string_view word, T& value) {
+    if (word.starts_with('+'))
+        word.remove_prefix(1);
+    using Parsed = std::conditional_t<sizeof(T) == 1, int, T>; // not letters
+    Parsed parsed{};
+    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), parsed);
+    if (end != word.data() + word.size())
+        return false;
+    if constexpr (std::is_floating_point_v<T>) {
+        if (failure == std::errc::result_out_of_range) {
+            value = static_cast<T>(std::strtold(std::string(word).c_str(), nullptr));
+            return std::isfinite(value);
+        }
+    } else if (parsed < std::numeric_limits<T>::min() || parsed > std::numeric_limits<T>::max()) {
+        return false;
+    }
+    value = static_cast<T>(parsed);
+    return failure == std::errc{};
+}
 
 /// Reading forward parses each number once; going back starts from the beginning again.
 class TextValues {

@@ -55,13 +55,14 @@ const std::array<KindSource, 10> kKindSources{{
 struct PrivateKind {
     std::string_view name;
     gdcm::PrivateTag tag;
-    char form;         ///< t: text, f: f32, d: f64
-    std::size_t count; ///< numbers of it that count
+    char form;           ///< t: text, f: f32, d: f64
+    std::size_t count;   ///< numbers of it that count
+    double beside = 0.0; ///< its multiples are added to a number, and are no part of it
 };
 const std::array<PrivateKind, 12> kPrivateKinds{{
     {"b-value", {0x0019, 0x0c, "SIEMENS MR HEADER"}, 't', 1},
     {"gradient", {0x0019, 0x0e, "SIEMENS MR HEADER"}, 'd', 3},
-    {"b-value", {0x0043, 0x39, "GEMS_PARM_01"}, 't', 1},
+    {"b-value", {0x0043, 0x39, "GEMS_PARM_01"}, 't', 1, 1e9},
     {"gradient", {0x0019, 0xbb, "GEMS_ACQU_01"}, 't', 1},
     {"gradient", {0x0019, 0xbc, "GEMS_ACQU_01"}, 't', 1},
     {"gradient", {0x0019, 0xbd, "GEMS_ACQU_01"}, 't', 1},
@@ -96,8 +97,9 @@ std::string private_kind(const DicomTags& root, const KindSource& source) {
         if (kind.name == source.name)
             if (auto numbers = numbers_in(root.bytes(kind.tag), kind.form);
                 numbers.size() >= kind.count)
-                all.insert(all.end(), numbers.begin(),
-                           numbers.begin() + static_cast<std::ptrdiff_t>(kind.count));
+                for (std::size_t i = 0; i < kind.count; ++i)
+                    all.push_back(kind.beside > 0 ? std::fmod(numbers[i], kind.beside)
+                                                  : numbers[i]);
     return all.empty() ? "" : fmt::format("{:g}{}", fmt::join(all, " "), source.unit);
 }
 

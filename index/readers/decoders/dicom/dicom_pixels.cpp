@@ -71,10 +71,8 @@ void DicomPixels::decode(const std::filesystem::path& path, const DicomFile& fil
             throw Error(fmt::format("{}: truncated: frame {} has {} bytes, expected {}", name,
                                     frame, got, expected));
         planar_ = file.planar;
-        const auto size = static_cast<std::ptrdiff_t>(size_of(file.type));
         if (file.big_endian)
-            for (auto value = pixels_.begin(); value != pixels_.end(); value += size)
-                std::reverse(value, value + size);
+            swap_bytes(std::as_writable_bytes(std::span(pixels_)), size_of(file.type));
     } else {
         gdcm::ImageReader reader;
         reader.SetFileName(path.c_str());

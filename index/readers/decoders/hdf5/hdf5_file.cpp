@@ -108,8 +108,7 @@ std::optional<Attribute> attribute_of(hid_t file, const std::string& object,
 
 std::string tidy_text(std::string text) {
     text.resize(std::min(text.find('\0'), text.size()));
-    std::ranges::replace_if(
-        text, [](unsigned char c) { return c < ' '; }, ' ');
+    std::ranges::replace_if(text, [](unsigned char c) { return c < ' '; }, ' ');
     return std::string(trimmed(text));
 }
 
@@ -285,22 +284,24 @@ std::vector<std::string> Hdf5File::texts_in(const std::string& path) const {
         shape->dimensions.empty())
         return {};
     const auto all = static_cast<std::size_t>(count), rows = std::size_t{shape->dimensions.front()};
+    constexpr std::size_t kLongest = 4096;
+    const std::size_t length = H5Tget_size(type.id());
+    const bool varying = H5Tis_variable_str(type.id()) > 0;
+    if (varying ? all != rows
+                : length < 1 || length > kLongest || all > std::size_t{kMostNumbers} / length)
+        return {};
     std::vector<std::string> texts(rows);
     const std::string what = fmt::format("{} cannot be read", path);
-    if (H5Tis_variable_str(type.id()) > 0) {
+    if (varying) {
         std::vector<char*> read(all);
         expect(H5Dread(open.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
                        static_cast<void*>(read.data())) >= 0,
                what);
-        for (std::size_t i = 0; i < all && all == rows; ++i)
+        for (std::size_t i = 0; i < all; ++i)
             texts[i] = read[i] ? tidy_text(read[i]) : "";
         H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, static_cast<void*>(read.data()));
         return texts;
     }
-    const std::size_t length = H5Tget_size(type.id());
-    constexpr std::size_t kLongest = 4096;
-    if (length < 1 || length > kLongest)
-        return {};
     std::string bytes(length * all, '\0');
     expect(H5Dread(open.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0, what);
     for (std::size_t i = 0; i < rows; ++i)

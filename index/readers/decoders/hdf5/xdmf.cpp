@@ -254,8 +254,8 @@ class XdmfFile final : public DecodedFile {
                 throw Error(fmt::format("{}: {} bytes from byte {} on, expected {} of {}",
                                         file.string(), got, at, out.size(),
                                         name_of(*chosen_.array.type)));
-            for (std::size_t i = 0; item.big_endian && i + size <= out.size(); i += size)
-                std::ranges::reverse(out.subspan(i, size));
+            if (item.big_endian)
+                swap_bytes(out, size);
             return;
         }
         case XdmfItem::Where::document: break;

@@ -117,7 +117,7 @@ class VtiFile final : public DecodedFile {
         const std::uint64_t slice = values_.size() / info_.grid.vertices[2];
         auto tuples = all ? values_ : values_.subspan(slices.first * slice, slices.count * slice);
         std::vector<std::byte> aligned; // a file has its values anywhere
-        if (memory_.empty()) {
+        if (reinterpret_cast<std::uintptr_t>(tuples.data()) % size_of(*chosen_.array.type) != 0) {
             aligned.assign(tuples.begin(), tuples.end());
             tuples = aligned;
         }

@@ -3,6 +3,7 @@
 
 #include "index/error.h"
 #include "index/readers/formats/text_header.h"
+#include "index/readers/formats/text_values.h"
 
 #include <fmt/format.h>
 #include <lz4.h>
@@ -11,13 +12,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
 namespace isochron::index {
@@ -123,13 +120,6 @@ class StoredBytes {
     int next_ = 0, count_ = 0; ///< bytes of the group: taken, and all
 };
 
-void to_native(std::span<std::byte> values, std::size_t size, bool big_endian) {
-    if (big_endian == (std::endian::native == std::endian::big) || size == 1)
-        return;
-    for (std::size_t at = 0; at + size <= values.size(); at += size)
-        std::ranges::reverse(values.subspan(at, size));
-}
-
 std::uint64_t take_count(StoredBytes& bytes, const VtiEncoding& encoding) {
     std::array<std::byte, 8> stored{};
     const std::span<std::byte> count(stored.data(), encoding.wide_header ? 8 : 4);
@@ -213,29 +203,6 @@ void read_blocks(StoredBytes& bytes, const VtiEncoding& encoding, std::span<std:
              fmt::format("truncated: its blocks hold {} bytes, expected {}", done, out.size()));
 }
 
-/// Infinities and NaN are numbers of f32 and f64, too. @return whether it is a number of this type
-template <class T>
-bool parse(std::string_view word, T& value) {
-    if (word.starts_with('+'))
-        word.remove_prefix(1);
-    using Parsed = std::conditional_t<sizeof(T) == 1, int, T>; // not letters
-    Parsed parsed{};
-    const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), parsed);
-    if (end != word.data() + word.size())
-        return false;
-    if constexpr (std::is_floating_point_v<T>) {
-        if (failure == std::errc::result_out_of_range) { // where too small, 0
-            parsed = static_cast<T>(std::strtold(std::string(word).c_str(), nullptr));
-            value = parsed;
-            return std::isfinite(parsed);
-        }
-    } else if (parsed < std::numeric_limits<T>::min() || parsed > std::numeric_limits<T>::max()) {
-        return false;
-    }
-    value = static_cast<T>(parsed);
-    return failure == std::errc{};
-}
-
 template <class T>
 void read_text(std::string_view text, std::span<T> out, const std::string& where) {
     text = text.substr(0, text.find('<'));
@@ -245,7 +212,7 @@ void read_text(std::string_view text, std::span<T> out, const std::string& where
         const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
         if (at == end)
             fail(where, fmt::format("truncated: {} values, expected {}", i, out.size()));
-        if (!parse(text.substr(at, end - at), out[i]))
+        if (!parse_value(text.substr(at, end - at), out[i]))
             fail(where, fmt::format("value {}: `{}` is not a number of its type", i,
                                     excerpt(text.substr(at, end - at))));
         at = end;
@@ -280,15 +247,15 @@ void read_vti_values(const VtiPlace& place, const VtiEncoding& encoding, StoredT
     } else {
         read_blocks(bytes, encoding, out, where);
     }
-    to_native(out, size_of(type), encoding.big_endian);
+    if (encoding.big_endian)
+        swap_bytes(out, size_of(type));
 }
 
 std::span<const std::byte> plain_vti_values(const VtiPlace& place, const VtiEncoding& encoding,
                                             StoredType type, std::uint64_t bytes,
                                             const std::string& where) {
-    const bool native = encoding.big_endian == (std::endian::native == std::endian::big);
     if (place.as != VtiPlace::As::raw || encoding.packing != BlockPacking::none ||
-        (!native && size_of(type) > 1))
+        (encoding.big_endian && size_of(type) > 1))
         return {};
     StoredBytes stored(place, where);
     const std::uint64_t stated = take_count(stored, encoding);

@@ -51,9 +51,7 @@ void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
     if (values.size() != bytes)
         throw Error(fmt::format("{}: {} bytes, expected {}", name, values.size(), bytes));
     if (said_.pipeline.big_endian)
-        for (std::size_t i = 0; i < bytes; i += size)
-            std::reverse(values.begin() + static_cast<std::ptrdiff_t>(i),
-                         values.begin() + static_cast<std::ptrdiff_t>(i + size));
+        swap_bytes(std::as_writable_bytes(std::span(values)), size);
     if (!said_.pipeline.order.empty()) {
         transpose(values, spare_);
         values.swap(spare_);

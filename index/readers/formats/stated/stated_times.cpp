@@ -141,14 +141,20 @@ void drop_missing(StatedTimes& stated, SeriesInfo& info) {
                         stated.name));
 }
 
-/// `2005-08-28 12:00:00` of seconds since 1970.
+/// `2005-08-28`, midnight of which is so many seconds after that of 1970-01-01.
 std::string written(double seconds) {
-    constexpr std::int64_t kDay = 86400;
-    const auto all = static_cast<std::int64_t>(seconds);
-    const std::int64_t of_day = (all % kDay + kDay) % kDay;
-    const auto date = date_of((all - of_day) / kDay, Calendar::gregorian);
-    return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}", date->year, date->month, date->day,
-                       of_day / 3600, of_day / 60 % 60, of_day % 60);
+    constexpr double kDay = 86400;
+    const auto date =
+        date_of(static_cast<std::int64_t>(std::floor(seconds / kDay)), Calendar::gregorian);
+    return fmt::format("{:04}-{:02}-{:02}", date->year, date->month, date->day);
+}
+
+/// The length of the date that a text begins with, whose year of four digits is last.
+std::size_t length_with_year_last(std::string_view text) {
+    std::size_t digits = 0, at = 0;
+    for (; at < text.size() && digits < 4; ++at)
+        digits = text[at] >= '0' && text[at] <= '9' ? digits + 1 : 0;
+    return at;
 }
 
 std::string open_dates(const std::string& name, const std::string& date) {
@@ -156,23 +162,31 @@ std::string open_dates(const std::string& name, const std::string& date) {
                        name, date);
 }
 
-/// Writes a reference date whose year is last as ISO 8601 has it, if it is told what is its day.
+/// Writes a reference date whose year is last as ISO 8601 has it, if it is told what is its day. The
+/// time of day and the zone behind it stay.
 void write_reference_anew(StatedTimes& stated, SeriesInfo& info, std::optional<DayMonth> said) {
     constexpr std::string_view kSince = " since ";
     const std::size_t since = lower_case(stated.unit).find(kSince);
     if (since == stated.unit.npos)
         return;
     const std::string reference = stated.unit.substr(since + kSince.size());
-    if (reference.find_first_not_of("0123456789") > 2) // the year, or a word
+    if (reference.find_first_not_of("0123456789") > 2) // the year is first, or it is a number
         return;
-    const TextDates read = dates_of_texts({reference}, said);
+    const std::size_t length = length_with_year_last(reference);
+    const TextDates read = dates_of_texts({reference.substr(0, length)}, said);
     if (read.open)
         info.notes.push_back(open_dates("the reference date", reference));
     if (read.seconds.empty())
         return;
     info.notes.push_back(
         fmt::format("the reference date {} is read as {}", reference, name_of(read.order)));
-    stated.unit.replace(since + kSince.size(), reference.size(), written(read.seconds.front()));
+    std::string behind = reference.substr(length);
+    if (behind.find_first_not_of(' ') == behind.npos)
+        behind = " 00:00:00";
+    else if (behind.front() == '_' || behind.front() == '-') // as dates in names have it
+        behind.front() = ' ';
+    stated.unit.replace(since + kSince.size(), reference.size(),
+                        written(read.seconds.front()) + behind);
 }
 
 } // namespace

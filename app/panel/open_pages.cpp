@@ -49,7 +49,7 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
     // At once: what comes after it may open the next page.
     const bool escapes = pressed && key->key == Key::escape && !popup;
     // The fields of these two pages have the keyboard all the time.
-    if (escapes && asks_name_) {
+    if (escapes && shows_name()) {
         asks_name_ = false;
         name_.clear();
         return true;
@@ -67,8 +67,8 @@ bool OpenPages::turn(const WindowEvent& event, bool popup) {
         return true;
     }
     const bool reads = pressed && (key->key == Key::enter || key->key == Key::escape);
-    if (reads && explains_room_ && !any()) {
-        explains_room_ = false;
+    if (reads && shows_room_ && !any() && !popup && !io.WantTextInput) {
+        shows_room_ = explains_room_ = false;
         return room_explained_ = true;
     }
     if (escapes && (help_ || messages_) && !io.WantTextInput) {
@@ -177,10 +177,13 @@ Seconds OpenPages::introduction_ends() const {
 interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox& picture,
                                          float lowest, Seconds time) {
     interaction::Commands commands;
-    turned_ = false;
     has_session_ = true;
-    leaving_ = model.asked.leaving;
-    asks_ = false;
+    turned_ = std::exchange(leaving_, model.asked.leaving) != leaving_;
+    asks_ = shows_room_ = false;
+    if (leaving_ && model.place != PanelPlace::in_room) { // nothing beside it takes keys
+        offers_way_out_ = takes_way_out_ = false;
+        return commands;
+    }
     if (help_ && model.place != PanelPlace::in_room) {
         const HelpAnswer answer = help_window(model);
         help_ = answer.stays;
@@ -223,8 +226,9 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
         interaction::merge(commands, way_out(model, picture));
     if (has_room_for(kTourCard, picture, lowest))
         tour_.draw(model, picture);
-    if (explains_room_ && has_room_for(kRoomCard, picture, lowest) && room_card(picture)) {
-        explains_room_ = false;
+    shows_room_ = explains_room_ && has_room_for(kRoomCard, picture, lowest);
+    if (shows_room_ && room_card(picture)) {
+        shows_room_ = explains_room_ = false;
         room_explained_ = true;
     }
     if (!explains_room_ && has_room_for(kHintCard, picture, lowest))
@@ -232,14 +236,14 @@ interaction::Commands OpenPages::lay_out(const PanelModel& model, const PanelBox
     const std::size_t cards = 32 * tour_.step() + (explains_room_ ? 16 : 0) + (asks_name_ ? 8 : 0) +
                               (offers_earlier_ ? 4 : 0) + (newcomer_ ? 2 : 0) +
                               (model.notes.empty ? 1 : 0);
-    turned_ = std::exchange(cards_, cards) != cards;
+    turned_ |= std::exchange(cards_, cards) != cards;
     return commands;
 }
 
 /// Says why nothing is seen, and offers the way out. @return the commands of the way out
 interaction::Commands OpenPages::way_out(const PanelModel& model, const PanelBox& picture) {
     const bool chosen = empty_card(model, picture);
-    offers_way_out_ = model.notes.empty && !model.notes.empty->way.empty() && !model.asked.leaving;
+    offers_way_out_ = model.notes.empty && !model.notes.empty->way.empty();
     return chosen ? model.notes.empty->commands : interaction::Commands();
 }
 

@@ -74,8 +74,12 @@ class OpenPages {
     DesktopWish& desktop_wish() { return desktop_wish_; }
     void open_search() { search_.open(); }
     void close_search() { search_.close(); }
-    /// A page with a field that takes what is typed.
-    bool takes_text() const { return search_.is_open() || files_.is_open() || asks_name_; }
+    /// The field for the session's name is over the picture.
+    bool shows_name() const { return asks_name_ && !any(); }
+    /// A page or a card with a field that takes what is typed.
+    bool takes_text() const {
+        return !leaving_ && (search_.is_open() || files_.is_open() || shows_name());
+    }
     /// A page with a list, through which the arrow keys go.
     bool has_list() const { return takes_text() || lists_arrays_; }
     /// Does what a key does, as if the user had pressed it.
@@ -147,6 +151,7 @@ class OpenPages {
     std::optional<std::filesystem::path> chosen_;
     bool newcomer_ = false, begun_ = false, introduced_ = false;
     bool explains_room_ = false, room_explained_ = false;
+    bool shows_room_ = false;      ///< the last layout had its explanation
     bool leaving_ = false;         ///< the user is asked whether to quit
     bool asks_ = false;            ///< the last layout had the question of the sessions before
     Answer answer_ = Answer::none; ///< answer to it by a key

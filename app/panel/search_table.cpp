@@ -359,7 +359,7 @@ class Lines {
     /// Commands that set something; the line says where it is so already.
     template <class T>
     void value(std::string name, std::string words,
-               std::optional<T> interaction::SettingChanges::*member,
+               std::optional<T> interaction::SettingChanges::* member,
                const std::type_identity_t<T>& wanted, const std::type_identity_t<T>& now) {
         SearchLine& line = add({.name = std::move(name),
                                 .words = std::move(words),
@@ -562,7 +562,7 @@ void add_look(Lines& lines) {
         change(changed);
         lines.value(std::move(name), std::move(words), &Commands::look, changed, now);
     };
-    const auto add_each = [&](const char* setting, auto Look::*member) {
+    const auto add_each = [&](const char* setting, auto Look::* member) {
         using Value = std::decay_t<decltype(now.*member)>;
         lines.control(setting, setting, std::string(name_of(now.*member)), kView);
         const std::vector<std::string> names = interaction::all_names<Value>();
@@ -715,7 +715,7 @@ void add_time(Lines& lines) {
     const index::Instant at = model.asked.shown_instant();
     lines.control("step", "step", fmt::format("{} of {}", at.step + 1, last + 1), kTimeBar)
         .with_number = [&model, last](double number) {
-        const double step = std::clamp(std::round(number), 1.0, double{last} + 1);
+        const double step = std::clamp(std::round(number), 1.0, static_cast<double>(last) + 1);
         return NumberEffect{fmt::format("{:.0f} of {}", step, last + 1),
                             shown_at(model, index::Instant(static_cast<std::uint32_t>(step - 1)))};
     };
@@ -777,7 +777,7 @@ void add_pictures(Lines& lines) {
         change(*commands.pictures);
         return commands;
     };
-    const auto part = [&](const char* name, const char* words, bool WrittenPictures::*member) {
+    const auto part = [&](const char* name, const char* words, bool WrittenPictures::* member) {
         lines.on_or_off(name, words, now.*member, changed([member](WrittenPictures& pictures) {
                             pictures.*member = !(pictures.*member);
                         }));
@@ -799,8 +799,8 @@ void add_pictures(Lines& lines) {
              .commands =
                  changed([=](WrittenPictures& pictures) { pictures.background = background; })});
     }
-    const auto number_of = [&](const char* name, const char* words, double WrittenPictures::*member,
-                               double low, double high) {
+    const auto number_of = [&](const char* name, const char* words,
+                               double WrittenPictures::* member, double low, double high) {
         lines
             .add({.name = name,
                   .words = words,

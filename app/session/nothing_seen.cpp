@@ -7,13 +7,6 @@
 namespace isochron::app {
 namespace {
 
-std::uint32_t visible_in(const ExplorerState& state) {
-    std::uint32_t visible = 0;
-    for (std::size_t i = 0; i < state.isosurfaces.size(); ++i)
-        visible |= std::uint32_t{state.isosurfaces[i].opacity > 0} << i;
-    return visible;
-}
-
 std::vector<std::uint64_t> cells_of(const index::Extraction& cells) {
     std::vector<std::uint64_t> counts;
     for (const index::CellSet& surface : cells.surfaces)
@@ -26,7 +19,7 @@ std::vector<std::uint64_t> cells_of(const index::Extraction& cells) {
 /// Looks at the cells, unless it has done so.
 void NothingSeen::know(const index::Extraction& cells, const index::Grid& grid,
                        const ExplorerState& state) {
-    const std::uint32_t visible = visible_in(state);
+    const std::uint32_t visible = interaction::visible(state.isosurfaces);
     if (known_ && known_->extraction == cells.number && known_->visible == visible &&
         known_->clip == state.clip)
         return;
@@ -78,10 +71,6 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
                        .other_array = {},
                        .to_other_array = {},
                        .all_in_view = seen.all_in_view};
-    if (const auto other = next_with_surfaces(*arrays_.file(), arrays_.number(state))) {
-        facts.other_array = arrays_.names()[*other];
-        facts.to_other_array = arrays_.way_to(*other, state);
-    }
     // What depends on the view is not said while the view changes.
     if (rests && !why_empty(facts)) {
         know(*seen.cells, frame.file.info().grid, state);
@@ -89,6 +78,13 @@ void NothingSeen::update(const Frame& frame, const Seen& seen) {
         facts.cut_away = known_->cut_away;
     }
     why_ = why_empty(facts);
+    if (!why_)
+        return;
+    if (const auto other = next_with_surfaces(*arrays_.file(), arrays_.number(state))) {
+        facts.other_array = arrays_.names()[*other];
+        facts.to_other_array = arrays_.way_to(*other, state);
+        why_ = why_empty(facts);
+    }
 }
 
 } // namespace isochron::app

@@ -128,7 +128,7 @@ std::vector<WindowEvent> PanelLayer::feed(std::span<const WindowEvent> events, b
         waiting_.pop_front();
         if (pages_.turn(event, has_popup()))
             continue;
-        const bool open = shown || pages_.any();
+        const bool open = shown || pages_.any() || pages_.takes_text();
         const bool taken = std::visit(taker, event);
         follow_right_button(event, taken);
         if (!taken || !open)

@@ -38,12 +38,15 @@ void gap_between_groups() {
 /// Undo or redo; its tip says what would change.
 void way_button(const PanelModel& model, const char* id, Icon icon, const char* key,
                 const Commands* change, Commands& commands) {
-    const std::string what = words_for_way(model.asked, change, model.info.steps());
-    const std::string effect = fmt::format("{}{}{} ({})", id, what.empty() ? "" : ": ", what, key);
     ImGui::BeginDisabled(!change);
-    if (icon_button(id, icon, effect.c_str()) && change)
-        commands = *change;
+    const bool pressed = icon_button(id, icon, "");
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        const std::string what = words_for_way(model.asked, change, model.info.steps());
+        tip(fmt::format("{}{}{} ({})", id, what.empty() ? "" : ": ", what, key).c_str());
+    }
     ImGui::EndDisabled();
+    if (pressed && change)
+        commands = *change;
 }
 
 /// The tool of the mouse, or of the wand that points at the panel in the room.

@@ -5,12 +5,15 @@
 #include "interaction/enum_names.h"
 #include "interaction/pose.h"
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,6 +97,20 @@ struct Isosurface {
     float opacity = 1.0f;                 ///< 0 to 1
     bool operator==(const Isosurface&) const = default;
 };
+
+/// Whether one of the surfaces lets light through, or whether one is opaque.
+inline bool any_is(std::span<const Isosurface> surfaces, bool translucent) {
+    return std::ranges::any_of(surfaces, [=](const Isosurface& surface) {
+        return (surface.opacity < 1.0f) == translucent;
+    });
+}
+/// A bit for each surface that is seen at all.
+inline std::uint32_t visible(std::span<const Isosurface> surfaces) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        bits |= std::uint32_t{surfaces[i].opacity > 0} << i;
+    return bits;
+}
 
 /// What the colors on the surfaces show.
 enum class ColorBy : std::uint8_t {
@@ -204,8 +221,8 @@ struct WrittenPictures {
     SurfaceExport surfaces;  ///< how surfaces are exported to the same folder
     WrittenBackground background = WrittenBackground::shown;
     bool caption = false; ///< array, isovalues and time
-    double scale = 1.0; ///< factor of width and height, 1 to kLargestScale; words grow with it
-    double dpi = 0.0;   ///< pixels an inch that a picture's file says, to kMostDpi; 0: nothing
+    double scale = 1.0;   ///< factor of width and height, 1 to kLargestScale; words grow with it
+    double dpi = 0.0;     ///< pixels an inch that a picture's file says, to kMostDpi; 0: nothing
     bool operator==(const WrittenPictures&) const = default;
 };
 inline constexpr std::uint32_t kLargestPicture = 16384; ///< [pixel] along each side
@@ -257,6 +274,9 @@ struct ClipPlane {
     glm::dvec3 point{0.0};            ///< on it
     glm::dvec3 normal{0.0, 0.0, 1.0}; ///< unit; points to the side that is cut away
     bool operator==(const ClipPlane&) const = default;
+
+    /// Distance of a place from the plane, positive on the side that is cut away.
+    double beyond(const glm::dvec3& at) const { return glm::dot(at - point, normal); }
 };
 
 inline constexpr std::size_t kMostRulerPlaces = 2;

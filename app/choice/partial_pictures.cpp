@@ -7,16 +7,6 @@
 #include <utility>
 
 namespace isochron::app {
-namespace {
-
-bool are_opaque(const Picture& picture) {
-    return std::ranges::all_of(picture.isosurfaces, [](const interaction::Isosurface& surface) {
-        return surface.opacity >= 1.0f;
-    });
-}
-
-} // namespace
-
 std::optional<Picture> PartialPictures::draw(const Frame& frame, const Picture& now,
                                              const Outputs::Overlay& overlay) {
     Picture wanted = now;
@@ -56,7 +46,8 @@ void PartialPictures::give_up_others(const Picture& drawn) {
 void PartialPictures::draw_ahead(const Frame& frame, const Picture& now, const StopWatch& begun) {
     Milliseconds left{0};
     if (frame.plan.state.draws_ahead() && frame.sharing.alone() && outputs_.want(now.audience) &&
-        outputs_.viewports(now.audience) == 1 && now.audience.eyes.empty() && are_opaque(now)) {
+        outputs_.viewports(now.audience) == 1 && now.audience.eyes.empty() &&
+        !interaction::any_is(now.isosurfaces, true)) {
         outputs_.gl().Finish(); // so that the frame's own time is known
         left = quality_.left_of_frame(begun.time());
     } else {

@@ -26,10 +26,4 @@ bool CellWarmUp::draws(std::size_t part, render::Footprint footprint, bool trans
             ((way.opacity < 1) == translucent && way.by_value == by_value));
 }
 
-bool shows(const Picture& picture, bool translucent) {
-    return std::ranges::any_of(picture.isosurfaces, [&](const interaction::Isosurface& surface) {
-        return (surface.opacity < 1) == translucent;
-    });
-}
-
 } // namespace isochron::app

@@ -45,7 +45,4 @@ class CellWarmUp {
     SmallSurface small_;
 };
 
-/// Whether the picture has a surface of this kind.
-bool shows(const Picture& picture, bool translucent);
-
 } // namespace isochron::app

@@ -14,9 +14,7 @@ namespace {
 /// Whether cells hide by their depth what is drawn after them.
 bool hides_by_depth(const Picture& picture) {
     return picture.footprint != render::Footprint::gaussian &&
-           std::ranges::all_of(picture.isosurfaces, [](const interaction::Isosurface& surface) {
-               return surface.opacity >= 1.0f;
-           });
+           !interaction::any_is(picture.isosurfaces, true);
 }
 
 /// The picture without what is drawn over cells.

@@ -66,9 +66,7 @@ bool is_cut_away(const index::Extraction& cells, const index::Grid& grid, std::u
                  const interaction::ClipPlane& clip) {
     if (!clip.shown)
         return false;
-    const auto is_beyond = [&](const glm::dvec3& at) {
-        return glm::dot(at - clip.point, clip.normal) > 0;
-    };
+    const auto is_beyond = [&](const glm::dvec3& at) { return clip.beyond(at) > 0; };
     if (std::ranges::all_of(corners_of(grid), is_beyond))
         return true;
     return each_cell(cells, grid, visible, [&](const Cell& cell) {

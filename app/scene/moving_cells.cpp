@@ -32,9 +32,7 @@ bool has_several_samples(const render::Gl& gl) {
 
 bool moves_in_layers(const Picture& picture, render::Footprint footprint) {
     return footprint == render::Footprint::mesh && picture.mesh_level > 0 &&
-           std::ranges::any_of(picture.isosurfaces, [](const interaction::Isosurface& surface) {
-               return surface.opacity < 1.0f;
-           });
+           interaction::any_is(picture.isosurfaces, true);
 }
 
 render::Placement MovingCells::placement_of(const Picture& picture) const {

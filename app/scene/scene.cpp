@@ -121,8 +121,8 @@ Scene::Scene(const render::Gl& gl, const index::SeriesInfo& info, const Config& 
     : gl_(gl), info_(info), configured_(config.rendering.appearance), cells_(gl, info.grid, config),
       kept_(gl), shape_(config.rendering.cell_shape),
       cell_pass_(gl, {.shape = shape_}, render::prelude_for(info.grid)), line_pass_(gl),
-      text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl),
-      moving_(gl, info.grid), veil_pass_(gl) {
+      text_pass_(gl, room_font), panel_pass_(gl), background_pass_(gl), moving_(gl, info.grid),
+      veil_pass_(gl) {
     configured_.linear_light = blends_light(gl, config.rendering.blending);
     configured_.near_fade.reset();
     if (const glm::vec2 near = config.comfort.near_fade; near.y > 0)
@@ -228,9 +228,9 @@ std::vector<std::size_t> Scene::begin_in_few_ways(const Picture& picture) {
         const bool is_quad = ways.draws(part, render::Footprint::quad, false, false);
         bool surface = false;
         for (const bool translucent : {false, true})
-            surface |=
-                shows(picture, translucent) && ways.draws(part, render::Footprint::surface,
-                                                          translucent, picture.scale.has_value());
+            surface |= interaction::any_is(picture.isosurfaces, translucent) &&
+                       ways.draws(part, render::Footprint::surface, translucent,
+                                  picture.scale.has_value());
         if (surface || (is_quad && !std::exchange(quad, true)))
             needed.push_back(part);
     }

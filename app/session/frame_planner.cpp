@@ -11,22 +11,10 @@ namespace {
 
 constexpr auto kAllFootprints = render::FootprintSet::up_to(render::kBestFootprint);
 
-bool is_translucent(const ExplorerState& state) {
-    return std::ranges::any_of(state.isosurfaces, [](const interaction::Isosurface& surface) {
-        return surface.opacity < 1.0f;
-    });
-}
-
-bool has_opaque(const ExplorerState& state) {
-    return std::ranges::any_of(state.isosurfaces, [](const interaction::Isosurface& surface) {
-        return surface.opacity >= 1.0f;
-    });
-}
-
 } // namespace
 
 FramePlanner::FramePlanner(const Config& config, const Outputs& outputs, FrameLog& log,
-                             const Scene& scene, CellSupply& supply, const PictureMaker& pictures)
+                           const Scene& scene, CellSupply& supply, const PictureMaker& pictures)
     : outputs_(outputs), log_(log), scene_(scene), sets_(scene.cells()), supply_(supply),
       pictures_(pictures),
       // Beside a headset the window's refresh rate does not count.
@@ -63,7 +51,8 @@ bool FramePlanner::is_only_laid_out(const Frame& frame, const Picture& now) cons
 /// Those of the footprints whose programs are ready for the surfaces of this state.
 render::FootprintSet FramePlanner::ready(const Frame& frame, render::FootprintSet all) const {
     const bool by_value = frame.state.coloring.by != interaction::ColorBy::surface;
-    const bool translucent = is_translucent(frame.state), opaque = has_opaque(frame.state);
+    const bool translucent = interaction::any_is(frame.state.isosurfaces, true),
+               opaque = interaction::any_is(frame.state.isosurfaces, false);
     for (const auto footprint :
          {render::Footprint::gaussian, render::Footprint::mesh, render::Footprint::surface})
         if (!scene_.is_ready(footprint, opaque, translucent, by_value))
@@ -106,7 +95,7 @@ void FramePlanner::choose_mesh(const Frame& frame, FramePlan& plan) {
         return;
     const auto use = supply_.finest_in_motion(frame);
     MeshesAtHand meshes;
-    meshes.translucent = is_translucent(frame.state);
+    meshes.translucent = interaction::any_is(frame.state.isosurfaces, true);
     meshes.now = frame.report.time;
     if (use) {
         meshes.triangles = sets_.triangles(*use);
@@ -130,7 +119,7 @@ void FramePlanner::choose_mesh(const Frame& frame, FramePlan& plan) {
 
 /// Whether the last exact picture is moved, as what a frame can draw of what moves is worse.
 bool FramePlanner::moves_exact(const Frame& frame, const Picture& now,
-                                const FramePlan& plan) const {
+                               const FramePlan& plan) const {
     const Picture* exact = scene_.movable_picture(outputs_.viewports(now.audience));
     const bool all_triangles = plan.footprint == render::Footprint::mesh && plan.mesh_level == 0;
     // What shows all of many small cells is as good: thin things move more truly than their holes and

@@ -24,23 +24,11 @@ index::Ray ray_of(const Pose& pose, const ExplorerState& state) {
     return {in_data(state, glm::dvec4(pose.position, 1.0)), in_data(state, glm::dvec4(ahead, 0.0))};
 }
 
-std::uint32_t visible(const ExplorerState& state) {
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < state.isosurfaces.size(); ++i)
-        bits |= std::uint32_t{state.isosurfaces[i].opacity > 0} << i;
-    return bits;
-}
-
 constexpr double kOnPlane = 1e-9; ///< rounding error, relative to the distance from the origin
-
-/// Distance from the plane, positive on the side that is cut away.
-double beyond(const ClipPlane& clip, const glm::dvec3& at) {
-    return glm::dot(at - clip.point, clip.normal);
-}
 
 /// The ray from where it leaves the side that is cut away; empty if it never does.
 std::optional<index::Ray> uncut(index::Ray ray, const ClipPlane& clip) {
-    const double start = clip.shown ? beyond(clip, ray.origin) : 0.0;
+    const double start = clip.shown ? clip.beyond(ray.origin) : 0.0;
     if (!(start > 0))
         return ray;
     const double rate = glm::dot(ray.direction, clip.normal);
@@ -64,8 +52,9 @@ std::optional<Pointed> Picker::hit_by(const Pose& pose, const ExplorerState& sta
     const auto seen = uncut(ray_of(pose, state), state.clip);
     if (!seen)
         return std::nullopt;
-    const auto hit = index::first_hit(*shown, file_->info().grid, *seen, visible(state));
-    if (!hit || (state.clip.shown && beyond(state.clip, hit->at) > kOnPlane * glm::length(hit->at)))
+    const auto hit = index::first_hit(*shown, file_->info().grid, *seen,
+                                      interaction::visible(state.isosurfaces));
+    if (!hit || (state.clip.shown && state.clip.beyond(hit->at) > kOnPlane * glm::length(hit->at)))
         return std::nullopt;
     return Pointed{{hit->at, shown->query.instant, shown->query.isovalues[hit->surface]},
                    hit->surface};

@@ -1,7 +1,6 @@
 // Draws surfaces that light shines through by the nearest layer of each.
 #include "render/passes/layer_pass.h"
 
-#include "render/gl/shader.h"
 #include "render/gl/soft_edges.h"
 #include "render/gl/viewport.h"
 #include "render/passes/pixel_box.h"
@@ -16,17 +15,10 @@
 namespace isochron::render {
 
 LayerPass::LayerPass(const Gl& gl) : gl_(&gl), no_attributes_(gl) {
-    for (std::size_t layers = 1; gl.links_at_once && layers <= kMost; ++layers)
-        program(layers);
-}
-
-const Program& LayerPass::program(std::size_t layers) {
-    std::optional<Program>& program = programs_[layers - 1];
-    if (!program)
-        program.emplace(link_program(*gl_,
-                                     {shader_file("full_screen.vert"), shader_file("layers.frag")},
-                                     fmt::format("#define LAYERS {}\n", layers)));
-    return *program;
+    for (std::size_t layers = 1; layers <= kMost; ++layers)
+        programs_.emplace_back(
+            gl, std::vector{shader_file("full_screen.vert"), shader_file("layers.frag")},
+            fmt::format("#define LAYERS {}\n", layers));
 }
 
 void LayerPass::draw(std::span<const View> views, std::span<const float> opacities,
@@ -58,7 +50,7 @@ void LayerPass::draw(std::span<const View> views, std::span<const float> opaciti
         gl_->BindTextureUnit(static_cast<GLuint>(opacities.size() + i), layers_[i].depth_texture());
     }
     gl_->BindFramebuffer(GL_FRAMEBUFFER, picture);
-    const GLuint compose = program(opacities.size()).name();
+    const GLuint compose = programs_[opacities.size() - 1].name();
     const auto layers = static_cast<GLsizei>(opacities.size());
     gl_->ProgramUniform1fv(compose, 0, layers, opacities.data());
     gl_->ProgramUniform1i(compose, layers, linear ? 1 : 0);

@@ -4,14 +4,13 @@
 #include "index/volume/query.h"
 #include "render/gl/gl_objects.h"
 #include "render/gl/render_target.h"
+#include "render/gl/shader.h"
 #include "render/gl/view.h"
 
 #include <glm/mat4x4.hpp>
 
-#include <array>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,10 +40,8 @@ class LayerPass {
               const glm::mat4& room_from_box);
 
   private:
-    const Program& program(std::size_t layers);
-
     const Gl* gl_;
-    std::array<std::optional<Program>, kMost> programs_; ///< by the number of layers, less one
+    std::vector<LazyProgram> programs_; ///< by the number of layers, less one
     VertexArray no_attributes_;
     std::vector<RenderTarget> layers_;
 };

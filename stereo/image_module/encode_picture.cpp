@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace isochron::stereo::image_module {
@@ -93,6 +94,8 @@ std::vector<half> linear_rgb(const render::Image& image) {
 
 render::Image over_white(render::Image image) {
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        if (image.rgba[i + 3] == 255)
+            continue;
         const float opacity = static_cast<float>(image.rgba[i + 3]) / 255.0f;
         for (std::size_t channel = i; channel < i + 3; ++channel) {
             const float light =
@@ -140,8 +143,10 @@ const char* note_attribute_of(PictureFormat format) {
 
 std::vector<std::byte> encode(const render::Image& given, PictureFormat format,
                               const std::string& note) {
-    const bool flat = !given.opaque && !has_opacity(given, format);
-    const render::Image image = flat ? over_white(given) : given;
+    std::optional<render::Image> flat;
+    if (!given.opaque && !has_opacity(given, format))
+        flat = over_white(given);
+    const render::Image& image = flat ? *flat : given;
     check_limits(image, format, note);
     set_up_library();
     const std::unique_ptr<OIIO::ImageOutput> output =

@@ -300,8 +300,8 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
         const std::uint32_t place = played.reverse ? track.last() - i : i;
         frame.input.time = Seconds(start);
         frame.commands.instant.emplace(track.step(place));
-        const double seconds = (track.start(place + 1) - track.start(place)) / per_second;
-        start += std::isfinite(seconds) ? std::max(least, seconds) : least;
+        const double lasts = (track.start(place + 1) - track.start(place)) / per_second;
+        start += std::isfinite(lasts) ? std::max(least, lasts) : least;
         recording.frames.push_back(std::move(frame));
     }
     if (!recording.frames.empty()) { // the last one lasts, too

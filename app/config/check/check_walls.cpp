@@ -103,12 +103,12 @@ bool in_one_wall(const Wall& a, const Wall& b) {
 
 /// Monitors on a desk, turned towards the viewer: they have frames, and nobody sees a wall in them.
 bool are_turned_monitors(const Wall& a, const Wall& b) {
-    constexpr float kLargest = 1.0f; // [m] along a side
+    constexpr float kLargestMonitor = 1.0f; // [m] along a side
     const auto largest = [](const Wall& wall) {
         const glm::vec2 size = stereo::size_of(wall.screen());
         return std::max(size.x, size.y);
     };
-    return !in_one_wall(a, b) && std::max(largest(a), largest(b)) < kLargest;
+    return !in_one_wall(a, b) && std::max(largest(a), largest(b)) < kLargestMonitor;
 }
 
 /// How far apart the corners of two walls may be that meet. At a corner of four displays, those on

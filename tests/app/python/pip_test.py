@@ -85,8 +85,8 @@ class Pip(unittest.TestCase):
             self.assertEqual(calls[0][:4], ["-S", os.path.join(folder, "tree"), "-B", own])
             self.assertIn("-DPython_EXECUTABLE=" + os.path.join(folder, "venv/bin/python"), calls[0])
             self.assertEqual(calls[1], ["--build", own, "--target", "isochron_program", "isochron_python"])
-            self.assertEqual(calls[2][:4], ["--install", own, "--component", "program"])
-            self.assertEqual(len(calls), 3)
+            self.assertEqual([call[:3] for call in calls[2:]], [["--install", own, "--component"]] * (len(calls) - 2))
+            self.assertEqual([call[3] for call in calls[2:]], ["program", "vtk", "mpi", "generate"])
             for typed in (["isochron", "--version"], ["python", "-c", "import isochron; isochron.Run"]):
                 subprocess.run([os.path.join(folder, "venv/bin", typed[0]), *typed[1:]], check=True, cwd=folder,
                                env={"PATH": os.environ["PATH"]}, stdout=subprocess.DEVNULL)

@@ -20,11 +20,9 @@ void APIENTRY source_with_normals(GLuint shader, GLsizei, const GLchar* const* t
     give_back("vec3 shade(", "normal");
     give_back("vec3 written(", "light");
     // A layer covers as it does with light.
-    if (const std::size_t begin = changed.find("vec4 layer_at("); begin != std::string::npos)
-        changed.insert(changed.find('{', begin) + 1,
-                       " vec3 n = gradient(p);"
-                       " vec2 sent = light_in_eye(in_eye(p), mat3(EYE(eye_from_physical)) * n);"
-                       " if (true) return vec4(n, 1.0) * layer_of(n, sent, turned, base.a).a;");
+    const std::string lit = "layer_of(base_at(p), lit, turned, base.a)";
+    if (const std::size_t begin = changed.find(lit); begin != std::string::npos)
+        changed.replace(begin, lit.size(), "vec4(normal, 1.0) * " + lit + ".a");
     const GLchar* data = changed.data();
     const auto size = static_cast<GLint>(changed.size());
     plain_shader_source(shader, 1, &data, &size);

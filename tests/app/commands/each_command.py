@@ -1,12 +1,12 @@
 """Runs every command plainly, with --json, --quiet and --verbose, and compares what it prints where with the page on JSON.
-Usage: each_command.py PROGRAM SOURCES, in a folder with run42.isochron, run42, walk.jsonl, cave.pvx and pictures."""
+Usage: each_command.py PROGRAM SOURCES answers | reports | movie | pictures | failures | advice | help, in a folder with run42.isochron, run42, walk.jsonl, cave.pvx and pictures."""
 import json
 import re
 import shlex
 import subprocess
 import sys
 
-program, sources = sys.argv[1:]
+program, sources, part = sys.argv[1:]
 wrong = []
 
 
@@ -112,92 +112,106 @@ table walk.jsonl -o table.csv --force
 serve run42.isochron --write-site site
 generate sphere -o again --step-count 1 --force
 config import cave.pvx -o cave.toml --force
-manual -o pages
-movie walk.jsonl -o frames/ --force
-replay walk.jsonl --stamps -o pictures
+manual -o pages"""
+MOVIE = "movie walk.jsonl -o frames/ --force"
+PICTURES = """replay walk.jsonl --stamps -o pictures
 reproduce pictures/stamp_00012_stamp-1.png"""
-for number, line in enumerate(ANSWERS.split("\n") + REPORTS.split("\n")):
-    told_apart(line, line in ANSWERS.split("\n"), number % 2)
-with open("run42.isochron", "rb") as whole, open("damaged.isochron", "wb") as damaged:
-    content = bytearray(whole.read())
-    content[9000] ^= 4
-    damaged.write(content)
-with open("wrong.toml", "w") as out:
-    out.write("version = 1\n[viewer]\neye_separation = 70\n")
-for line, status in [("verify damaged.isochron", 1), ("verify none.isochron", 1), ("info none.isochron", 1),
-                     ("build none.vti -o x.isochron", 1), ("query run42.isochron --isovalue 1 --step 99", 1),
-                     ("query run42.isochron --isovalue x --step 1", 2), ("export run42.isochron -o s.ply", 2),
-                     ("explore --check-config none", 1), ("explore --check-config wrong.toml", 1),
-                     ("replay none.jsonl", 1), ("reproduce run42.isochron", 1), ("table run42.isochron", 1), ("measure run42.isochron --isovalue 1 --steps 99", 2), ("serve none.isochron", 1),
-                     ("movie walk.jsonl -o x.avi", 2), ("tell state --socket none", 1), ("help bild", 2),
-                     ("generate sphere", 2), ("config import none.pvx", 1), ("completion tcsh", 2), ("manual", 2),
-                     ("change run42.isochron --isovalue 1 --step 1", 2)]:
-    fails(line, status, line.startswith(("verify", "build", "explore", "tell")))
-
-# ---- commands that messages propose keep what was typed: options before, between and behind the files
-TYPED = ["--crop=0:3,0:3,0:3", "--stride 2", "--steps 0", "--spacing 1 2 3", "--origin 0 0 '-1'", "--time-step 0.5",
-         "--length-unit 'mm or so'", "--time-unit s", "--value-unit K", "--patience 9", "--type f32", "--keep-first",
-         "--allow-surplus", "--color v --color-unit m", "--tiers none", "--codec zstd", "--refer", "--threads 1",
-         "--lattice 8", "--max-variation 3", "--timeout 9", "--force", "--quiet", "--verbose", "--json", "--allow .",
-         "--extra-axis-is-time", "--resample 5 5 5", "--member 0", "--header-bytes=0", "--color-by w"]
-name = "two arrays.vtk"
-with open(name, "w") as out:
-    out.write("# vtk DataFile Version 3.0\nvtk output\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 5 5 5\nORIGIN 0 0 0\n"
-              "SPACING 1 1 1\nPOINT_DATA 125\n" + "".join(f"SCALARS {array} float 1\nLOOKUP_TABLE default\n" + "1 2 3 4 5 " * 25
-                                                          + "\n" for array in "vw"))
-for first in range(0, len(TYPED), 8):
-    some = TYPED[first:first + 8]
-    options = [shlex.split(one) for one in some]
-    words = ["build"] + sum(options[::2], []) + [name, "-o", "it's.isochron"] + sum(options[1::2], [])
-    done = subprocess.run([program, *words], capture_output=True, text=True)
-    said = [shlex.split(line) for line in done.stderr.splitlines() if line.startswith("isochron build")]
-    expect(words, said and all([word for word in one[1:] if word not in ("--all-arrays", "--array", "v", "w")] ==
-                               [word for word in words if word not in ("v", "w")] for one in said), said, done.stderr)
-    expect(words, [one[-2:] for one in said[:2]] == [["--array", "v"], ["--array", "w"]] and
-           (len(said) == 2 if "--value-unit" in words else said[-1][-1] == "--all-arrays"), said)
-for line, kept in [("query 'two arrays.vtk' --isovalue 1 --step 0 --array w", ["--array", "w"]),
-                   ("export 'two arrays.vtk' --isovalue 1 -o s.ply --array w --color-by v", ["--array", "w", "--array", "v"]),
-                   ("change 'two arrays.vtk' --isovalue 1 --step 0 --to-isovalue 2 --array v", ["--array", "v"]),
-                   ("verify 'two arrays.vtk'", [])]:
-    advice = re.search("`isochron (.*?)` makes an index of data", run(line)[2])
-    expect(line, advice and shlex.split(advice[1])[4:] == kept, advice)
-    if advice and kept:
-        status, out, err = run(advice[1], "--force", "--quiet")
-        expect(line, status == 0, err)
-        expect(line, run(line.replace(".vtk", ".isochron") + " --force" * line.startswith("export"))[0] == 0, "after the build")
-
-# ---- the table of commands has no other commands, no option without a word for its value, and no line of help too wide
-reference = json.loads(run("help --json")[1])
-leaves = []
 
 
-def walk(command, words):
-    below = command["commands"]
-    for one in below:
-        walk(one, words + [one["name"]])
-    if not below:
-        leaves.append(" ".join(words))
-    names = [name for option in command["options"] for name in option["names"]]
-    expect(" ".join(words), {"--json", "--quiet", "--verbose", "--help"} <= set(names), names)
-    for option in command["options"]:
-        if option["value"]:
-            expect(" ".join(words), not re.search(r"\b(TEXT|U?INT|FLOAT|PATH)\b", option["value"]), option["names"], option["value"])
-    shown = run("help " + " ".join(words))[1]
-    expect(" ".join(words), run(" ".join(words), "--help")[1] == shown, "--help and help differ")
-    lines = shown.splitlines()
-    for words_of_ours in ("65536ths", "stays", "ranks", "Say commands", "so many", "made again", "The same", "else "):
-        expect(" ".join(words), words_of_ours not in shown, words_of_ours)
-    for said in lines:
-        expect(" ".join(words), len(said) <= 80, "too wide", said)
-    if words:
-        expect(" ".join(words), "Examples:" in lines and not any(one.endswith(":") and one[0] != " " for one in
-                                                                 lines[lines.index("Examples:") + 1:] if one), "examples")
+def commands(lines):
+    for number, line in enumerate(lines.split("\n")):
+        told_apart(line, lines is ANSWERS, number % 2)
 
 
-walk(reference, [])
-ran = ANSWERS + "\n" + REPORTS + "\ntell \n"
-for leaf in leaves:
-    expect(leaf, any(line.startswith(leaf + " ") or line == leaf for line in ran.split("\n")) or leaf.split()[0] == "generate",
-           "no line of this test runs it")
-print("\n".join(wrong) or f"{len(leaves)} commands")
+def failures():
+    with open("run42.isochron", "rb") as whole, open("damaged.isochron", "wb") as damaged:
+        content = bytearray(whole.read())
+        content[9000] ^= 4
+        damaged.write(content)
+    with open("wrong.toml", "w") as out:
+        out.write("version = 1\n[viewer]\neye_separation = 70\n")
+    for line, status in [("verify damaged.isochron", 1), ("verify none.isochron", 1), ("info none.isochron", 1),
+                         ("build none.vti -o x.isochron", 1), ("query run42.isochron --isovalue 1 --step 99", 1),
+                         ("query run42.isochron --isovalue x --step 1", 2), ("export run42.isochron -o s.ply", 2),
+                         ("explore --check-config none", 1), ("explore --check-config wrong.toml", 1),
+                         ("replay none.jsonl", 1), ("reproduce run42.isochron", 1), ("table run42.isochron", 1),
+                         ("measure run42.isochron --isovalue 1 --steps 99", 2), ("serve none.isochron", 1),
+                         ("movie walk.jsonl -o x.avi", 2), ("tell state --socket none", 1), ("help bild", 2),
+                         ("generate sphere", 2), ("config import none.pvx", 1), ("completion tcsh", 2), ("manual", 2),
+                         ("change run42.isochron --isovalue 1 --step 1", 2)]:
+        fails(line, status, line.startswith(("verify", "build", "explore", "tell")))
+
+
+# Commands that messages propose keep what was typed: options before, between and behind the files.
+def advice():
+    TYPED = ["--crop=0:3,0:3,0:3", "--stride 2", "--steps 0", "--spacing 1 2 3", "--origin 0 0 '-1'", "--time-step 0.5",
+             "--length-unit 'mm or so'", "--time-unit s", "--value-unit K", "--patience 9", "--type f32", "--keep-first",
+             "--allow-surplus", "--color v --color-unit m", "--tiers none", "--codec zstd", "--refer", "--threads 1",
+             "--lattice 8", "--max-variation 3", "--timeout 9", "--force", "--quiet", "--verbose", "--json", "--allow .",
+             "--extra-axis-is-time", "--resample 5 5 5", "--member 0", "--header-bytes=0", "--color-by w"]
+    name = "two arrays.vtk"
+    with open(name, "w") as out:
+        out.write("# vtk DataFile Version 3.0\nvtk output\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 5 5 5\nORIGIN 0 0 0\n"
+                  "SPACING 1 1 1\nPOINT_DATA 125\n" + "".join(f"SCALARS {array} float 1\nLOOKUP_TABLE default\n" + "1 2 3 4 5 " * 25
+                                                              + "\n" for array in "vw"))
+    for first in range(0, len(TYPED), 8):
+        some = TYPED[first:first + 8]
+        options = [shlex.split(one) for one in some]
+        words = ["build"] + sum(options[::2], []) + [name, "-o", "it's.isochron"] + sum(options[1::2], [])
+        done = subprocess.run([program, *words], capture_output=True, text=True)
+        said = [shlex.split(line) for line in done.stderr.splitlines() if line.startswith("isochron build")]
+        expect(words, said and all([word for word in one[1:] if word not in ("--all-arrays", "--array", "v", "w")] ==
+                                   [word for word in words if word not in ("v", "w")] for one in said), said, done.stderr)
+        expect(words, [one[-2:] for one in said[:2]] == [["--array", "v"], ["--array", "w"]] and
+               (len(said) == 2 if "--value-unit" in words else said[-1][-1] == "--all-arrays"), said)
+    for line, kept in [("query 'two arrays.vtk' --isovalue 1 --step 0 --array w", ["--array", "w"]),
+                       ("export 'two arrays.vtk' --isovalue 1 -o s.ply --array w --color-by v", ["--array", "w", "--array", "v"]),
+                       ("change 'two arrays.vtk' --isovalue 1 --step 0 --to-isovalue 2 --array v", ["--array", "v"]),
+                       ("verify 'two arrays.vtk'", [])]:
+        advice = re.search("`isochron (.*?)` makes an index of data", run(line)[2])
+        expect(line, advice and shlex.split(advice[1])[4:] == kept, advice)
+        if advice and kept:
+            status, out, err = run(advice[1], "--force", "--quiet")
+            expect(line, status == 0, err)
+            expect(line, run(line.replace(".vtk", ".isochron") + " --force" * line.startswith("export"))[0] == 0, "after the build")
+
+
+# The table of commands has no other commands, no option without a word for its value, and no line of help too wide.
+def all_help():
+    reference = json.loads(run("help --json")[1])
+    leaves = []
+
+    def walk(command, words):
+        below = command["commands"]
+        for one in below:
+            walk(one, words + [one["name"]])
+        if not below:
+            leaves.append(" ".join(words))
+        names = [name for option in command["options"] for name in option["names"]]
+        expect(" ".join(words), {"--json", "--quiet", "--verbose", "--help"} <= set(names), names)
+        for option in command["options"]:
+            if option["value"]:
+                expect(" ".join(words), not re.search(r"\b(TEXT|U?INT|FLOAT|PATH)\b", option["value"]), option["names"], option["value"])
+        shown = run("help " + " ".join(words))[1]
+        expect(" ".join(words), run(" ".join(words), "--help")[1] == shown, "--help and help differ")
+        lines = shown.splitlines()
+        for words_of_ours in ("65536ths", "stays", "ranks", "Say commands", "so many", "made again", "The same", "else "):
+            expect(" ".join(words), words_of_ours not in shown, words_of_ours)
+        for said in lines:
+            expect(" ".join(words), len(said) <= 80, "too wide", said)
+        if words:
+            expect(" ".join(words), "Examples:" in lines and not any(one.endswith(":") and one[0] != " " for one in
+                                                                     lines[lines.index("Examples:") + 1:] if one), "examples")
+
+    walk(reference, [])
+    ran = ANSWERS + "\n" + REPORTS + "\n" + MOVIE + "\n" + PICTURES + "\ntell \n"
+    for leaf in leaves:
+        expect(leaf, any(line.startswith(leaf + " ") or line == leaf for line in ran.split("\n")) or leaf.split()[0] == "generate",
+               "no line of this test runs it")
+
+
+PARTS = {"answers": lambda: commands(ANSWERS), "reports": lambda: commands(REPORTS), "movie": lambda: commands(MOVIE),
+         "pictures": lambda: commands(PICTURES), "failures": failures, "advice": advice, "help": all_help}
+PARTS[part]()
+print("\n".join(wrong))
 sys.exit(bool(wrong))

@@ -164,18 +164,25 @@ TEST_F(HelpExamples, AndAllHelpAreAsWideAsTheTerminal) {
     }
 }
 
-class EachCommand : public HelpExamples {};
+/// One part of each_command.py.
+class EachCommand : public HelpExamples, public testing::WithParamInterface<const char*> {};
 
-TEST_F(EachCommand, TellsAnswersOnStdoutAndNotesOnStderr) {
+TEST_P(EachCommand, TellsAnswersOnStdoutAndNotesOnStderr) {
     ASSERT_EQ(shell("isochron generate sphere --step-count 3 -o run42 && isochron build run42 -o "
                     "run42.isochron && isochron replay walk.jsonl --stamps -o pictures")
                   .status,
               0);
     const ChildResult result =
         shell("PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 " + test_support::source_root() +
-              "/tests/app/commands/each_command.py isochron " + test_support::source_root());
+              "/tests/app/commands/each_command.py isochron " + test_support::source_root() + " " +
+              GetParam());
     EXPECT_EQ(result.status, 0) << result.out << result.err;
 }
+
+INSTANTIATE_TEST_SUITE_P(, EachCommand,
+                         testing::Values("answers", "reports", "movie", "pictures", "failures",
+                                         "advice", "help"),
+                         [](const auto& part) { return std::string(part.param); });
 
 /// The commands in a page's blocks that need neither a window nor hardware nor other computers.
 std::vector<std::string> commands_in(const std::filesystem::path& page) {

@@ -229,14 +229,16 @@ TEST_F(Outputs, AreAllTriedByTheseTests) {
     std::set<std::string> tried;
     for (const Way& way : ways())
         tried.insert(way.page + " " + way.option);
-    // An option by another name; what only gets names that are not there yet; how many pictures.
-    for (const char* also : {"generate-vorticity --out", "generate-fourier --out",
-                             "explore --screenshots", "replay --every"})
+    // The same of other data; what only gets names that are not there yet; of a running session; a
+    // folder that is replaced only where this command wrote it.
+    for (const char* also : {"generate-vorticity --output", "generate-fourier --output",
+                             "explore --screenshots", "tell --output", "serve --write-site"})
         tried.insert(also);
     expect_done({"manual", "pages"});
-    const std::regex entry(R"(\.TP\n([^\n]*)\n([^\n]*))"), long_name("--[a-z-]+");
-    const std::regex writes("\\b([Ww]rite|[Ss]ave|Record the session|Output|Folder for|Folder to "
-                            "write|Movie to write)\\b");
+    const std::regex entry(R"(\.TP\n([^\n]*)\n([^\n]*))"), long_name("--[a-z-]+"),
+        file("fI(FILE|FOLDER|INDEX)");
+    const std::regex writes(
+        "\\b([Ww]rite|[Ss]ave|Record the session|Output|Folder for|File for)\\b");
     std::set<std::string> found;
     for (const auto& page : fs::directory_iterator(folder_.path() / "pages")) {
         const std::string text = std::regex_replace(
@@ -246,10 +248,10 @@ TEST_F(Outputs, AreAllTriedByTheseTests) {
         for (std::sregex_iterator at(text.begin(), text.end(), entry), end; at != end; ++at) {
             const std::string names = (*at)[1], help = (*at)[2];
             std::smatch option;
-            if (names.find("\\fI") == std::string::npos || !std::regex_search(help, writes))
-                continue; // a flag, or it reads
-            found.insert(command + " " +
-                         (std::regex_search(names, option, long_name) ? option.str() : "folder"));
+            if (!std::regex_search(names, file) || !std::regex_search(help, writes) ||
+                !std::regex_search(names, option, long_name))
+                continue; // no file, or it is read
+            found.insert(command + " " + option.str());
         }
     }
     EXPECT_FALSE(found.empty());

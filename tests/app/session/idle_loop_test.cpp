@@ -226,9 +226,7 @@ TEST_F(IdleLoop, CellsThatAreAskedForAreShownBeforeItWaitsAgain) {
 }
 
 TEST_F(IdleLoop, ACursorThatMovesIsFollowed) {
-    run({[&](auto&, Seconds) {
-             window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480});
-         },
+    run({[&](auto&, Seconds) { window_.events.push_back(MouseMoveEvent{0.8f, 0.5f, 640, 480}); },
          [&](auto&, Seconds) {
              EXPECT_GE(since_wait_.frames, 2 + IdleWait::kFramesAfter);
              EXPECT_LE(since_wait_.presents, since_wait_.frames);
@@ -245,7 +243,7 @@ TEST_F(IdleLoop, AMessageFromTheBackgroundWakesAndGoesWhenItsTimeIsOver) {
                  return;
              }
              EXPECT_GE(since_wait_.presents, 1) << "the message is there";
-             EXPECT_LT(longest, Seconds(5));
+             EXPECT_LT(longest, Seconds(30));
              now_ += longest;
          },
          [&](auto&, Seconds longest) {

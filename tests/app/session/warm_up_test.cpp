@@ -157,26 +157,23 @@ TEST_P(WarmUp, TheFirstPictureLinksADozenProgramsAndNoLaterFrameLinksAny) {
             in_frames += render::linked_programs() - before;
             return final;
         };
-        const auto wander = [&] { // all that leads to other programs, again and again
-            for (const float opacity : {1.0f, 0.4f})
-                for (const bool by_value : {false, true}) {
-                    interaction::Commands commands;
-                    commands.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, opacity}}};
-                    commands.coloring.emplace().by = by_value ? interaction::ColorBy::first_crossing
-                                                              : interaction::ColorBy::surface;
-                    for (int i = 0; i < 4; ++i)
-                        watched(std::exchange(commands, {}), i % 2 ? 0.02f : 0.7f);
-                    watched({}, 3.0f);
-                    watched({}, 0.0f);
-                }
+        const auto wander = [&](int to) { // what leads to other programs, again and again
+            interaction::Commands commands;
+            commands.isosurfaces = {{{2.0, {0.9f, 0.3f, 0.2f}, to % 2 ? 0.4f : 1.0f}}};
+            commands.coloring.emplace().by =
+                to / 2 % 2 ? interaction::ColorBy::first_crossing : interaction::ColorBy::surface;
+            for (const float way : {0.7f, 0.02f, 0.7f, 3.0f, 0.0f})
+                watched(std::exchange(commands, {}), way);
         };
-        wander();
+        for (int to = 0; to < 4; ++to)
+            wander(to);
         EXPECT_EQ(in_frames, 0u) << "before any other program is ready";
+        int looked = 0;
         ASSERT_TRUE(test_support::eventually([&] {
             const std::size_t before = render::linked_programs();
             session.prepare_some();
             between += render::linked_programs() - before;
-            wander();
+            wander(looked++);
             return !session.prepares();
         }));
         EXPECT_GE(between, 10u);

@@ -141,9 +141,10 @@ void drop_missing(StatedTimes& stated, SeriesInfo& info) {
                         stated.name));
 }
 
+constexpr double kDay = 86400; ///< [s]
+
 /// `2005-08-28`, midnight of which is so many seconds after that of 1970-01-01.
 std::string written(double seconds) {
-    constexpr double kDay = 86400;
     const auto date =
         date_of(static_cast<std::int64_t>(std::floor(seconds / kDay)), Calendar::gregorian);
     return fmt::format("{:04}-{:02}-{:02}", date->year, date->month, date->day);
@@ -242,7 +243,9 @@ void place_dates(std::span<const std::string> dates, const std::string& name, Se
         times = std::move(read.seconds);
     }
     const double begin = std::floor(times.front());
-    info.time_unit = "seconds since " + written(begin);
+    const auto of_day = static_cast<std::int64_t>(begin - std::floor(begin / kDay) * kDay);
+    info.time_unit = fmt::format("seconds since {} {:02}:{:02}:{:02}", written(begin),
+                                 of_day / 3600, of_day / 60 % 60, of_day % 60);
     for (double& at : times)
         at -= begin;
     info.times = std::move(times);

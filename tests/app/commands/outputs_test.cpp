@@ -229,7 +229,7 @@ TEST_F(Outputs, AreAllTriedByTheseTests) {
     std::set<std::string> tried;
     for (const Way& way : ways())
         tried.insert(way.page + " " + way.option);
-    // The same of other data; what only gets names that are not there yet; of a running session; a
+    // Other data; what only gets names that are not there yet; of a running session; a
     // folder that is replaced only where this command wrote it.
     for (const char* also : {"generate-vorticity --output", "generate-fourier --output",
                              "explore --screenshots", "tell --output", "serve --write-site"})

@@ -4,6 +4,7 @@
 #include "app/command_line/step_range.h"
 #include "app/command_line/subcommands.h"
 #include "app/commands/csv_rows.h"
+#include "app/commands/mesh_cuts.h"
 #include "app/indexing/open_index.h"
 #include "app/output/guarded_outputs.h"
 #include "app/telling.h"
@@ -36,7 +37,7 @@ struct MeasureArguments {
     std::string steps;
     std::uint32_t fraction = 0;
     std::vector<std::string> measures;
-    std::optional<std::string> array, on_surface;
+    std::optional<std::string> array, on_surface, crop;
     bool pieces = false, csv = false, force = false;
 };
 
@@ -93,6 +94,8 @@ Rows measured(const MeasureArguments& arguments,
     index::MeasureWishes wishes{.pieces = arguments.pieces, .only = numbers};
     if (arguments.on_surface)
         wishes.array = array_on_surface(*file, *arguments.on_surface, "to measure on the surface");
+    if (arguments.crop)
+        wishes.box = box_of(*arguments.crop, info.grid);
     const std::string other =
         wishes.array ? index::ColorSource(*file, *wishes.array).array().value_unit : "";
     Rows made{.columns = {"step", "fraction", "time", "isovalue"},
@@ -255,6 +258,11 @@ void add_measure(Command& program) {
         .option("--on-surface", arguments->on_surface,
                 "Another array of the index, whose values on the surface are measured")
         .type_name("NAME");
+    command
+        .option("--crop", arguments->crop,
+                "Measure only the cells within a box, from one vertex of the grid to another; the "
+                "surface ends at its faces")
+        .type_name("X0:X1,Y0:Y1,Z0:Z1");
     command.flag(
         "--pieces", arguments->pieces,
         "Print a row for each connected piece of a surface, the largest area first, with its "

@@ -6,7 +6,6 @@
 #include "app/output/export_request.h"
 #include "app/text.h"
 #include "index/error.h"
-#include "index/export/mesh_crop.h"
 #include "index/export/simplified_mesh.h"
 #include "index/volume/instant_text.h"
 
@@ -24,28 +23,6 @@
 
 namespace isochron::app {
 namespace {
-
-/// The vertices that `--crop` names. @throws UsageError
-index::VertexBox box_of(const std::string& text, const index::Grid& grid) {
-    const auto numbers = whole_numbers(text, ":,");
-    std::string form;
-    std::ranges::copy_if(text, std::back_inserter(form),
-                         [](char c) { return c == ':' || c == ','; });
-    index::VertexBox box;
-    bool fits = numbers && numbers->size() == 6 && form == ":,:,:";
-    for (std::size_t axis = 0; fits && axis < 3; ++axis) {
-        const std::uint64_t first = (*numbers)[2 * axis], last = (*numbers)[2 * axis + 1];
-        fits = first < last && last < grid.vertices[axis];
-        box.first[axis] = static_cast<std::uint32_t>(first);
-        box.last[axis] = static_cast<std::uint32_t>(last);
-    }
-    if (!fits)
-        throw UsageError(fmt::format(
-            "--crop {}: expected X0:X1,Y0:Y1,Z0:Z1, vertices from 0 to {}, {} and {}, the first "
-            "below the last",
-            text, grid.vertices[0] - 1, grid.vertices[1] - 1, grid.vertices[2] - 1));
-    return box;
-}
 
 /// The plane that `--clip` names; none without it. @throws UsageError
 std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& numbers) {
@@ -135,6 +112,27 @@ struct Simplifying {
 };
 
 } // namespace
+
+index::VertexBox box_of(const std::string& text, const index::Grid& grid) {
+    const auto numbers = whole_numbers(text, ":,");
+    std::string form;
+    std::ranges::copy_if(text, std::back_inserter(form),
+                         [](char c) { return c == ':' || c == ','; });
+    index::VertexBox box;
+    bool fits = numbers && numbers->size() == 6 && form == ":,:,:";
+    for (std::size_t axis = 0; fits && axis < 3; ++axis) {
+        const std::uint64_t first = (*numbers)[2 * axis], last = (*numbers)[2 * axis + 1];
+        fits = first < last && last < grid.vertices[axis];
+        box.first[axis] = static_cast<std::uint32_t>(first);
+        box.last[axis] = static_cast<std::uint32_t>(last);
+    }
+    if (!fits)
+        throw UsageError(fmt::format(
+            "--crop {}: expected X0:X1,Y0:Y1,Z0:Z1, vertices from 0 to {}, {} and {}, the first "
+            "below the last",
+            text, grid.vertices[0] - 1, grid.vertices[1] - 1, grid.vertices[2] - 1));
+    return box;
+}
 
 decltype(index::ExportRequest::reshape) reshaping(const MeshCuts& cuts, const index::Grid& grid,
                                                   const index::ExportPlan& plan,

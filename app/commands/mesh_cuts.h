@@ -3,6 +3,7 @@
 
 #include "index/export/surface_export.h"
 #include "index/surface/cell_mesh.h"
+#include "index/surface/mesh_crop.h"
 #include "index/volume/grid.h"
 
 #include <optional>
@@ -24,6 +25,9 @@ struct SimplifiedBy {
     double moved = 0; ///< [unit of the file]
     double cells = 0; ///< [shortest side of a cell]
 };
+
+/// The vertices that `--crop X0:X1,Y0:Y1,Z0:Z1` names. @throws UsageError
+index::VertexBox box_of(const std::string& text, const index::Grid& grid);
 
 /// What is done with each mesh before it is written; null: nothing.
 /// @param grid outlives the function, as `plan` and `moved` do

@@ -4,9 +4,9 @@
 #include "app/safe_text.h"
 #include "app/text.h"
 #include "app/version.h"
-#include "index/export/mesh_crop.h"
 #include "index/file/color_source.h"
 #include "index/readers/formats/length_units.h"
+#include "index/surface/mesh_crop.h"
 #include "interaction/step_track.h"
 #include "render/gl/srgb.h"
 

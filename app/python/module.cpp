@@ -125,13 +125,9 @@ py::array values(const RunArray& array, std::int64_t step, std::int64_t fraction
     for (const auto& [first, end] : box)
         shape.push_back(static_cast<py::ssize_t>(end) - first);
     if (fraction == 0)
-        return owned(unlocked([&] {
-                         return array.values({step, 0}, box, level);
-                     }),
-                     shape, type_of(array));
-    return owned(unlocked([&] {
-                     return array.blended_values({step, fraction}, box, level);
-                 }),
+        return owned(unlocked([&] { return array.values({step, 0}, box, level); }), shape,
+                     type_of(array));
+    return owned(unlocked([&] { return array.blended_values({step, fraction}, box, level); }),
                  shape, py::dtype::of<double>());
 }
 
@@ -263,10 +259,14 @@ std::vector<std::string> names_of(const OpenRun& run) {
 
 /// The measures of a surface, and a row of numbers for each of its pieces.
 py::tuple measure(RunArray& array, std::int64_t step, std::int64_t fraction, double isovalue,
-                  const std::optional<std::string>& on_surface, bool pieces) {
-    index::MeasuredSurface found = unlocked([&] {
-        return array.measure({step, fraction}, isovalue, on_surface, pieces);
-    });
+                  const std::optional<std::string>& on_surface, bool pieces,
+                  const std::optional<std::array<std::array<std::uint32_t, 2>, 3>>& crop) {
+    std::optional<index::VertexBox> box;
+    if (crop) // x, y, z: the first and the last
+        box = {{(*crop)[0][0], (*crop)[1][0], (*crop)[2][0]},
+               {(*crop)[0][1], (*crop)[1][1], (*crop)[2][1]}};
+    index::MeasuredSurface found = unlocked(
+        [&] { return array.measure({step, fraction}, isovalue, on_surface, pieces, box); });
     std::vector<double> rows;
     for (const index::MeasuredPiece& piece : found.pieces) {
         rows.insert(rows.end(), {static_cast<double>(piece.triangles), piece.area, piece.volume,
@@ -304,7 +304,8 @@ PYBIND11_MODULE(_native, module) {
              "to_isovalue"_a)
         .def("mesh", &mesh, "step"_a, "fraction"_a, "isovalue"_a, "absolute"_a, "level"_a,
              "normals"_a, "values"_a)
-        .def("measure", &measure, "step"_a, "fraction"_a, "isovalue"_a, "on_surface"_a, "pieces"_a)
+        .def("measure", &measure, "step"_a, "fraction"_a, "isovalue"_a, "on_surface"_a, "pieces"_a,
+             "crop"_a)
         .def("values", &values, "step"_a, "fraction"_a, "box"_a, "level"_a)
         .def("first_crossings", &first_crossings, "isovalue"_a, "blended"_a)
         .def("description", &description)

@@ -2,8 +2,8 @@
 #include "index/export/simplified_mesh.h"
 
 #include "index/export/edge_collapse.h"
-#include "index/export/mesh_crop.h"
 #include "index/export/mesh_distance.h"
+#include "index/surface/mesh_crop.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include "index/measure/disjoint_sets.h"
 #include "index/search/index_search.h"
 #include "index/surface/mesh_cases.h"
+#include "index/surface/mesh_crop.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -73,14 +74,59 @@ double whole_cells(const Grid& grid, const Distances& distances, const RowsOfSid
     return volume;
 }
 
+/// The mesh of the cells in a box, with places from the box's first vertex on.
+CellMesh cells_within(const CellMesh& mesh, const VertexBox& box) {
+    CellMesh kept = mesh;
+    kept.triangles.clear();
+    kept.cases.clear();
+    std::size_t first = 0;
+    for (const std::uint8_t of_cell : mesh.cases) {
+        const std::size_t count = std::size_t{3} * mesh_cases()[of_cell].triangles;
+        const auto at = cell_of_mesh(mesh.vertices[mesh.triangles[first]], of_cell);
+        bool within = true;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            within &= at[axis] >= box.first[axis] && at[axis] < box.last[axis];
+        if (within) {
+            kept.cases.push_back(of_cell);
+            const auto begin = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first);
+            kept.triangles.insert(kept.triangles.end(), begin,
+                                  begin + static_cast<std::ptrdiff_t>(count));
+        }
+        first += count;
+    }
+    drop_unused_vertices(kept);
+    for (MeshVertex& vertex : kept.vertices) {
+        vertex.x = static_cast<std::uint16_t>(vertex.x - box.first[0]);
+        vertex.y = static_cast<std::uint16_t>(vertex.y - box.first[1]);
+        vertex.z = static_cast<std::uint16_t>(vertex.z - box.first[2]);
+    }
+    return kept;
+}
+
+Grid grid_of(const Grid& whole, const VertexBox& box) {
+    Grid part = whole.part(box.first, {box.last[0] + 1, box.last[1] + 1, box.last[2] + 1});
+    part.origin = whole.physical({box.first[0], box.first[1], box.first[2]});
+    return part;
+}
+
 } // namespace
+
+MeasuredStep::MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
+                           const std::optional<VertexBox>& box, bool complete,
+                           const std::stop_token& stop)
+    : file_(file), query_(query), whole_(mesh), box_(box),
+      grid_(box ? grid_of(file.info().grid, *box) : file.info().grid), complete_(complete),
+      stop_(stop) {
+    if (box)
+        cropped_ = cells_within(mesh, *box);
+}
 
 const std::vector<glm::dvec3>& MeasuredStep::points() {
     if (!points_) {
         points_.emplace();
-        points_->reserve(mesh_.vertices.size());
+        points_->reserve(mesh().vertices.size());
         const Grid& of = grid();
-        for (const MeshVertex& vertex : mesh_.vertices) {
+        for (const MeshVertex& vertex : mesh().vertices) {
             const glm::dvec3 at = position_of(vertex);
             points_->push_back(of.direction * glm::dvec3(of.distance(0, at.x), of.distance(1, at.y),
                                                          of.distance(2, at.z)));
@@ -94,10 +140,10 @@ const std::vector<glm::dvec3>& MeasuredStep::normals() {
         const std::vector<glm::dvec3>& at = points();
         normals_.emplace();
         normals_->reserve(triangles());
-        for (std::size_t i = 0; i < mesh_.triangles.size(); i += 3) {
-            const glm::dvec3& a = at[mesh_.triangles[i]];
+        for (std::size_t i = 0; i < mesh().triangles.size(); i += 3) {
+            const glm::dvec3& a = at[mesh().triangles[i]];
             normals_->push_back(
-                0.5 * glm::cross(at[mesh_.triangles[i + 1]] - a, at[mesh_.triangles[i + 2]] - a));
+                0.5 * glm::cross(at[mesh().triangles[i + 1]] - a, at[mesh().triangles[i + 2]] - a));
         }
     }
     return *normals_;
@@ -115,7 +161,7 @@ const std::vector<double>& MeasuredStep::areas() {
 
 const MeshPieces& MeasuredStep::pieces() {
     if (!pieces_)
-        pieces_ = pieces_of(mesh_, grid(), complete_);
+        pieces_ = pieces_of(mesh(), grid(), complete_);
     return *pieces_;
 }
 
@@ -134,11 +180,15 @@ bool MeasuredStep::corner_is_above() const {
 }
 
 const VertexSides& MeasuredStep::sides() {
-    if (!sides_ && complete_)
-        sides_ = VertexSides::of_mesh(mesh_, grid(), mesh_.cases.empty() && corner_is_above());
-    if (!sides_)
-        sides_ = VertexSides::of_values(step_of_query(file_, query_.instant, {&query_.isovalue, 1}),
-                                        query_.isovalue, stop_);
+    if (!sides_) {
+        sides_ = complete_ ? VertexSides::of_mesh(whole_, file_.info().grid,
+                                                  whole_.cases.empty() && corner_is_above())
+                           : VertexSides::of_values(
+                                 step_of_query(file_, query_.instant, {&query_.isovalue, 1}),
+                                 query_.isovalue, stop_);
+        if (box_)
+            sides_ = sides_->within(*box_, grid_);
+    }
     return *sides_;
 }
 
@@ -151,13 +201,13 @@ const MeasuredStep::Volumes& MeasuredStep::volumes() {
     sum.above = whole_cells(grid(), distances, [&](auto y, auto z) { return of.above(y, z); });
     sum.below = whole_cells(grid(), distances, [&](auto y, auto z) { return of.below(y, z); });
     const std::array<MeshCase, 256>& cases = mesh_cases();
-    const std::span<const std::uint32_t> corners = mesh_.triangles;
+    const std::span<const std::uint32_t> corners = mesh().triangles;
     std::size_t first = 0;
-    for (const std::uint8_t of_cell : mesh_.cases) {
+    for (const std::uint8_t of_cell : mesh().cases) {
         const std::size_t count = std::size_t{3} * cases[of_cell].triangles;
-        const auto at = cell_of_mesh(mesh_.vertices[corners[first]], of_cell);
+        const auto at = cell_of_mesh(mesh().vertices[corners[first]], of_cell);
         const double whole = distances.cell(at);
-        const double share = share_above(mesh_.vertices, corners.subspan(first, count), of_cell);
+        const double share = share_above(mesh().vertices, corners.subspan(first, count), of_cell);
         sum.above += share * whole;
         sum.below += (1 - share) * whole;
         first += count;

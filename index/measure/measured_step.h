@@ -5,6 +5,8 @@
 #include "index/measure/mesh_pieces.h"
 #include "index/measure/vertex_sides.h"
 #include "index/surface/cell_mesh.h"
+#include "index/surface/mesh_crop.h"
+#include "index/volume/grid.h"
 #include "index/volume/query.h"
 
 #include <glm/vec3.hpp>
@@ -19,14 +21,15 @@ namespace isochron::index {
 /// Not thread-safe. Functions throw Error and Stopped as StepView does.
 class MeasuredStep {
   public:
-    /// @param complete see `pieces_of` @param stop, file, mesh outlive this
-    MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh, bool complete,
-                 const std::stop_token& stop)
-        : file_(file), query_(query), mesh_(mesh), complete_(complete), stop_(stop) {}
+    /// @param mesh of all active cells @param box measures its cells alone, as a grid of their own;
+    ///        none: all @param complete see `pieces_of` @param stop, file, mesh outlive this
+    MeasuredStep(const IndexFile& file, const Query& query, const CellMesh& mesh,
+                 const std::optional<VertexBox>& box, bool complete, const std::stop_token& stop);
 
-    const CellMesh& mesh() const { return mesh_; }
-    const Grid& grid() const { return file_.info().grid; }
-    std::size_t triangles() const { return mesh_.triangles.size() / 3; }
+    /// In the box.
+    const CellMesh& mesh() const { return box_ ? cropped_ : whole_; }
+    const Grid& grid() const { return grid_; }
+    std::size_t triangles() const { return mesh().triangles.size() / 3; }
     /// Places of the vertices in physical space, less the grid's origin.
     const std::vector<glm::dvec3>& points();
     /// Half the cross product of two sides of each triangle: its normal, towards lower values if
@@ -48,7 +51,10 @@ class MeasuredStep {
 
     const IndexFile& file_;
     const Query& query_;
-    const CellMesh& mesh_;
+    const CellMesh& whole_;
+    CellMesh cropped_;
+    std::optional<VertexBox> box_;
+    Grid grid_;
     bool complete_;
     const std::stop_token& stop_;
     std::optional<std::vector<glm::dvec3>> points_, normals_;

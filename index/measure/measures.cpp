@@ -182,7 +182,7 @@ std::optional<MeasuredSurface> SurfaceMeasures::measure(const Query& query,
     if (!mesh)
         return std::nullopt;
     try {
-        MeasuredStep step(*file_, query, *mesh, complete_, stop);
+        MeasuredStep step(*file_, query, *mesh, wishes.box, complete_, stop);
         MeasuredSurface found;
         for (std::size_t i = 0; i < kMeasures.size(); ++i) {
             const bool wanted =

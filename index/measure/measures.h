@@ -9,6 +9,7 @@
 #include "index/file/color_source.h"
 #include "index/file/index_file.h"
 #include "index/search/surface_mesh.h"
+#include "index/surface/mesh_crop.h"
 #include "index/volume/query.h"
 
 #include <array>
@@ -63,6 +64,8 @@ struct MeasuredSurface {
 /// What is measured besides the surface alone.
 struct MeasureWishes {
     std::optional<std::size_t> array = std::nullopt; ///< an array on the surface (ColorSource)
+    /// Measures the cells in this box alone, as if there were no others: a surface ends at its faces.
+    std::optional<VertexBox> box = std::nullopt;
     bool pieces = false;
     /// Numbers of the measures that are wanted; the others are NaN. Empty: all.
     std::vector<std::size_t> only = {};

@@ -165,6 +165,25 @@ void for_each_plane(const StepView& step, const std::stop_token& stop, F&& plane
 
 } // namespace
 
+VertexSides VertexSides::within(const VertexBox& box, const Grid& part) const {
+    VertexSides sides(part);
+    const auto add = [&](std::span<const Run> runs, Rows& to) {
+        for (const Run& run : runs) {
+            const std::uint32_t begin = std::max(run.begin, box.first[0]),
+                                end = std::min(run.end, box.last[0] + 1);
+            if (begin < end)
+                to.runs.push_back({begin - box.first[0], end - box.first[0]});
+        }
+    };
+    for (std::uint32_t z = box.first[2]; z <= box.last[2]; ++z)
+        for (std::uint32_t y = box.first[1]; y <= box.last[1]; ++y) {
+            add(above(y, z), sides.above_);
+            add(below(y, z), sides.below_);
+            sides.end_row();
+        }
+    return sides;
+}
+
 VertexSides VertexSides::of_values(const StepView& step, double isovalue,
                                    const std::stop_token& stop) {
     VertexSides sides(step.grid());

@@ -7,6 +7,7 @@
 
 #include "index/file/step_view.h"
 #include "index/surface/cell_mesh.h"
+#include "index/surface/mesh_crop.h"
 #include "index/volume/grid.h"
 #include "index/volume/query.h"
 
@@ -45,6 +46,9 @@ class VertexSides {
         return runs(below_, row(y, z));
     }
     const Grid& grid() const { return grid_; }
+    /// Those in a box of vertices, seen for themselves: they count from 0.
+    /// @param part the grid of the box
+    VertexSides within(const VertexBox& box, const Grid& part) const;
 
     bool operator==(const VertexSides&) const = default;
 

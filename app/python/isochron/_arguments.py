@@ -205,6 +205,22 @@ def crop_word(crop: Crop, shape: tuple[int, ...] | None) -> str:
     return ",".join(said)
 
 
+def crop_box(crop: Crop | None, shape: tuple[int, ...]) -> list[tuple[int, int]] | None:
+    """The first and the last vertex along x, y and z. shape: vertices along z, y and x"""
+    if crop is None:
+        return None
+    said = crop_word(crop, shape)
+    found = re.fullmatch(r"(\d+):(\d+),(\d+):(\d+),(\d+):(\d+)", said)
+    places = [int(each) for each in found.groups()] if found else []
+    box = list(zip(places[::2], places[1::2]))
+    if not box or any(not first < last < length for (first, last), length in zip(box, reversed(shape))):
+        x, y, z = (length - 1 for length in reversed(shape))
+        raise ArgumentError(
+            f"crop: expected vertices from 0 to {x}, {y} and {z} along x, y and z, the first below the last, got {said}"
+        )
+    return box
+
+
 def steps_word(steps: Steps, length: int | None) -> str:
     """FIRST:LAST:STRIDE, both ends included."""
     if isinstance(steps, str):

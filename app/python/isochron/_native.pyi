@@ -46,7 +46,13 @@ class RunArray:
         self, isovalue: float, blended: bool
     ) -> tuple[NDArray[np.uint16], NDArray[np.uint16] | None]: ...
     def measure(
-        self, step: int, fraction: int, isovalue: float, on_surface: str | None, pieces: bool
+        self,
+        step: int,
+        fraction: int,
+        isovalue: float,
+        on_surface: str | None,
+        pieces: bool,
+        crop: Sequence[tuple[int, int]] | None,
     ) -> tuple[list[float], NDArray[np.float64]]: ...
     def values(self, step: int, fraction: int, box: Sequence[tuple[int, int]], level: int) -> NDArray[Any]: ...
     def description(self) -> About: ...

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _native
-from ._arguments import Crop, Isovalues, Number, Steps, T, Time, moment, number, several, span, time_number, whole
+from ._arguments import Crop, Isovalues, Number, Steps, T, Time, crop_box, moment, number, several, span, time_number, whole
 from ._errors import ArgumentError, Error, PlaceError, in_parameters, missing
 from ._html import table
 from ._mesh import Mesh
@@ -300,6 +300,7 @@ class Run:
         fraction: Number | None = None,
         array: str | None = None,
         on_surface: str | None = None,
+        crop: Crop | None = None,
     ) -> dict[str, float]:
         """Numbers of the surface: area, volume, pieces and more, by their names.
 
@@ -308,9 +309,10 @@ class Run:
 
         isovalue, step, time, fraction: as for `cells`.
         on_surface: the name of another array, for `mean`, `least` and `greatest` on the surface.
+        crop: vertices as for `build`: only the cells among them are measured, as if there were no others.
         """
-        at = moment(self, step, fraction, time)
-        found, _ = self._array(array).measure(*at, number(isovalue, "isovalue"), on_surface, False)
+        at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
+        found, _ = self._array(array).measure(*at, number(isovalue, "isovalue"), on_surface, False, box)
         return dict(zip(_measures(), found))
 
     def measures(
@@ -320,14 +322,16 @@ class Run:
         *,
         array: str | None = None,
         on_surface: str | None = None,
+        crop: Crop | None = None,
     ) -> NDArray[np.void]:
         """`measure` of each step: a structured array with the fields step, time and those of `measure`.
 
         steps: one, a slice or a range; None: all.
         """
         first, last, stride = span(slice(None) if steps is None else steps, "steps", len(self))
+        how: dict[str, Any] = {"array": array, "on_surface": on_surface, "crop": crop}
         rows = [
-            (step, float(self.times[step]), *self.measure(isovalue, step, array=array, on_surface=on_surface).values())
+            (step, float(self.times[step]), *self.measure(isovalue, step, **how).values())
             for step in range(first, last + 1, stride)
         ]
         fields = [("step", np.int64), ("time", np.float64), *((each, np.float64) for each in _measures())]
@@ -341,14 +345,15 @@ class Run:
         time: Time = None,
         fraction: Number | None = None,
         array: str | None = None,
+        crop: Crop | None = None,
     ) -> NDArray[np.void]:
         """The connected pieces of the surface, the largest area first: a structured array.
 
         Fields: triangles, area, volume (what the piece encloses: negative around lower values, NaN unless closed),
         euler, closed (1 or 0), and x, y, z each of centroid (weighted by area), low and high (its extent).
         """
-        at = moment(self, step, fraction, time)
-        _, rows = self._array(array).measure(*at, number(isovalue, "isovalue"), None, True)
+        at, box = moment(self, step, fraction, time), crop_box(crop, self.shape[1:])
+        _, rows = self._array(array).measure(*at, number(isovalue, "isovalue"), None, True, box)
         place = (np.float64, 3)
         kind = np.dtype([
             ("triangles", np.float64), ("area", np.float64), ("volume", np.float64), ("euler", np.float64),

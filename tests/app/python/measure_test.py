@@ -35,6 +35,22 @@ class Measures(SeriesTest):
         with self.assertRaisesRegex(isochron.Error, "isovalue"):
             run.measures(np.nan)
 
+    def test_of_a_part_are_those_of_its_values(self):
+        run, isovalue = self.run_, float(np.median(self.run_.values(1)))
+        crop = {"x": slice(1, 6), "z": slice(2, None)}
+        found, pieces = run.measure(isovalue, 1, crop=crop), run.pieces(isovalue, 1, crop=crop)
+        values = run.values(1)[2:, :, 1:6]
+        corners = [values[i : i - 1 or None, j : j - 1 or None, k : k - 1 or None]
+                   for i in (0, 1) for j in (0, 1) for k in (0, 1)]  # fmt: skip
+        self.assertEqual(found["cells"], np.count_nonzero(
+            (np.min(corners, axis=0) < isovalue) & (isovalue <= np.max(corners, axis=0))))  # fmt: skip
+        whole = np.prod([(n - 1) * d for n, d in zip(values.shape, run.spacing)])
+        self.assertAlmostEqual(found["volume"] + found["volume_below"], whole, delta=1e-9 * whole)
+        self.assertAlmostEqual(pieces["area"].sum(), found["area"], delta=1e-9 * found["area"])
+        self.assertEqual(run.measures(isovalue, 1, crop=crop)["area"][0], found["area"])
+        with self.assertRaisesRegex(isochron.Error, "crop: expected vertices from 0 to"):
+            run.measure(isovalue, 1, crop="0:1,0:1,5:99")
+
     def test_of_pieces_add_up(self):
         run, isovalue = self.run_, float(np.median(self.run_.values(1)))
         pieces, found = run.pieces(isovalue, 1), run.measure(isovalue, 1)

@@ -388,6 +388,53 @@ TEST_F(MeasuresTest, AreTheSameBitsByChunksAndAsAWholeAndBetweenSteps) {
     }
 }
 
+TEST_F(MeasuresTest, InABoxAreThoseOfASeriesOfItsValuesAlone) {
+    for (int round = 0; round < 24; ++round) {
+        const Vertices n{19, 35, 17};
+        TestField field(n, 2, ValueType::f32,
+                        round % 2 ? scaled(white_noise(random_), 3, 0)
+                                  : scaled(turbulence(random_), 3, 0));
+        for (std::size_t i = 0; round % 4 > 1 && i < std::size_t{19} * 35 * 17; ++i)
+            if (random_() % 30 == 0)
+                field.at<float>(0, i) = static_cast<float>(kNaN);
+        const Grid grid = placed(n, round % 3 == 0, random_);
+        VertexBox box;
+        Vertices size{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.first[axis] = static_cast<std::uint32_t>(random_()) % (n[axis] - 1);
+            size[axis] =
+                2 + static_cast<std::uint32_t>(random_()) % (n[axis] - box.first[axis] - 1);
+            box.last[axis] = box.first[axis] + size[axis] - 1;
+        }
+        TestField part(size, 2, ValueType::f32, [](double, double, double, double) { return 0; });
+        for (std::size_t step = 0, i = 0; step < 2; ++step, i = 0)
+            for (std::uint32_t z = box.first[2]; z <= box.last[2]; ++z)
+                for (std::uint32_t y = box.first[1]; y <= box.last[1]; ++y)
+                    for (std::uint32_t x = box.first[0]; x <= box.last[0]; ++x)
+                        part.at<float>(step, i++) =
+                            field.at<float>(step, (std::size_t{z} * n[1] + y) * n[0] + x);
+        Grid alone = grid.part(box.first, {box.last[0] + 1, box.last[1] + 1, box.last[2] + 1});
+        alone.origin = grid.physical({box.first[0], box.first[1], box.first[2]});
+        const Query query{round % 3 ? Instant(0) : Instant(0, 20000), 0.05};
+        const auto found = *SurfaceMeasures(indexed_at(field.view(), grid))
+                                .measure(query, {.box = box, .pieces = true});
+        const auto wanted =
+            *SurfaceMeasures(indexed_at(part.view(), alone)).measure(query, {.pieces = true});
+        for (std::size_t i = 0; i < measures().size(); ++i)
+            if (!std::isnan(wanted.values[i])) {
+                EXPECT_NEAR(found.values[i], wanted.values[i],
+                            1e-9 * (1 + std::abs(wanted.values[i])))
+                    << measures()[i].name;
+            }
+        ASSERT_EQ(found.pieces.size(), wanted.pieces.size());
+        for (std::size_t i = 0; i < found.pieces.size(); ++i) {
+            EXPECT_NEAR(found.pieces[i].area, wanted.pieces[i].area, 1e-9);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                EXPECT_NEAR(found.pieces[i].low[axis], wanted.pieces[i].low[axis], 1e-9);
+        }
+    }
+}
+
 TEST_F(MeasuresTest, OfNoSurfaceAreZeroAndWhole) {
     const TestField field({5, 4, 3}, 1, ValueType::u8,
                           [](double x, double, double, double) { return 10 + x; });

@@ -1,5 +1,5 @@
 // Removes triangles and the vertices that no other triangle uses.
-#include "index/export/mesh_crop.h"
+#include "index/surface/mesh_crop.h"
 
 #include "index/surface/mesh_cases.h"
 

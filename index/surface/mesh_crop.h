@@ -1,4 +1,4 @@
-// Crops a mesh that is exported: to a box, or to the corners that a function keeps.
+// Crops a mesh: to the cells of a box, or to the corners that a function keeps.
 #pragma once
 
 #include "index/surface/cell_mesh.h"

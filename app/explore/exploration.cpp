@@ -217,13 +217,17 @@ bool Exploration::may_prepare_later() const {
 /// A context for a thread beside that of the window; null: there is none.
 std::unique_ptr<stereo::GlContext> Exploration::context_beside() const {
     std::unique_ptr<stereo::GlContext> beside;
+    stereo::GlContext& drawing = session_->outputs().windows().drawing();
+    // Mesa 22.3's zink crashes now and then where two threads draw at once.
+    if (drawing.description().find("zink") != std::string::npos)
+        return beside;
     try {
         beside = stereo::make_context(config_.rendering.context,
                                       {.size = {1, 1}, .vsync = false, .visible = false});
         beside->leave();
     } catch (const render::Error&) { // all is done in the session's context
     }
-    session_->outputs().windows().drawing().make_current();
+    drawing.make_current();
     return beside;
 }
 

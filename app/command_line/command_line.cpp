@@ -476,6 +476,7 @@ int run_program(const ProgramText& text, std::initializer_list<void (*)(Command&
                 int argc, const char* const* argv) {
     // A file that may not grow further (ulimit -f) is an error of the call that writes, with a line.
     std::signal(SIGXFSZ, SIG_IGN);
+    keep_freed_memory();
     prepare_for_shortage(text.name);
     EndInTime::allow(text.name);
     int status = 0;

@@ -54,8 +54,16 @@ void end_for_shortage(int) {
 
 } // namespace
 
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    constexpr int kAtEnd = 16 << 20, kBlock = 4 << 20; // [byte]
+    ::mallopt(M_TRIM_THRESHOLD, kAtEnd); // setting one of them stops glibc from adapting the other
+    ::mallopt(M_MMAP_THRESHOLD, kBlock);
+#endif
+}
+
 void prepare_for_shortage(const char* program) {
-    struct rlimit space{};
+    struct rlimit space {};
     if (::getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY)
         return;
     address_space = space.rlim_cur;
@@ -64,7 +72,7 @@ void prepare_for_shortage(const char* program) {
     const std::string text = fmt::format("{}: {}\n", program, index::shortage_of_memory());
     line_length = std::min(text.size(), line.size());
     std::memcpy(line.data(), text.data(), line_length);
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = end_for_shortage;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
     for (const int crash : kCrashes)

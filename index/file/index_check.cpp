@@ -2,6 +2,7 @@
 #include "index/error.h"
 #include "index/file/index_file.h"
 #include "index/system/parallel.h"
+#include "index/system/read_ahead.h"
 #include "index/system/running_checksum.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,10 +33,19 @@ class LayerCheck {
         std::vector<std::uint32_t> places(store.grid().chunks_of_layer());
         std::iota(places.begin(), places.end(), 0u);
         const std::size_t pieces = (places.size() + kPlacesTogether - 1) / kPlacesTogether;
+        const auto fetch = [&](std::uint32_t layer) {
+            return store.fetch(step, layer, places, {});
+        };
+        std::optional<ReadAhead> ahead; // the disk has all of a small step in a few requests
+        if (!store.is_small())
+            ahead.emplace(store.grid().layers(), fetch);
         for (std::uint32_t layer = 0; layer < store.grid().layers(); ++layer) {
             check_since(store, step, layer);
             planes_.resize(store.carries_values() ? store.grid().size(layer, 0)[2] * plane : 0);
-            store.fetch(step, layer, places, {});
+            if (ahead)
+                ahead->reach(layer);
+            else
+                fetch(layer);
             parallel_for(pieces, thread_count(0),
                          [&](std::size_t piece, unsigned) {
                              const std::size_t first = piece * kPlacesTogether;

@@ -26,6 +26,8 @@
 namespace isochron::index {
 namespace {
 
+constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 35; ///< in a step that is shown
+
 /// Refuses to replace a file that is not an index, so that a typing error does not destroy data.
 void refuse_foreign_file(const std::filesystem::path& out) {
     std::error_code ignored;
@@ -38,8 +40,18 @@ void refuse_foreign_file(const std::filesystem::path& out) {
             fmt::format("{}: exists and is not an isochron index: not replaced", out.string()));
 }
 
-void check_array(const SeriesInfo& info, const BuildOptions& options) {
+/// A new index can be shown. One that holds a larger grid, as others could be built, may still grow.
+void check_can_be_shown(const Grid& grid) {
+    if (grid.vertex_count() > kMostVertices)
+        throw Error(fmt::format("{} vertices, expected at most 2^35 in a step; --crop reads a part "
+                                "of the grid, --stride 2 every second vertex",
+                                grid.vertex_count()));
+}
+
+void check_array(const SeriesInfo& info, const BuildOptions& options, bool is_new) {
     check_limits(info);
+    if (is_new)
+        check_can_be_shown(info.grid);
     const bool tree = options.with_tree || (options.tiers && options.tiers->has(Tier::tree));
     if (tree && has_wide_ids(info.grid))
         throw Error(fmt::format("{} cells, expected fewer than 2^32 for the tier tree",
@@ -50,9 +62,9 @@ void check_array(const SeriesInfo& info, const BuildOptions& options) {
                                 info.grid.cell_count()));
 }
 
-void check_options(const SeriesInfo& info, const BuildOptions& options) {
+void check_options(const SeriesInfo& info, const BuildOptions& options, bool is_new) {
     try {
-        check_array(info, options);
+        check_array(info, options, is_new);
         if (options.color)
             expect_colors_of(options.color->info(), info);
         if (options.further.size() >= kMostArrays)
@@ -61,7 +73,7 @@ void check_options(const SeriesInfo& info, const BuildOptions& options) {
         std::set<std::string> names{info.array};
         for (const FurtherArray& array : options.further) {
             const SeriesInfo& further = array.series->info();
-            check_array(further, options);
+            check_array(further, options, is_new);
             expect_colors_of(further, info);
             if (further.grid != info.grid)
                 throw Error(fmt::format("arrays {} and {} lie at different places", info.array,
@@ -211,7 +223,7 @@ void build_arrays(VolumeSeries& first, const std::filesystem::path& out, const B
 
 void build_index(VolumeSeries& series, const std::filesystem::path& out,
                  const BuildOptions& options, const Progress& progress, Team& team) {
-    check_options(series.info(), options);
+    check_options(series.info(), options, true);
     NewTarget target(team, out);
     if (!options.replaces_any)
         team.together([&] { refuse_foreign_file(out); });
@@ -226,7 +238,7 @@ void build_index(VolumeSeries& series, const std::filesystem::path& out,
 void append_index(VolumeSeries& series, const IndexFile& held, GrowingSink& file,
                   const std::filesystem::path& out, const BuildOptions& options,
                   const Progress& progress, Team& team) {
-    check_options(series.info(), options);
+    check_options(series.info(), options, false);
     GrowingTarget target(team, file, held.header());
     build_arrays(series, out, options, progress, team, target, &held);
 }

@@ -1,6 +1,7 @@
 // Search with bricks: candidates by their extremes, then the exact test of all their cells at once.
 #include "index/scan/bricks.h"
 #include "index/scan/scan.h"
+#include "index/system/huge_pages.h"
 #include "index/volume/ordinal.h"
 #include "index/volume/stored_cut.h"
 
@@ -28,6 +29,9 @@ namespace {
 std::size_t scan_percent(ValueType type) {
     return size_of(type) == 1 ? 25 : 40;
 }
+
+/// Active cells of a candidate, of 256 cells: as many as most surfaces have, or more.
+constexpr std::size_t kUsuallyActive = 64;
 
 constexpr auto kCells = BrickGrid::kCells;
 constexpr std::size_t kRows = kCells[1] * kCells[2]; ///< rows of cells in a brick
@@ -286,6 +290,8 @@ std::optional<std::uint64_t> search_step(const StepValues& values,
     const Candidates candidates(bricks, level);
     if (may_scan && candidates.count() * 100 > candidates.bricks() * scan_percent(values.type))
         return std::nullopt;
+    if (out.empty())
+        make_room(out, candidates.count() * kUsuallyActive);
     return visit_value_type(values.type, [&]<class T>(std::type_identity<T>) {
         BrickSearch<T> search(values, step, from_ordinal<T>(static_cast<Ordinal<T>>(cut)), out);
         candidates.for_each_ahead<4>([&](std::uint32_t brick)

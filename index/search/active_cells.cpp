@@ -34,6 +34,12 @@ std::uint32_t scanned_parts(const Grid& grid) {
     return (grid.cells()[2] + planes - 1) / planes;
 }
 
+/// The cells of a layer of bricks.
+std::uint64_t cells_of_brick_layer(const Grid& grid) {
+    const auto [width, height, depth] = grid.cells();
+    return std::uint64_t{width} * height * BrickGrid::kCells[2];
+}
+
 /// What is done with each part of a step.
 class PartsSearch {
   public:
@@ -84,7 +90,7 @@ class PartsSearch {
         std::vector<CellId>& ids = result.cells.ids;
         result.cells.candidates = search_bricks(all.values, *levels_, bricks, order_.query, ids);
         stop_if_asked(stop_);
-        sort_ids(ids, step_.grid().cell_count());
+        sort_ids(ids, step_.grid().cell_count(), cells_of_brick_layer(step_.grid()));
         CellWalk walk(step_.grid());
         std::erase_if(ids, [&](CellId id) {
             walk.to(id);
@@ -186,7 +192,7 @@ class PartsSearch {
             result.cells.candidates =
                 search_bricks(part.cells, *levels_, part.bricks, order_.query, ids);
             stop_if_asked(stop_);
-            sort_ids(ids, part.cells.grid.cell_count());
+            sort_ids(ids, part.cells.grid.cell_count(), cells_of_brick_layer(part.cells.grid));
         } else {
             scan(part.cells, order_.query, ids);
             result.cells.candidates = ids.size();

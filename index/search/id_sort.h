@@ -11,4 +11,8 @@ namespace isochron::index {
 /// are not below `cells`, which a damaged index may give.
 void sort_ids(std::vector<CellId>& ids, std::uint64_t cells);
 
+/// Sorts ids that come in groups, as those of bricks do: all those below a multiple of `group` before
+/// all others. The marks of one group are used for all.
+void sort_ids(std::vector<CellId>& ids, std::uint64_t cells, std::uint64_t group);
+
 } // namespace isochron::index

@@ -1,5 +1,6 @@
 // Positions and planes of active cells: takes differences cell by cell, makes planes in batches.
 #include "index/surface/cell_set.h"
+#include "index/system/huge_pages.h"
 #include "index/volume/cell_difference.h"
 #include "index/volume/cell_walk.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -65,6 +67,7 @@ bool shade_values(const StepValues& values, const Query& query, std::span<const 
     std::optional<CellDifferences<T>> differences;
 
     const std::size_t count = ids.size();
+    const bool new_memory = shaded.capacity() < count;
     shaded.reserve(count);
     CellPoint* const points = shaded.data();
     for (std::size_t i = 0; i < count; ++i) {
@@ -72,7 +75,10 @@ bool shade_values(const StepValues& values, const Query& query, std::span<const 
             if (stop.stop_requested())
                 return false;
             // Not all at once: fresh memory takes longer than what is written there.
-            shaded.resize(std::min(i + kBetweenStops, count));
+            const std::size_t end = std::min(i + kBetweenStops, count);
+            if (new_memory)
+                fetch_pages(std::as_writable_bytes(std::span(points + i, end - i)));
+            shaded.resize(end);
         }
         if (walk.to(ids[i])) {
             y = walk.y();

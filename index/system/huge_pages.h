@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace isochron::index {
 
@@ -20,6 +21,15 @@ void fetch_pages(std::span<std::byte> memory);
 /// Whether the last page has been touched before: `fetch_pages` of memory that is all there takes a
 /// third of the time of a copy. True where the system does not say.
 bool last_page_is_there(std::span<const std::byte> memory);
+
+/// Makes room for so many values in an empty vector, and fetches the pages that it does not have yet.
+template <class T>
+void make_room(std::vector<T>& empty, std::size_t count) {
+    if (empty.capacity() >= count)
+        return;
+    empty.reserve(count);
+    fetch_pages({reinterpret_cast<std::byte*>(empty.data()), count * sizeof(T)});
+}
 
 struct FreeMemory {
     void operator()(std::byte* memory) const;

@@ -11,6 +11,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 namespace isochron::index {
@@ -32,11 +33,21 @@ void expect_regular(const std::filesystem::path& path, const struct stat& status
         throw Error(fmt::format("{}: not a regular file", path.string()));
 }
 
-struct stat status_of(const std::filesystem::path& path, int file) {
-    struct stat status{};
-    if (::fstat(file, &status) != 0)
+/// Opens a regular file. @return its descriptor and size
+std::pair<int, std::uint64_t> opened(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file < 0)
         refuse(path, errno);
-    return status;
+    try {
+        struct stat status{};
+        if (::fstat(file, &status) != 0)
+            refuse(path, errno);
+        expect_regular(path, status);
+        return {file, static_cast<std::uint64_t>(status.st_size)};
+    } catch (...) {
+        ::close(file);
+        throw;
+    }
 }
 
 } // namespace
@@ -54,21 +65,11 @@ FileState state_of(const std::filesystem::path& path) {
 }
 
 int open_regular(const std::filesystem::path& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (file < 0)
-        refuse(path, errno);
-    try {
-        expect_regular(path, status_of(path, file));
-    } catch (...) {
-        ::close(file);
-        throw;
-    }
-    return file;
+    return opened(path).first;
 }
 
-InputFile::InputFile(std::filesystem::path path)
-    : path_(std::move(path)), file_(open_regular(path_)) {
-    size_ = static_cast<std::uint64_t>(status_of(path_, file_).st_size);
+InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+    std::tie(file_, size_) = opened(path_);
 }
 
 InputFile::~InputFile() {

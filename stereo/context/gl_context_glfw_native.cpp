@@ -4,6 +4,9 @@
 #include "stereo/context/glx_types.h"
 #include "stereo/context/shared_library.h"
 
+#include "index/error.h"
+#include "index/system/module.h"
+
 #define EGL_NO_X11
 #include <EGL/egl.h>
 
@@ -17,7 +20,6 @@ using RROutput = XID;
 #define GLFW_EXPOSE_NATIVE_EGL
 #include <GLFW/glfw3.h>
 #include <GLFW/glfw3native.h>
-#include <dlfcn.h>
 
 namespace isochron::stereo {
 namespace {
@@ -62,7 +64,10 @@ struct GlfwOfX11 {
 
 GlfwOfX11 glfw_of_x11() {
     const auto find = []<class F>(F*& function, const char* name) {
-        function = reinterpret_cast<F*>(dlsym(RTLD_DEFAULT, name));
+        try {
+            function = reinterpret_cast<F*>(index::module_symbol("isochron_glfw", name));
+        } catch (const index::Error&) {
+        }
     };
     GlfwOfX11 found{};
     find(found.display, "glfwGetX11Display");

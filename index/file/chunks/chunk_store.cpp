@@ -100,10 +100,10 @@ std::uint64_t ChunkStore::levels_at(const StepEntry& entry) const {
 
 /// Keeps the levels of a type that has levels in each step.
 LevelMapPtr ChunkStore::keep_levels(std::uint32_t step, std::span<const std::byte> bytes) const {
-    const auto levels = step_levels(array_.info.type, bytes);
+    auto levels = step_levels(array_.info.type, bytes);
     if (!levels)
         decoder_.damaged(step, "the levels of its bricks");
-    auto kept = std::make_shared<LevelMap>(*levels);
+    auto kept = std::make_shared<LevelMap>(std::move(*levels));
     // For types of two bytes the map has a table, too.
     cache_.add(key(levels_kept, step), kept,
                bytes.size() + (size_of(array_.info.type) == 2 ? 1 << 16 : 0));

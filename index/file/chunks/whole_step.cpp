@@ -18,9 +18,9 @@ namespace {
 /// Starting threads takes longer than decoding a step up to this size.
 constexpr std::size_t kByOneThread = 2 << 20;
 
-/// Memory of the small step that this thread has read last. In new memory each page is cleared before
-/// it is read into, which takes longer than reading.
-thread_local std::vector<std::byte> spare_bytes;
+/// Bytes of a small step that are read at a time where not all are read at once: their memory is used
+/// again for the next ones.
+constexpr std::uint64_t kOfSmallStep = 64 << 10;
 
 struct WholeStep {
     LargeMemory values; ///< their padding is zero
@@ -30,6 +30,8 @@ struct WholeStep {
 /// Large memory for a step, in which access is in any order; its padding is 0.
 LargeMemory step_memory(std::size_t bytes) {
     LargeMemory memory = large_memory(bytes);
+    if (bytes <= kByOneThread)
+        fetch_pages({memory.get(), bytes});
     const std::size_t padding = std::min(bytes, kPartAlignment);
     std::fill_n(memory.get() + bytes - padding, padding, std::byte{0});
     return memory;
@@ -50,22 +52,37 @@ void place_bricks(const ChunkBricks& of_chunk, const BrickGrid& grid,
 void ChunkStore::read_records(const ChunkLayer& table, std::span<const std::uint32_t> places,
                               const std::stop_token& stop, const TakeRecord& f) const {
     thread_local std::vector<std::byte> bytes;
-    for (const RecordRun& run : runs_of(table, places)) {
-        stop_if_asked(stop);
-        bytes.resize(std::max<std::size_t>(bytes.size(), run.end - run.begin));
-        source_.read(run.begin, std::span(bytes).first(run.end - run.begin));
-        for (std::size_t i = run.first; i <= run.last; ++i) {
-            const std::uint64_t begin = table.offsets[places[i]];
-            f(i, std::span<const std::byte>(bytes).subspan(begin - run.begin,
-                                                           table.offsets[places[i] + 1] - begin));
+    const std::uint64_t together = is_small() ? kOfSmallStep : kRecordsTogether;
+    for (const RecordRun& run : runs_of(table, places))
+        for (std::size_t first = run.first, next = first; first <= run.last; first = next) {
+            stop_if_asked(stop);
+            const std::uint64_t begin = table.offsets[places[first]];
+            std::uint64_t end = begin;
+            for (; next <= run.last; ++next) {
+                const std::uint64_t with_next = table.offsets[places[next] + 1];
+                if (next > first && with_next - begin > together)
+                    break;
+                end = with_next;
+            }
+            if (const std::uint64_t room = std::max(together, end - begin);
+                bytes.capacity() < room) { // grows once
+                bytes.clear();
+                make_room(bytes, room);
+            }
+            bytes.resize(std::max<std::size_t>(bytes.size(), end - begin));
+            const auto read = std::span(bytes).first(end - begin);
+            source_.read(begin, read);
+            for (std::size_t i = first; i < next; ++i)
+                f(i, read.subspan(table.offsets[places[i]] - begin, table.bytes(places[i])));
         }
-    }
 }
 
-/// Reads all of a small step in one request, and keeps its tables and the levels of its bricks.
+/// Reads all of a small step in one request, and keeps its tables and the levels of its bricks. The
+/// memory is free again before the results are made, which may lie there.
 std::vector<std::byte> ChunkStore::read_at_once(std::uint32_t step) const {
     const StepEntry& entry = array_.steps[step];
-    std::vector<std::byte> bytes = std::exchange(spare_bytes, {});
+    std::vector<std::byte> bytes;
+    make_room(bytes, entry.bytes);
     bytes.resize(entry.bytes);
     source_.read(entry.offset, bytes);
     const std::uint32_t count = grid_.chunks_of_layer();
@@ -201,7 +218,6 @@ LoadedStep ChunkStore::whole(std::uint32_t step, const std::stop_token& stop) co
         };
         parallel_for(grid_.layers(), stride <= kByOneThread ? 1 : thread_count(0), take, {});
         cache_.add(key(whole_kept, step), all, stride + all->bricks.size());
-        spare_bytes = std::move(at_once);
         held = all;
     }
     return {.values = {.grid = info.grid,

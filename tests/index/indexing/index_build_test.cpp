@@ -161,6 +161,10 @@ TEST_F(IndexBuildTest, SeriesBeyondTheLimitsAreRefused) {
                     info.grid.vertices = {65537, 65537, 2};
                 }),
                 HasSubstr("cells"));
+    EXPECT_THAT(with([](auto& info) {
+                    info.grid.vertices = {4096, 4096, 2049};
+                }),
+                HasSubstr("34376515584 vertices, expected at most 2^35 in a step"));
     EXPECT_THAT(with([](auto& info) { info.grid.spacing.y = 0; }), HasSubstr("spacing"));
     EXPECT_THAT(with([](auto& info) { info.grid.direction[2] = info.grid.direction[1]; }),
                 HasSubstr("one plane"));

@@ -380,5 +380,27 @@ TEST(IdSort, FewAndManyIdsAreSortedAndForeignOnesDropped) {
     }
 }
 
+TEST(IdSort, IdsInGroupsAreSortedAsTheyAreWithoutGroups) {
+    const std::uint32_t seed = test_seed();
+    std::mt19937 random(seed);
+    constexpr std::uint32_t kCells = 100'003;
+    for (const std::uint32_t group : {1u, 64u, 4'099u, 100'003u, 200'000u})
+        for (const std::size_t count : {0u, 1u, 50u, 5'000u, 100'003u}) {
+            std::vector<CellId> expected(kCells);
+            std::iota(expected.begin(), expected.end(), CellId{0});
+            std::shuffle(expected.begin(), expected.end(), random);
+            expected.resize(count);
+            if (count > 0)
+                expected.push_back(expected.front());
+            std::vector<CellId> ids = expected;
+            std::stable_sort(ids.begin(), ids.end(),
+                             [&](CellId a, CellId b) { return a / group < b / group; });
+            ids.insert(ids.end(), {kCells, 0xffffffffu});
+            sort_ids(expected, kCells);
+            sort_ids(ids, kCells, group);
+            EXPECT_EQ(ids, expected) << count << " in groups of " << group;
+        }
+}
+
 } // namespace
 } // namespace isochron::index

@@ -63,7 +63,7 @@ void keep_freed_memory() {
 }
 
 void prepare_for_shortage(const char* program) {
-    struct rlimit space {};
+    struct rlimit space{};
     if (::getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY)
         return;
     address_space = space.rlim_cur;
@@ -72,7 +72,7 @@ void prepare_for_shortage(const char* program) {
     const std::string text = fmt::format("{}: {}\n", program, index::shortage_of_memory());
     line_length = std::min(text.size(), line.size());
     std::memcpy(line.data(), text.data(), line_length);
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = end_for_shortage;
     action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
     for (const int crash : kCrashes)

@@ -117,7 +117,7 @@ TEST_F(IndexBuildTest, AFullDiskIsToldAndLeavesNothingBehind) {
     const auto whole = static_cast<rlim_t>(std::filesystem::file_size(folder.path() / "whole"));
     std::filesystem::remove(folder.path() / "whole");
     // A limit on the size of files fails a write as a full disk does.
-    struct rlimit before {};
+    struct rlimit before{};
     ASSERT_EQ(0, getrlimit(RLIMIT_FSIZE, &before));
     const auto previous = std::signal(SIGXFSZ, SIG_IGN);
     for (const rlim_t limit : {rlim_t{0}, rlim_t{10'000}, whole / 2, whole - 1}) {
@@ -153,17 +153,11 @@ TEST_F(IndexBuildTest, SeriesBeyondTheLimitsAreRefused) {
         return build_error(changed, folder.path() / "a");
     };
     EXPECT_THAT(with([](auto& info) { info.grid.vertices = {1, 5, 5}; }), HasSubstr("vertices"));
-    EXPECT_THAT(with([](auto& info) {
-                    info.grid.vertices = {70'000, 2, 2};
-                }),
+    EXPECT_THAT(with([](auto& info) { info.grid.vertices = {70'000, 2, 2}; }),
                 HasSubstr("vertices"));
-    EXPECT_THAT(with([](auto& info) {
-                    info.grid.vertices = {65537, 65537, 2};
-                }),
+    EXPECT_THAT(with([](auto& info) { info.grid.vertices = {65537, 65537, 2}; }),
                 HasSubstr("cells"));
-    EXPECT_THAT(with([](auto& info) {
-                    info.grid.vertices = {4096, 4096, 2049};
-                }),
+    EXPECT_THAT(with([](auto& info) { info.grid.vertices = {4096, 4096, 2049}; }),
                 HasSubstr("34376515584 vertices, expected at most 2^35 in a step"));
     EXPECT_THAT(with([](auto& info) { info.grid.spacing.y = 0; }), HasSubstr("spacing"));
     EXPECT_THAT(with([](auto& info) { info.grid.direction[2] = info.grid.direction[1]; }),

@@ -94,9 +94,12 @@ TEST_F(EndInTimeTest, GivesAllThreadsTheUsualPriority) {
                     _exit(7); // it may not
                 setpriority(PRIO_PROCESS, own, 19);
                 EndInTime::signaled(SIGTERM);
-                while (getpriority(PRIO_PROCESS, own) != usual)
+                for (int i = 0; i < 20'000 && getpriority(PRIO_PROCESS, own) != usual; ++i)
                     std::this_thread::sleep_for(1ms);
-                _exit(getpriority(PRIO_PROCESS, number) == usual ? 7 : 8);
+                _exit(getpriority(PRIO_PROCESS, own) == usual &&
+                              getpriority(PRIO_PROCESS, number) == usual
+                          ? 7
+                          : 8);
             }).join();
         },
         testing::ExitedWithCode(7), "");

@@ -6,11 +6,15 @@
 
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include <semaphore.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace isochron::app {
@@ -35,6 +39,17 @@ Watch& watch_of_process() {
     return *watch;
 }
 
+/// A process is gone once its last thread is, and on a busy machine a thread of the lowest priority (a
+/// driver keeps its cache of shaders with some) waits for seconds until it may end.
+void raise_all_threads() noexcept {
+    const int usual = getpriority(PRIO_PROCESS, static_cast<id_t>(getpid()));
+    std::error_code gone;
+    for (std::filesystem::directory_iterator at("/proc/self/task", gone), end; !gone && at != end;
+         at.increment(gone))
+        setpriority(PRIO_PROCESS, static_cast<id_t>(std::atoi(at->path().filename().c_str())),
+                    usual);
+}
+
 [[noreturn]] void end(Watch& watch) {
     const std::chrono::seconds most = watch.saves ? EndInTime::kToSave : EndInTime::kToCleanUp;
     ::alarm(static_cast<unsigned>(most.count())); // ends it where even that hangs
@@ -48,12 +63,14 @@ Watch& watch_of_process() {
             print_safely(stderr, "\n"); // behind a bar of progress
         print_safely(stderr, "{}: canceled\n", watch.program.load());
     }
+    raise_all_threads(); // work may have lowered its own meanwhile
     ::_exit(128 + watch.signal);
 }
 
 void wait_for_a_signal(Watch& watch) {
     while (sem_wait(&watch.came) != 0) {
     }
+    raise_all_threads(); // refused where the user may not
     std::this_thread::sleep_for(EndInTime::kByItself);
     if (watch.program != nullptr)
         end(watch);

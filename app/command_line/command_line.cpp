@@ -31,6 +31,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include <sys/resource.h>
@@ -144,8 +145,7 @@ Option& Option::positive() {
     return accepted_by(
         [](const std::string& text) {
             double value = 0;
-            const bool good =
-                CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+            const bool good = CLI::detail::lexical_cast(text, value) && value > 0;
             return good ? std::string() : fmt::format("expected a positive number, got {}", text);
         },
         "");
@@ -201,9 +201,37 @@ void Command::require_subcommand() {
     app_->require_subcommand(1);
 }
 
+namespace {
+
+/// What an option of type T takes, maybe several times.
+template <class T>
+struct Taken {
+    using Value = T;
+};
+template <class T>
+struct Taken<std::optional<T>> {
+    using Value = T;
+};
+template <class T>
+struct Taken<std::vector<T>> {
+    using Value = T;
+};
+
+} // namespace
+
 template <class T>
 Option Command::option(const std::string& names, T& value, const std::string& help) {
-    return Option(*app_->add_option(names, value, help));
+    using Value = Taken<T>::Value;
+    Option added(*app_->add_option(names, value, help));
+    if constexpr (std::is_floating_point_v<Value>)
+        added.accepted_by(
+            [](const std::string& text) {
+                Value number{};
+                const bool bad = CLI::detail::lexical_cast(text, number) && !std::isfinite(number);
+                return bad ? fmt::format("expected a finite number, got {}", text) : std::string();
+            },
+            "");
+    return added;
 }
 // One line for each type of value that options have.
 template Option Command::option(const std::string&, std::filesystem::path&, const std::string&);

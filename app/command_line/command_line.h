@@ -92,8 +92,8 @@ class Command {
     void require_subcommand();
     /// `names` is `--long`, `-s,--long`, or a word for a positional argument. Further long names are
     /// spellings of earlier versions, which are accepted and not told: `-o,--output,--out`. `value`
-    /// must live until the command has run. Its type says what is parsed: a path, a string, a number,
-    /// a std::optional of one, or a std::vector of them.
+    /// must live until the command has run. Its type says what is parsed: a path, a string, a finite
+    /// number, a std::optional of one, or a std::vector of them.
     template <class T>
     Option option(const std::string& names, T& value, const std::string& help);
     Option flag(const std::string& names, bool& value, const std::string& help);

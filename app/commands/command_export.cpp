@@ -25,7 +25,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -135,8 +134,6 @@ index::ExportRequest request_of(const ExportArguments& arguments, const index::I
     if (plan.fraction > 0) // each step must have a next one
         index::instant_named(file, plan.steps.back(), plan.fraction);
     for (const double isovalue : arguments.isovalues) {
-        if (!std::isfinite(isovalue))
-            throw UsageError(fmt::format("--isovalue: expected a number, got {}", isovalue));
         const std::size_t number = request.surfaces.size();
         request.surfaces.push_back({.isovalue = isovalue,
                                     .name = surface_name(info, isovalue),

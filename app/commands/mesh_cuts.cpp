@@ -31,8 +31,7 @@ std::optional<interaction::ClipPlane> plane_of(const std::vector<double>& number
     const glm::dvec3 point(numbers[0], numbers[1], numbers[2]);
     const glm::dvec3 normal(numbers[3], numbers[4], numbers[5]);
     const double length = glm::length(normal);
-    if (!std::ranges::all_of(numbers, [](double each) { return std::isfinite(each); }) ||
-        !(length > 0) || !std::isfinite(length))
+    if (!(length > 0) || !std::isfinite(length))
         throw UsageError(fmt::format("--clip {:g}: expected a point on the plane and its normal, "
                                      "which is not 0: X Y Z NX NY NZ",
                                      fmt::join(numbers, " ")));

@@ -13,7 +13,6 @@
 #include "app/explore/pattern_exploration.h"
 #include "app/explore/window_size.h"
 #include "app/indexing/open_index.h"
-#include "app/kept/session_picture.h"
 #include "app/loop/data_window.h"
 #include "app/loop/live_recording.h"
 #include "app/loop/new_steps.h"
@@ -33,7 +32,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -68,17 +66,6 @@ std::optional<std::string> chosen_data(const ExploreOptions& options, ClusterJob
                               .window = page});
     signals.check();
     return chosen ? std::optional(chosen->string()) : std::nullopt;
-}
-
-/// The small picture of a session, read in the background.
-std::shared_future<render::Image> picture_of(const SavedSession& session, BackgroundWork& reading) {
-    auto read = std::make_shared<std::promise<render::Image>>();
-    reading.post([read, png = session.picture, &reading] {
-        read->set_value(png.empty() ? render::Image() : picture_in(png).value_or(render::Image()));
-        reading.wake();
-        return std::string();
-    });
-    return read->get_future().share();
 }
 
 } // namespace
@@ -429,7 +416,8 @@ std::vector<std::filesystem::path> Exploration::offer_earlier(BackgroundWork& re
                               state_of(each.session, session_->state(), hash, file_->info().steps(),
                                        each.path.string())
                                   .as_commands(),
-                              each.session.name, each.path, picture_of(each.session, reading)});
+                              each.session.name, each.path,
+                              picture_read(reading, [png = each.session.picture] { return png; })});
         } catch (const std::exception&) { // `--resume` would say what is wrong with it
         }
     }

@@ -24,7 +24,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -106,9 +105,6 @@ Config configure(const ExploreOptions& options) {
 void check_start(const ExploreOptions& options, const index::IndexFile& file, std::size_t steps) {
     if (options.step && *options.step >= steps)
         throw UsageError(fmt::format("--step: expected 0 to {}, got {}", steps - 1, *options.step));
-    if (options.isovalue && !std::isfinite(*options.isovalue))
-        throw UsageError(
-            fmt::format("--isovalue: expected a finite number, got {}", *options.isovalue));
     if (options.isovalue)
         warn_beyond(*options.isovalue, file.array(first_array(options, file)));
 }

@@ -87,19 +87,31 @@ FileWindow::Offers offers_beside_files(BackgroundWork& reading) {
     const auto pictures = std::make_shared<std::optional<Pictures>>();
     return {.demo = demo_data(),
             .picture = [&reading, pictures, folder](const std::filesystem::path& data) {
-                const auto read = std::make_shared<std::promise<render::Image>>();
-                reading.post([&reading, pictures, folder, read, data] {
+                return picture_read(reading, [pictures, folder, data] {
                     if (!*pictures)
                         *pictures = newest_pictures(*folder);
                     const auto found = (*pictures)->find(data);
-                    read->set_value(found == (*pictures)->end()
-                                        ? render::Image()
-                                        : picture_in(found->second).value_or(render::Image()));
-                    reading.wake();
-                    return std::string();
+                    return found == (*pictures)->end() ? std::string() : found->second;
                 });
-                return read->get_future().share();
             }};
+}
+
+std::shared_future<render::Image> picture_read(BackgroundWork& reading,
+                                               std::function<std::string()> png) {
+    const auto read = std::make_shared<std::promise<render::Image>>();
+    auto picture = read->get_future().share();
+    reading.post([&reading, read, png = std::move(png)] {
+        std::optional<render::Image> found;
+        try {
+            if (const std::string bytes = png(); !bytes.empty())
+                found = picture_in(bytes);
+        } catch (const std::exception&) { // whoever waits for it gets an empty one
+        }
+        read->set_value(std::move(found).value_or(render::Image()));
+        reading.wake();
+        return std::string();
+    });
+    return picture;
 }
 
 std::string why_not_open(const std::filesystem::path& data) {

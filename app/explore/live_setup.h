@@ -8,6 +8,8 @@
 #include "app/loop/movie_maker.h"
 
 #include <filesystem>
+#include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,11 @@ MovieOrders movie_orders(const ExploreOptions& options, interaction::RecordingHe
 /// The demo, which `why_not_open` makes when somebody opens it, and the pictures of recent data.
 /// @param reading reads them in the background; outlives what is returned
 FileWindow::Offers offers_beside_files(BackgroundWork& reading);
+
+/// The small picture of a session, read in the background, which is woken then; an empty one where it
+/// cannot be read. @param png gives its bytes there @param reading outlives the task
+std::shared_future<render::Image> picture_read(BackgroundWork& reading,
+                                               std::function<std::string()> png);
 
 /// Remembers the data as recently opened, and shows the introduction if the user is new.
 /// @param data their name; empty: they are not remembered

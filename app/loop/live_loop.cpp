@@ -1,6 +1,7 @@
 // The live loop, from devices to frames.
 #include "app/loop/live_loop.h"
 
+#include "app/end_in_time.h"
 #include "app/frame/pacer.h"
 
 #include <algorithm>
@@ -113,6 +114,7 @@ bool LiveLoop::may_wait(const FrameSharing& frames, const stereo::Headset* heads
 std::vector<interaction::WindowEvent> LiveLoop::new_events(const stereo::Windows& windows) {
     if (waited_)
         return {};
+    const DrawsOnly waits; // maybe for the display
     return options_.behind_early(windows.poll_events());
 }
 
@@ -141,6 +143,7 @@ bool LiveLoop::wait(const FrameOutlook& next, const stereo::Windows& windows) {
     for (const auto& [place, companion] : companions_)
         companion->rest();
     const Seconds end = clock_() + *longest;
+    const DrawsOnly waits;
     windows.wait(*wake_, *longest);
     if (clock_() < end)
         idle_.woken();

@@ -53,6 +53,7 @@ void SessionControl::give_pictures(Session& session, const FrameReport& frame) {
         capture_.ask();
         asked_ = wishes.final;
     }
+    session.set_awaited(capture_.wanted() > 0);
     const CaptureView view = session.capture_view(frame);
     // A client that wants one picture after another slows no display.
     const bool is_due = frame.time >= next_picture_;

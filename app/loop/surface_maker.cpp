@@ -1,6 +1,7 @@
 // Surfaces that a session exports as files.
 #include "app/loop/surface_maker.h"
 
+#include "app/end_in_time.h"
 #include "app/output/export_request.h"
 #include "app/text.h"
 #include "index/error.h"
@@ -91,7 +92,10 @@ void SurfaceMaker::before_frame(Session& session, const interaction::Commands& b
 
 std::vector<std::string> SurfaceMaker::finish() {
     exports_.cancel();
-    exports_.finish();
+    {
+        const DrawsOnly waits; // maybe for a disk
+        exports_.finish();
+    }
     take_ended();
     return messages();
 }

@@ -164,6 +164,7 @@ class Server final : public HttpServer {
                     parts.hosts.emplace_back(name);
             }
         site_.emplace(std::move(parts));
+        errno = 0;
         if (secure && MHD_is_feature_supported(MHD_FEATURE_TLS) != MHD_YES)
             refuse("--certificate: this libmicrohttpd has no TLS");
         // Copies: libmicrohttpd reads them as long as it runs.
@@ -174,7 +175,6 @@ class Server final : public HttpServer {
              {MHD_OPTION_HTTPS_MEM_KEY, 0, key_.data()},
              {MHD_OPTION_END, 0, nullptr}}};
         const MHD_OptionItem none{MHD_OPTION_END, 0, nullptr};
-        errno = 0;
         daemon_ = MHD_start_daemon(
             MHD_USE_EPOLL_INTERNAL_THREAD | (secure ? MHD_USE_TLS : 0u), 0, nullptr, nullptr,
             answer_request, &*site_, MHD_OPTION_LISTEN_SOCKET, listener_,

@@ -224,6 +224,7 @@ void Session::prepare_first(const std::function<bool(float)>& goes_on,
 }
 
 bool Session::prepare_some() {
+    const DrawsOnly draws; // a driver compiles for seconds
     const bool has = preparation_ && preparation_->advance();
     if (preparation_ && preparation_->is_done()) {
         preparation_.reset();
@@ -242,7 +243,7 @@ void Session::draw_eyes(const Frame& frame, const Picture& now,
     const auto parts = plan_.state.in_parts();
     const bool in_parts = parts == now.footprint;
     partial_.begin_frame(in_parts);
-    samples_.begin_frame(is_settled(frame) && !prepares());
+    samples_.begin_frame(is_settled(frame));
     if (parts && !frame.report.redrawn && !in_parts && outputs_.want(now.audience)) {
         samples_.give_up();
         if (auto whole = partial_.draw(frame, now, overlay)) {
@@ -300,6 +301,10 @@ bool Session::is_settled(const Frame& frame) const {
            scene_.cells().is_complete();
 }
 
+bool Session::samples_come_later() const {
+    return prepares() && !awaited_ && captures_.wanted() == 0;
+}
+
 /// Keeps the last picture. It is composed anew only if something else lies over it, or if it has more
 /// samples.
 void Session::show_again(const Frame& frame, const Picture& now, const Outputs::Overlay& overlay,
@@ -307,7 +312,7 @@ void Session::show_again(const Frame& frame, const Picture& now, const Outputs::
     const bool can_stay = frames_->alone() && outputs_.can_stay();
     if (can_stay)
         panel_.lay_out_over(state_, facts, frame.report.time);
-    if (can_stay && samples_.take(*drawn_))
+    if (can_stay && !samples_come_later() && samples_.take(*drawn_))
         outputs_.show_parts(overlay);
     else if (can_stay && contents_.stay(panel_.overlay(pictures_.over())))
         outputs_.stay(now.audience);
@@ -395,7 +400,7 @@ FrameOutlook Session::outlook() const {
     const FrameReport& last = log_.frames().back();
     const FrameOutlook picture{
         .busy = state_.playback.playing || last.extracting || partial_.are_made() ||
-                samples_.are_missing() || captures_.wanted() > 0 ||
+                (samples_.are_missing() && !samples_come_later()) || captures_.wanted() > 0 ||
                 last.comfort != interaction::ComfortState{},
         .changed = contents_.changed() || last.uploaded != render::UploadCount{},
         .final =

@@ -167,6 +167,9 @@ class Session {
     PictureNote note() const; ///< about the last frame
     /// What a capture needs of the last frame.
     CaptureView capture_view(const FrameReport& frame) const;
+    /// Whether somebody else than the session waits for a capture: then it gets all its samples before
+    /// more is prepared.
+    void set_awaited(bool awaited) { awaited_ = awaited; }
     /// Scale of all colors.
     std::optional<ColorScale> scale() const { return pictures_.scale(state_); }
 
@@ -197,6 +200,7 @@ class Session {
     void draw_aids();
     interaction::Similarity all_in_view(const Audience& audience) const;
     bool is_settled(const Frame& frame) const;
+    bool samples_come_later() const; ///< behind what is still to be prepared
     PanelModel panel_model(const FrameReport& report) const;
     FrameAnswer answer() const;
 
@@ -227,6 +231,7 @@ class Session {
     bool waited_ = false; ///< see `has_waited`
     bool told_of_lifting_ = false; ///< the user knows that the background is lifted
     CaptureWait captures_;
+    bool awaited_ = false;
     std::optional<Preparation> preparation_; ///< while it goes on
     std::function<interaction::Seconds()> clock_;
     PictureNote note_; ///< note on the last frame: the data's names and the devices

@@ -42,7 +42,7 @@ def number(value: Any, name: str) -> float:
     except (TypeError, ValueError):
         raise ArgumentError(f"{name}: expected a number, got {value!r}") from None
     if not math.isfinite(found):
-        raise ArgumentError(f"{name}: expected a number, got {found}")
+        raise ArgumentError(f"{name}: expected a finite number, got {found}")
     return found
 
 

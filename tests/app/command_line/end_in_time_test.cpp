@@ -12,6 +12,9 @@
 #include <filesystem>
 #include <thread>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 namespace isochron::app {
 namespace {
 
@@ -73,6 +76,33 @@ TEST_F(EndInTimeTest, SavesWhileItDrawsAndNotWhileWhatIsSavedMayChange) {
         },
         testing::ExitedWithCode(128 + SIGINT), "lab: canceled");
     EXPECT_EQ(folder.names(), std::vector<std::string>{"whole"});
+}
+
+/// Where the process may raise a thread's priority: a driver's threads of the lowest one would be its
+/// last on a busy machine.
+TEST_F(EndInTimeTest, GivesAllThreadsTheUsualPriority) {
+    EXPECT_EXIT(
+        {
+            begin_to_watch();
+            EndInTime::leave_to_the_job();
+            const auto number = static_cast<id_t>(gettid());
+            const int usual = getpriority(PRIO_PROCESS, number);
+            std::thread([number, usual] {
+                const auto own = static_cast<id_t>(gettid());
+                setpriority(PRIO_PROCESS, own, 19);
+                if (setpriority(PRIO_PROCESS, own, usual) != 0)
+                    _exit(7); // it may not
+                setpriority(PRIO_PROCESS, own, 19);
+                EndInTime::signaled(SIGTERM);
+                for (int i = 0; i < 20'000 && getpriority(PRIO_PROCESS, own) != usual; ++i)
+                    std::this_thread::sleep_for(1ms);
+                _exit(getpriority(PRIO_PROCESS, own) == usual &&
+                              getpriority(PRIO_PROCESS, number) == usual
+                          ? 7
+                          : 8);
+            }).join();
+        },
+        testing::ExitedWithCode(7), "");
 }
 
 TEST_F(EndInTimeTest, LeavesAloneWhatEndsByItselfAndJobsOfSeveralProcesses) {

@@ -144,6 +144,41 @@ TEST_F(CommandLine, AnIsovalueBeyondTheDataIsToldWithTheirRange) {
         "");
 }
 
+/// Whatever takes a number says the same where it is not finite, before anything else is wrong.
+TEST_F(CommandLine, NumbersThatAreNotFiniteAreRefusedInOneLineByEveryOption) {
+    struct Row {
+        std::vector<std::string> words;
+        int values = 1;
+    };
+    for (const Row& row : {Row{{"query", "--isovalue"}},
+                           Row{{"change", "--isovalue"}},
+                           Row{{"change", "--to-isovalue"}},
+                           Row{{"export", "--isovalue"}},
+                           Row{{"export", "--color-range"}, 2},
+                           Row{{"export", "--clip"}, 6},
+                           Row{{"export", "--rate"}},
+                           Row{{"measure", "--isovalue"}},
+                           Row{{"movie", "--isovalue"}},
+                           Row{{"movie", "--rate"}},
+                           Row{{"movie", "--dpi"}},
+                           Row{{"explore", "--isovalue"}},
+                           Row{{"explore", "--seconds"}},
+                           Row{{"explore", "--patience"}},
+                           Row{{"build", "--spacing"}, 3},
+                           Row{{"build", "--origin"}, 3},
+                           Row{{"build", "--time-step"}},
+                           Row{{"build", "--timeout"}},
+                           Row{{"info", "--spacing"}, 3},
+                           Row{{"config", "import", "--unit"}},
+                           Row{{"config", "import", "--origin"}, 3}})
+        for (const std::string value : {"nan", "inf", "1e999"}) {
+            std::vector<std::string> words = row.words;
+            words.insert(words.end(), static_cast<std::size_t>(row.values), value);
+            expect_failure(isochron(words), 2,
+                           row.words.back() + ": expected a finite number, got " + value);
+        }
+}
+
 TEST_F(CommandLine, AnIsovalueBeyondTheDataIsToldByChangeToo) {
     ASSERT_EQ(isochron(build_of("t*.raw")).status, 0);
     const auto change = [&](const std::string& from, const std::string& to) {

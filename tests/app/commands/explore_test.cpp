@@ -277,6 +277,47 @@ TEST_F(ExploreTest, ASessionEndedByASignalIsKeptAndResumed) {
               1);
 }
 
+/// Stops the reader of a program as soon as there is one.
+bool stops_its_reader(const Program& program) {
+    namespace fs = std::filesystem;
+    const fs::path tasks = "/proc/" + std::to_string(program.pid()) + "/task";
+    return test_support::eventually([&] {
+        std::error_code gone;
+        for (const auto& task : fs::directory_iterator(tasks, gone)) {
+            std::ifstream children(task.path() / "children");
+            for (pid_t child = 0; children >> child;) {
+                std::string name;
+                std::getline(std::ifstream("/proc/" + std::to_string(child) + "/comm"), name);
+                if (name == "isochron-reader") // as much as the system keeps of a name
+                    return kill(child, SIGSTOP) == 0;
+            }
+        }
+        return !program.runs();
+    });
+}
+
+TEST_F(ExploreTest, ASignalEndsItWhileItsReaderHangs) {
+    std::string values;
+    for (int i = 0; i < 512; ++i)
+        values += std::to_string(i % 7) + " ";
+    folder_.write("a.vti",
+                  "<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData "
+                  "WholeExtent=\"0 7 0 7 0 7\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece "
+                  "Extent=\"0 7 0 7 0 7\"><PointData><DataArray type=\"Float32\" Name=\"v\" "
+                  "format=\"ascii\">" +
+                      values + "</DataArray></PointData></Piece></ImageData></VTKFile>");
+    for (const int number : {SIGTERM, SIGINT}) {
+        const Program program({"explore", file("a.vti")});
+        ASSERT_TRUE(stops_its_reader(program));
+        screen_.xdotool({"search", "--sync", "--onlyvisible", "--name", "Isochron"});
+        const auto begun = std::chrono::steady_clock::now();
+        program.signal(number);
+        EXPECT_EQ(program.exit_status(), 128 + number);
+        EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10))
+            << "on a busy machine; a reader may be silent for a minute";
+    }
+}
+
 TEST_F(ExploreTest, ClosingTheWindowAsksWhereSomethingHasChanged) {
     const auto program = explore({"--record", file("walk.jsonl"), "--no-panel"});
     screen_.xdotool({"key", "h"});

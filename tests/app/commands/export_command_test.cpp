@@ -549,7 +549,7 @@ TEST_F(ExportCommand, WhatItCannotDoItRefusesInALine) {
         {{"--isovalue", "0", "-o", "a.ply", "--steps", ":3"}, "FIRST:LAST:STRIDE"},
         {{"--isovalue", "0", "-o", "a.ply", "--unit", "mm"}, "the data have no unit of length"},
         {{"--isovalue", "0", "-o", "a.ply", "--unit", "furlong"}, "expected m, km, cm"},
-        {{"--isovalue", "nan", "-o", "a.ply"}, "--isovalue: expected a number"},
+        {{"--isovalue", "nan", "-o", "a.ply"}, "--isovalue: expected a finite number"},
         {{"--isovalue", "0", "-o", "a.ply", "--color-map", "mauve", "--color-by", "t"},
          "to color by"},
     };

@@ -170,6 +170,28 @@ TEST_F(SettledSamplesTest, MakeEdgesAsTrueAsSixteenSamplesDo) {
     }
 }
 
+TEST_F(SettledSamplesTest, ComeBeforeMoreIsPreparedWhereSomebodyAwaitsThePicture) {
+    const auto context = this->context();
+    Image all;
+    {
+        Session session(config_with(0, 0), file_, *context);
+        settle(session, showing(kViews[1]));
+        all = session.outputs().display().read_window();
+    }
+    Session session(config_with(0, 0), file_, *context);
+    session.prepare_first([](float) { return true; }, nullptr);
+    settle(session, showing(kViews[1]));
+    const auto view = [&] { return session.capture_view(session.log().frames().back()); };
+    EXPECT_FALSE(view().is_final()) << "a picture of it would have a sample of each pixel";
+    session.set_awaited(true);
+    EXPECT_TRUE(test_support::eventually([&] {
+        frame(session);
+        return view().is_final();
+    }));
+    EXPECT_TRUE(session.prepares());
+    EXPECT_EQ(session.outputs().display().read_window().rgba, all.rgba);
+}
+
 TEST_F(SettledSamplesTest, ComeAfterTheExactPictureAndEndWithTheFirstInput) {
     const auto context = this->context();
     Session plain(config_with(0, 1), file_, *context);

@@ -4,9 +4,11 @@
 #include "tests/support/eventually.h"
 #include "tests/support/session_fixture.h"
 
+#include "app/end_in_time.h"
 #include "render/gl/shader.h"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <set>
@@ -14,15 +16,23 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 namespace isochron::app {
 namespace {
 
 struct {
     std::set<GLuint> used;
     PFNGLUSEPROGRAMPROC use = nullptr;
+    bool hang = false; ///< a signal comes, and the driver does not return
 } programs;
 
 void APIENTRY noted_program(GLuint program) {
+    if (programs.hang) {
+        EndInTime::signaled(SIGTERM);
+        for (;;)
+            pause();
+    }
     programs.used.insert(program);
     programs.use(program);
 }
@@ -107,6 +117,23 @@ TEST_P(WarmUp, LooksAtTheUserAfterEveryFewDrawsAndEndsWhenAsked) {
     std::size_t looks = 0;
     session.warm_up([&](float) { return ++looks < 3; });
     EXPECT_EQ(looks, 3u);
+}
+
+/// What is prepared between frames may make a driver compile for seconds: nobody waits for it.
+TEST_P(WarmUp, ASignalEndsASessionThatPreparesBetweenFramesAndSavesIt) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(
+        {
+            EndInTime::allow("lab");
+            EndInTime::watch();
+            Session session(small_config(), file_, noting_);
+            session.prepare_first([](float) { return true; }, nullptr);
+            const SavedAtEnd saving([] { std::fputs("saved, ", stderr); });
+            programs.hang = true;
+            while (session.prepare_some()) {
+            }
+        },
+        testing::ExitedWithCode(128 + SIGTERM), "saved, lab: canceled");
 }
 
 /// Whatever a user does after the first picture, no frame links a program: it shows what is ready, and

@@ -89,6 +89,8 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     if (of_views)
         place_bigdataviewer(*file, first, volume.info);
     time_hdf5(*file, array, record, layout, steps, options, volume.info);
+    if (array.steps.size() > 1 && !volume.info.times.empty()) // the last ones may have none
+        volume.datasets.resize(volume.info.times.size());
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }
 

@@ -7,6 +7,7 @@
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/stated/array_places.h"
 #include "index/readers/formats/stated/stated_attributes.h"
+#include "index/readers/formats/stated/stated_times.h"
 
 #include <fmt/format.h>
 
@@ -48,12 +49,8 @@ Hdf5Array steps_of(std::string name, const std::vector<Hdf5Dataset>& steps) {
     Hdf5Array array{.name = std::move(name), .steps = {}, .groups = {}, .note = read.note};
     for (const std::size_t step : read.order)
         array.steps.push_back(steps[step]);
-    std::vector<std::string> in_order;
-    for (const Hdf5Dataset& step : array.steps) {
+    for (const Hdf5Dataset& step : array.steps)
         array.groups.push_back(group_in(step.path, array.name));
-        in_order.push_back(step.path);
-    }
-    array.times = times_of_groups(in_order);
     return array;
 }
 
@@ -87,9 +84,7 @@ std::vector<GroupedPath> paths_of(const std::vector<Hdf5Dataset>& datasets) {
 std::vector<Hdf5Array> put_together(const Hdf5File& file,
                                     const std::vector<Hdf5Dataset>& datasets) {
     const auto has_time = [&](const std::string& group) {
-        return std::ranges::any_of(kTimeAttributes, [&](const char* name) {
-            return file.numbers(group, name).size() == 1;
-        });
+        return states_time(attributes_of(file, group));
     };
     std::vector<Hdf5Array> arrays;
     for (const GroupedArray& grouped : grouped_arrays(paths_of(datasets), has_time)) {

@@ -67,10 +67,15 @@ class XdmfFile final : public DecodedFile {
             info_.notes.push_back(std::move(note));
         note_other_type(part);
         StatedTimes times{.name = "Time"};
-        for (const XdmfGrid& step : steps_)
+        std::vector<std::string> dates;
+        for (const XdmfGrid& step : steps_) {
             if (step.time)
                 times.values.push_back(*step.time);
-        if (times.values.size() == steps_.size())
+            dates.push_back(step.date);
+        }
+        if (are_dates(dates))
+            place_dates(dates, times.name, info_, options.dates);
+        else if (times.values.size() == steps_.size())
             place_times(std::move(times), info_, options.dates);
         if (!info_.times.empty()) // the last ones may have none
             steps_.resize(info_.times.size());

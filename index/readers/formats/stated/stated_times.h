@@ -2,9 +2,11 @@
 // unit, a calendar and fill values, in whatever container.
 #pragma once
 
+#include "index/readers/formats/stated/stated_array.h"
 #include "index/volume/calendar.h"
 #include "index/volume/volume_series.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,10 +29,24 @@ struct StatedTimes {
 /// @param dates order of day and month in a reference date whose year is last, where a user says it
 void place_times(StatedTimes stated, SeriesInfo& info, std::optional<DayMonth> dates = {});
 
-/// Sets times to the seconds since the first of such dates: `2005-08-28_12:00:00`, `28/08/2005`. Where a
-/// text is none, a note says so, and there are no times.
+/// Whether texts are dates, but for those that stand for none: empty ones, `NaT`.
+bool are_dates(std::span<const std::string> texts);
+
+/// Sets times to the seconds since the first of such dates, in UTC where they have zones:
+/// `2005-08-28_12:00:00`, `2005-08-28T12:00:00.5+02:00`, `28/08/2005`. Where a text is none, a note says
+/// so, and there are no times; those that stand for none are left out as `place_times` does.
 /// @param name by which the note calls them @param said order of day and month, where a user says it
 void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info,
                  std::optional<DayMonth> said = {});
+
+/// Whether an object states the time of a step, as a number or a date.
+bool states_time(const StatedAttributes& object);
+
+/// Sets times of steps whose arrays lie in groups: the time that the array or the nearest group around
+/// it states, openPMD's `timeUnitSI` included, or else the names of the groups state.
+/// @param paths of the arrays, in the order of the steps @param group_at attributes by path
+void place_group_times(std::span<const std::string> paths,
+                       const std::function<StatedAttributes(const std::string& group)>& group_at,
+                       const ReadOptions& options, SeriesInfo& info);
 
 } // namespace isochron::index

@@ -163,6 +163,18 @@ if "files of several channels, choose one with --array: channel 0, channel 1" no
     wrong.append(f"channels: {out}{err}")
 followed.append(": files of several channels, choose one with --array:")
 
+# ---- arrays that may be the steps or the components of one
+names = {f"{name}_{i}": values + i for name in ("rho", "T") for i in range(3)} | {f"E{c}": values for c in "xyz"}
+hdf5("family.h5", names | {"rho_mean": values})
+netcdf("family.nc", names=" ".join(names))
+zarr_group("family.zarr", **names)
+for given, begins, pattern in (("family.h5", "/", "T_*"), ("family.nc", "", "T_*"), ("family.zarr", "", "T_*")):
+    follow(given, "as the steps of one", (f"--array '{begins}{pattern}'",), gives="steps         3", build=True)
+    vector = ",".join(f"{begins}E{c}" for c in "xyz")
+    follow(given, "takes the length of a vector", (f"--array {vector}",), gives=f"{vector}.magnitude", build=True)
+follow(hdf5("mean.h5", {f"rho_{i}": values for i in range(3)} | {"rho_mean": values}), "takes 3 as the steps of one",
+       ("--array '/rho_[0-9]*'",), gives="steps         3", build=True)
+
 # ---- sizes, types, what is left over
 raw = write("plain.dat", values.tobytes())
 follow(raw, "or raw values with --dims and --type", ("--dims", "6 5 4 --type f32"), gives="6 x 5 x 4")

@@ -20,6 +20,8 @@ CONTAINERS = {}
 # Containers | what they have no way to say, in the words of the statements' needs | the place in the specification that shows it
 LACKS = """
 NetCDF-3, NetCDF-4, Zarr 2 xarray, Zarr 3 dimension_names | direction, frame | CF 1.11, 4: coordinates are along axes, of no body
+NetCDF-3, NetCDF-4 | time dates datetime64 | netCDF User's Guide, Data Types: numbers and texts
+HDF5 scales, HDF5 bare | time dates datetime64 | HDF5 1.14, H5T: the class of times is not supported
 NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
 HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
 HDF5 bare | time told, order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
@@ -116,6 +118,8 @@ def attributes_of(axis):
 
 def coordinates(axis):
     """As they are stored: packed, if the attributes say so."""
+    if axis.texts is not None:
+        return axis.texts
     if "scale_factor" not in axis.attributes:
         return np.asarray(axis.at, "f8")
     return np.round((axis.at - axis.attributes["add_offset"]) / axis.attributes["scale_factor"]).astype("i2")
@@ -159,8 +163,14 @@ def netcdf(kind):
         with netCDF4.Dataset(path, "w", format=kind) as file:
             for axis in record.axes:
                 file.createDimension(axis.name, len(axis.at))
-                stored = coordinates(axis)
-                variable = file.createVariable(axis.variable, stored.dtype, (axis.name,))
+                stored, names, kind_of_value = coordinates(axis), (axis.name,), None
+                if stored.dtype.kind == "U" and kind == "NETCDF4":
+                    stored, kind_of_value = stored.astype(object), str
+                elif stored.dtype.kind == "U":
+                    stored = netCDF4.stringtochar(stored.astype("S"))
+                    names += (f"{axis.name}_length",)
+                    file.createDimension(names[1], stored.shape[1])
+                variable = file.createVariable(axis.variable, kind_of_value or stored.dtype, names)
                 variable.set_auto_maskandscale(False)
                 variable[:] = stored
                 variable.setncatts(attributes_of(axis))
@@ -187,7 +197,8 @@ def hdf5(scales):
         path = f"{folder}/v.h5"
         with h5py.File(path, "w") as file:
             for axis in measured(record):
-                file[axis.variable] = coordinates(axis)
+                stored = coordinates(axis)
+                file[axis.variable] = stored.astype("S") if stored.dtype.kind == "U" else stored
                 file[axis.variable].attrs.update(attributes_of(axis))
                 if scales:
                     file[axis.variable].make_scale(axis.variable)
@@ -283,8 +294,12 @@ def zarr_2_group(path, attributes):
 
 
 def zarr_3(path, values, attributes, fill=0, **more):
+    kinds = {"U": ("fixed_length_utf32", dict(length_bytes=values.dtype.itemsize)),
+             "M": ("numpy.datetime64", dict(unit="ns", scale_factor=1))}
+    kind = kinds.get(values.dtype.kind)
     save_json(f"{path}/zarr.json", dict(
-        zarr_format=3, node_type="array", shape=list(values.shape), data_type=values.dtype.name, attributes=attributes,
+        zarr_format=3, node_type="array", shape=list(values.shape), attributes=attributes,
+        data_type=dict(zip(("name", "configuration"), kind)) if kind else values.dtype.name,
         chunk_grid=dict(name="regular", configuration=dict(chunk_shape=list(values.shape))), fill_value=fill,
         chunk_key_encoding=dict(name="default", configuration=dict(separator="/")),
         codecs=[dict(name="bytes", configuration=dict(endian="little"))], **more))

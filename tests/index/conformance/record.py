@@ -19,6 +19,7 @@ class Axis:
     unit: str = ""
     attributes: dict = field(default_factory=dict)  # of the coordinates, in words of CF
     variable: str = ""  # what the coordinates are called
+    texts: np.ndarray = None  # or dates, as texts or datetime64, in place of numbers
 
     def __post_init__(self):
         self.variable = self.variable or self.name

@@ -191,8 +191,10 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         std::string shape = shape_text(array.steps.front().dimensions);
         if (array.steps.size() > 1)
             shape += fmt::format(", {} steps", array.steps.size());
-        listed.push_back(
-            {.name = array.name, .type = array.steps.front().type, .shape = std::move(shape)});
+        listed.push_back({.name = array.name,
+                          .type = array.steps.front().type,
+                          .shape = std::move(shape),
+                          .by_pattern = true});
     }
     asked.component.reset(); // components are an axis of the dataset here
     const ChosenScalar chosen = choose_scalar(listed, asked, file.name());

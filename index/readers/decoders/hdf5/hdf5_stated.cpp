@@ -69,7 +69,8 @@ std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string
         return axis.dates.size() == length && are_dates(axis.dates) ? std::optional(axis)
                                                                     : std::nullopt;
     }
-    if (!found || found->dimensions != std::vector<std::uint64_t>{length})
+    const bool alone = found && found->dimensions.empty() && length == 1;
+    if (!alone && (!found || found->dimensions != std::vector<std::uint64_t>{length}))
         return std::nullopt;
     // NetCDF-4 gives a dimension without coordinates a scale of zeros.
     if (file.text(path, "NAME").starts_with("This is a netCDF dimension but not"))

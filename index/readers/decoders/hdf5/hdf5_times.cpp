@@ -17,8 +17,12 @@ void time_hdf5(const Hdf5File& file, const Hdf5Array& array, const StatedArray& 
         for (const Hdf5Dataset& step : array.steps)
             paths.push_back(step.path);
         return place_group_times(
-            paths, [&](const std::string& group) { return attributes_of(file, group); }, options,
-            info);
+            paths, [&](const std::string& path) { return attributes_of(file, path); },
+            [&](const std::string& group) {
+                auto found = coordinates_in(file, inside(group, "time"), 1, true);
+                return found ? found : coordinates_in(file, inside(group, "Time"), 1, true);
+            },
+            options, info);
     }
     const StatedAxis& time = stated.axes[*layout.time];
     place_steps(time, options, info);

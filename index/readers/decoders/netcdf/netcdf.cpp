@@ -88,7 +88,8 @@ Offered offered_in(const NetcdfFile& file, const ReadOptions& options) {
             steps.push_back(variables[step]);
         offered.arrays.push_back({.name = array.name,
                                   .type = steps.front()->type,
-                                  .shape = paths[array.steps.front()].kind});
+                                  .shape = paths[array.steps.front()].kind,
+                                  .by_pattern = true});
         if (steps.size() > 1)
             offered.arrays.back().shape += fmt::format(", {} steps", steps.size());
     }
@@ -289,17 +290,14 @@ class NetcdfVolume final : public DecodedFile {
     }
 
     void place_times(const StatedArray& array, const ReadOptions& options) {
-        const bool in_groups = variables_.size() > 1;
-        if (layout_.time && !in_groups)
+        if (layout_.time && variables_.size() == 1)
             return place_steps(array.axes[*layout_.time], options, info_);
-        if (const auto time = in_groups ? std::nullopt : time_alone(file_))
-            return place_steps(*time, options, info_);
         std::vector<std::string> paths;
         for (const NetcdfVariable& variable : variables_)
             paths.push_back(variable.name);
         place_group_times(
-            paths, [&](const std::string& path) { return attributes_of(file_, path); }, options,
-            info_);
+            paths, [&](const std::string& path) { return attributes_of(file_, path); },
+            [&](const std::string& group) { return time_in(file_, group); }, options, info_);
     }
 
     /// @throws Error naming the file: groups that are the steps hold several, or differ

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -87,13 +88,18 @@ StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool 
     return array;
 }
 
-std::optional<StatedAxis> time_alone(const NetcdfFile& file) {
+std::optional<StatedAxis> time_in(const NetcdfFile& file, const std::string& group) {
     for (const NetcdfVariable& variable : file.variables()) {
-        if (!variable.type || !variable.dimensions.empty())
+        const std::size_t slash = variable.name.rfind('/');
+        const bool one = std::ranges::all_of(
+            variable.dimensions, [](const auto& dimension) { return dimension.length == 1; });
+        if (!variable.type || !one || variable.dimensions.size() > 1 ||
+            variable.name.substr(0, slash == variable.name.npos ? 0 : slash) != group)
             continue;
         StatedAxis axis = coordinate_in(file, variable);
-        if (role_by_attributes(axis) != AxisRole::time ||
-            (axis.standard_name != "time" && role_by_name(axis.coordinate) != AxisRole::time))
+        const bool named = role_by_name(axis.coordinate) == AxisRole::time;
+        const auto role = role_by_attributes(axis);
+        if (axis.standard_name != "time" && !(named && (!role || role == AxisRole::time)))
             continue;
         axis.at = scaled_values(file, variable);
         return axis;

@@ -20,7 +20,8 @@ std::vector<StatedAttributes> objects_of(const NetcdfFile& file, const NetcdfVar
 /// The record of a variable. @param values whether coordinates are read; roles need only names
 StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool values);
 
-/// The time of a file with one step, by a variable without dimensions; none.
-std::optional<StatedAxis> time_alone(const NetcdfFile& file);
+/// A variable of a group that is one time, by its standard name or its own; none.
+/// @param group its path; empty: the root
+std::optional<StatedAxis> time_in(const NetcdfFile& file, const std::string& group);
 
 } // namespace isochron::index

@@ -165,7 +165,8 @@ class ZarrVolume final : public DecodedFile {
                  .type = types[first],
                  .shape =
                      volumes[first].kind +
-                     (each.steps.size() > 1 ? fmt::format(", {} steps", each.steps.size()) : "")});
+                     (each.steps.size() > 1 ? fmt::format(", {} steps", each.steps.size()) : ""),
+                 .by_pattern = true});
         }
         ReadOptions which = options;
         which.component.reset();
@@ -239,12 +240,11 @@ class ZarrVolume final : public DecodedFile {
             info_.notes.push_back(std::move(*note));
         if (layout_.time)
             place_steps(stated_.axes[*layout_.time], options, info_);
-        else if (const auto time = time_alone(*store_, *array_); time && steps_.empty())
-            place_steps(*time, options, info_);
         else
             place_group_times(
                 steps_.empty() ? std::vector{array_->path()} : steps_,
-                [&](const std::string& group) { return of_group(group); }, options, info_);
+                [&](const std::string& path) { return of_group(path); },
+                [&](const std::string& group) { return time_in(*store_, group); }, options, info_);
         if (!steps_.empty() && !info_.times.empty()) // the last ones may have none
             steps_.resize(info_.times.size());
     }

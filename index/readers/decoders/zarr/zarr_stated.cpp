@@ -255,17 +255,14 @@ std::vector<StatedAxis> axes_of(const json& image, const json& dataset, const Za
     return axes;
 }
 
-std::optional<StatedAxis> time_alone(const ZarrStore& store, const ZarrArray& array) {
-    for (const std::string& group : groups_around(array))
-        for (const std::vector<std::uint64_t>& shape :
-             {std::vector<std::uint64_t>{}, std::vector<std::uint64_t>{1}}) {
-            auto found = coordinates_in(store, zarr_key(group, "time"), shape);
-            if (!found)
-                continue;
-            found->axis.at = scaled_values(store, found->array);
-            return found->axis;
-        }
-    return std::nullopt;
+std::optional<StatedAxis> time_in(const ZarrStore& store, const std::string& group) {
+    auto found = coordinates_in(store, zarr_key(group, "time"), {});
+    if (!found)
+        found = coordinates_in(store, zarr_key(group, "time"), {1});
+    if (!found)
+        return std::nullopt;
+    found->axis.at = scaled_values(store, found->array);
+    return found->axis;
 }
 
 std::size_t long_dimensions_of(const ZarrStore& store, const ZarrArray& array,

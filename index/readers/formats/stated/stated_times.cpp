@@ -4,6 +4,7 @@
 #include "index/lower_case.h"
 #include "index/readers/formats/series/dated_name.h"
 #include "index/readers/formats/series/numbered_groups.h"
+#include "index/readers/formats/stated/array_places.h"
 #include "index/volume/calendar.h"
 #include "index/volume/time_unit.h"
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -200,21 +202,19 @@ std::size_t length_with_year_last(std::string_view text) {
     return at;
 }
 
-/// The time that an object states: a number with its unit, or a date.
-struct StatedTime {
-    double number = 0;
-    std::string unit = {}, date = {};
-};
-
-std::optional<StatedTime> time_of(const StatedAttributes& object) {
+/// The time that the attributes of an object state: a number with its unit, or a date; none.
+std::optional<StatedAxis> time_of(const StatedAttributes& object) {
     for (const char* name : {"time", "Time", "TIME", "t"}) {
-        if (const auto found = object.numbers(name); found.size() == 1) {
+        StatedAxis time{.name = name};
+        if (time.at = object.numbers(name); time.at.size() == 1) {
             const auto seconds = object.numbers("timeUnitSI"); // as openPMD has it
-            return StatedTime{found.front() * (seconds.size() == 1 ? seconds.front() : 1),
-                              seconds.size() == 1 ? "s" : ""};
+            time.at.front() *= seconds.size() == 1 ? seconds.front() : 1;
+            time.unit = seconds.size() == 1 ? "s" : "";
+            return time;
         }
-        if (const std::string date = object.text(name); are_dates(std::span(&date, 1)))
-            return StatedTime{.date = date};
+        time.at.clear();
+        if (time.dates = {object.text(name)}; are_dates(time.dates))
+            return time;
     }
     return std::nullopt;
 }
@@ -328,16 +328,21 @@ bool states_time(const StatedAttributes& group) {
 }
 
 void place_group_times(std::span<const std::string> paths,
-                       const std::function<StatedAttributes(const std::string& group)>& group_at,
+                       const std::function<StatedAttributes(const std::string& path)>& object_at,
+                       const std::function<std::optional<StatedAxis>(const std::string&)>& time_in,
                        const ReadOptions& options, SeriesInfo& info) {
-    std::vector<std::string> dates;
-    StatedTimes stated{.name = "time"};
+    StatedAxis all;
     for (const std::string& path : paths)
         for (std::string group = path;;) {
-            if (const auto time = time_of(group_at(group))) {
-                dates.push_back(time->date);
-                stated.values.push_back(time->number);
-                stated.unit = time->unit;
+            auto time = time_in(group);
+            if (!time)
+                time = time_of(object_at(group));
+            if (time) {
+                std::ranges::copy(time->at, std::back_inserter(all.at));
+                std::ranges::copy(time->dates, std::back_inserter(all.dates));
+                time->at.swap(all.at);
+                time->dates.swap(all.dates);
+                all = std::move(*time);
                 break;
             }
             if (group.empty() || group == "/")
@@ -347,15 +352,12 @@ void place_group_times(std::span<const std::string> paths,
                                              : std::max<std::size_t>(slash, path.front() == '/'));
         }
     // A time that is equal for all steps belongs to the group around them and is not theirs.
-    const auto differ = [&](const auto& all) {
-        return all.size() == paths.size() && (all.size() == 1 || all.front() != all.back());
+    const auto differ = [&](const auto& times) {
+        return times.size() == paths.size() && (times.size() == 1 || times.front() != times.back());
     };
-    const bool are_texts = !dates.empty() && !dates.front().empty();
-    if (are_texts && differ(dates))
-        place_dates(dates, stated.name, info, options.dates);
-    else if (!are_texts && differ(stated.values))
-        place_times(std::move(stated), info, options.dates);
-    else if (const auto named = times_of_groups(paths)) {
+    if (differ(all.at) || differ(all.dates))
+        return place_steps(all, options, info);
+    if (const auto named = times_of_groups(paths)) {
         info.times = named->times;
         info.time_unit = named->unit;
     }

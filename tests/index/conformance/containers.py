@@ -83,6 +83,16 @@ OME-TIFF | order, names, time axis last, components last, extra axis | OME-XML 2
 OME-TIFF | unit words, unit other, unit any | OME-XML 2016-06, Pixels: PhysicalSizeUnit is one of UnitsLength
 OME-TIFF | origin, time dates | OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time
 OME-TIFF | values, arrays, remark | OME-XML 2016-06, Pixels: numbers as they are
+MRC, MGH, Gaussian cube, BigDataViewer | uneven, unit by axis, unit words, unit other, unit any, names, extra axis | MRC2014, MGH, cube, BDV: one step along each of three axes, in one unit
+MRC, Gaussian cube, BigDataViewer | interval, first time, times uneven, time unit, time dates, time axis | MRC2014, cube, BDV: a volume, or a number of one
+MGH | first time, times uneven, time dates, time axis | MGH, footer: TR in ms, from 0
+MRC, MGH, Gaussian cube, BigDataViewer | values, arrays, components first, remark | MRC2014, MGH, cube, BDV: one array of numbers as they are
+MRC | descending, direction, frame, components last | MRC2014, words 11 to 16: a cell along x, y and z
+MGH | components last | MGH, nframes: volumes that follow each other
+Gaussian cube | frame | Gaussian, cubegen: of no body
+BigDataViewer | order, origin, descending, direction, frame, components last | BigDataViewer, ViewSetup: voxelSize, cells are z, y, x
+EnSight | order, uneven, descending, direction, frame, unit, names, extra axis, time unit, time dates, time axis | EnSight Gold, block uniform: origin and delta along x, y and z, no units
+EnSight | values, arrays, components first, components last, remark | EnSight Gold, variable files: numbers as they are
 BOV | order, uneven, descending, direction, frame, unit, names, extra axis | VisIt, BOV: BRICK_ORIGIN and BRICK_SIZE along x, y, z
 BOV | time unit, time dates, time axis | VisIt, BOV: TIME is a number, a file for each
 BOV | values, arrays, components first | VisIt, BOV: one array, as it is
@@ -646,3 +656,98 @@ def bov(record, folder):
                       f"BRICK_SIZE: {numbers([axis.at[-1] - axis.at[0] for axis in space])}\n"
                       f"DATA_COMPONENTS: {3 if record.axis('c') else 1}\n{remarks}")
     return [*files, *asked(record, "")[1:]]
+
+
+# ---- Formats of one field each
+def write_steps(record, folder, ending, write):
+    """A file for each step."""
+    files = []
+    for number, values in enumerate(record.volumes()):
+        files.append(f"{folder}/v{number}.{ending}")
+        write(files[-1], values)
+    return [*files, *asked(record, "")[1:]]
+
+
+@container("MRC")
+def mrc(record, folder):
+    def write(path, values):
+        space = [record.axis(role) for role in "xyz"]
+        cell = [axis.step() * METERS[axis.unit] / METERS["angstrom"] * len(axis.at) for axis in space]
+        origin = [axis.in_unit("angstrom")[0] for axis in space]
+        header = np.zeros(256, "<i4")
+        header[:4] = *values.shape[::-1], {"f4": 2, "i2": 1}[values.dtype.str[1:]]
+        header[7:10] = [len(axis.at) for axis in space]
+        header[10:16] = np.array([*cell, 90, 90, 90], "<f4").view("<i4")
+        header[16:19] = ["xyz".index(axis.role) + 1 for axis in record.space()]
+        header[27], header[52], header[53] = 20140, int.from_bytes(b"MAP ", "little"), 0x4444
+        header[49:52] = np.array(origin, "<f4").view("<i4")
+        with open(path, "wb") as out:
+            out.write(header.tobytes() + values.tobytes())
+
+    return write_steps(record, folder, "mrc", write)
+
+
+@container("MGH")
+def mgh(record, folder):
+    steps, first = record.steps("ras", "mm")
+    values, sizes = record.values, [len(axis.at) for axis in record.space()]
+    lengths = [np.linalg.norm(step) for step in steps]
+    head = np.array([1, *sizes, len(values), {"f4": 3, "i2": 4}[values.dtype.str[1:]], 0], ">i4").tobytes()
+    places = [*lengths, *np.ravel([step / length for step, length in zip(steps, lengths)]),
+              *(first + sum(step * size / 2 for step, size in zip(steps, sizes)))]
+    head += np.array(1, ">i2").tobytes() + np.array(places, ">f4").tobytes()
+    interval = record.axis("t").step() * (1e3 if record.axis("t").unit == "s" else 1)
+    with open(f"{folder}/v.mgh", "wb") as out:
+        out.write(head.ljust(284, b"\0") + values.astype(values.dtype.newbyteorder(">")).tobytes()
+                  + np.array([interval, 0, 0, 0, 0], ">f4").tobytes())
+    return asked(record, f"{folder}/v.mgh")
+
+
+@container("Gaussian cube")
+def cube(record, folder):
+    steps, first = record.steps("", "angstrom")
+    components = 3 if record.axis("c") else 1
+
+    def write(path, values):
+        lines = ["title", "another", f"0 {numbers(first)} {components}"]
+        lines += [f"{-len(axis.at)} {numbers(step)}" for axis, step in reversed(list(zip(record.space(), steps)))]
+        with open(path, "w", encoding="utf-8") as out:
+            out.write("\n".join([*lines, numbers(values)]) + "\n")
+
+    return write_steps(record, folder, "cube", write)
+
+
+@container("BigDataViewer", may=("stores unsigned values as i16",))
+def bigdataviewer(record, folder):
+    size = numbers([record.axis(role).step() for role in "xyz"])
+    with h5py.File(f"{folder}/v.h5", "w") as file:
+        file["s00/resolutions"], file["s00/subdivisions"] = np.ones((1, 3)), np.array([[8, 8, 8]])
+        for number, values in enumerate(record.volumes()):
+            file[f"t{number:05d}/s00/0/cells"] = values.astype("i2")
+    with open(f"{folder}/v.xml", "w", encoding="utf-8") as out:
+        out.write(f'<SpimData version="0.2"><SequenceDescription><ViewSetups><ViewSetup><id>0</id><voxelSize><unit>'
+                  f'{record.axis("x").unit}</unit><size>{size}</size></voxelSize></ViewSetup></ViewSetups>'
+                  "</SequenceDescription></SpimData>")
+    return asked(record, f"{folder}/v.h5")
+
+
+@container("EnSight", may=("resampled", "array v "))
+def ensight(record, folder):
+    """Read as a mesh: it is sampled at its own vertices."""
+    space, time = [record.axis(role) for role in "xyz"], record.axis("t")
+    sizes = [len(axis.at) for axis in space]
+
+    def column(values):
+        return "".join(f"{value:12.5e}\n" for value in np.ravel(values))
+
+    with open(f"{folder}/v.geo", "w", encoding="utf-8") as out:
+        out.write(f"a\nb\nnode id off\nelement id off\npart\n{1:10d}\nblock\nblock uniform\n" + "".join(
+            f"{size:10d}" for size in sizes) + "\n" + column([axis.at[0] for axis in space] + [axis.step() for axis in space]))
+    for number, values in enumerate(record.volumes()):
+        with open(f"{folder}/v.scl{number:03d}", "w", encoding="utf-8") as out:
+            out.write(f"v\npart\n{1:10d}\nblock\n" + column(values))
+    with open(f"{folder}/v.case", "w", encoding="utf-8") as out:
+        out.write("FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: v.geo\nVARIABLE\nscalar per node: v v.scl***\nTIME\ntime set: 1\n"
+                  f"number of steps: {len(time.at)}\nfilename start number: 0\nfilename increment: 1\n"
+                  f"time values: {numbers(time.at)}\n")
+    return [f"{folder}/v.case", "--resample", *sizes]

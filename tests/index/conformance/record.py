@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-METERS = {"m": 1, "km": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "micrometers": 1e-6}
+METERS = {"m": 1, "km": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "angstrom": 1e-10, "micrometers": 1e-6}
 SECONDS = {"s": 1, "ms": 1e-3, "h": 3600, "hours": 3600, "second": 1, "sec": 1, "millisecond": 1e-3, "msec": 1e-3}
 
 

@@ -25,12 +25,13 @@ HDF5 scales, HDF5 bare | time dates datetime64 | HDF5 1.14, H5T: the class of ti
 NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
 HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
 HDF5 bare | time told, order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
-HDF5 openPMD | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
+HDF5 openPMD, HDF5 openPMD 2 | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
 HDF5 openPMD | unit by axis, unit other | openPMD 1.1.0, Mesh Based Records: gridUnitSI is one number, to meters
-HDF5 openPMD | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
-HDF5 openPMD | time axis, time dates | openPMD 1.1.0, iterations: time is a group for each, a number in seconds
-HDF5 openPMD | values scale offset, values unit, values gaps, unit words | openPMD 1.1.0, records: unitSI alone
-HDF5 openPMD | components last | openPMD 1.1.0, vector records: a dataset for each component
+HDF5 openPMD 2 | unit other, unit any | openPMD 2.0.0, Mesh Based Records: gridUnitSI is a number for each axis, to meters
+HDF5 openPMD, HDF5 openPMD 2 | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
+HDF5 openPMD, HDF5 openPMD 2 | time axis, time dates | openPMD 1.1.0, iterations: time is a group for each, a number in seconds
+HDF5 openPMD, HDF5 openPMD 2 | values scale offset, values unit, values gaps, unit words | openPMD 1.1.0, records: unitSI alone
+HDF5 openPMD, HDF5 openPMD 2 | components last | openPMD 1.1.0, vector records: a dataset for each component
 HDF5 axistags | uneven, times uneven, first time, origin, descending | vigra, AxisInfo: one resolution
 HDF5 axistags | unit, time unit, time dates | vigra, AxisInfo: no unit
 HDF5 axistags | names, extra axis | vigra, AxisInfo: keys are x, y, z, t, c
@@ -230,31 +231,41 @@ container("HDF5 scales", by_axis=True)(hdf5(True))
 container("HDF5 bare", may=("is taken for time", "coordinates taken from"), by_axis=True)(hdf5(False))
 
 
-@container("HDF5 openPMD")
-def hdf5_openpmd(record, folder):
-    path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
-    vector = record.axis("c") is not None
-    with h5py.File(path, "w") as file:
-        file.attrs.update(openPMD=np.bytes_("1.1.0"), openPMDextension=np.uint32(0), basePath=np.bytes_("/data/%T/"),
-                          meshesPath=np.bytes_("fields/"), iterationEncoding=np.bytes_("groupBased"),
-                          iterationFormat=np.bytes_("/data/%T/"))
-        for number, time in enumerate(record.axis("t").at):
-            group = file.create_group(f"data/{number}")
-            group.attrs.update(time=time, dt=1.0, timeUnitSI=1e-3 if record.axis("t").unit == "ms" else 1.0)
-            for name, values in arrays_of(record).items():
-                volume = np.moveaxis(values, [axis.role for axis in record.axes].index("t"), 0)[number]
-                at = f"fields/{name}"
-                mesh = group.create_group(at) if vector else group.create_dataset(at, data=volume)
-                parts = [group.create_dataset(f"{at}/{c}", data=volume[i]) for i, c in enumerate("xyz")] if vector else [mesh]
-                mesh.attrs.update(geometry=np.bytes_("cartesian"), dataOrder=np.bytes_("C"), unitDimension=np.zeros(7),
-                                  axisLabels=[np.bytes_(axis.name) for axis in space], timeOffset=np.float32(0),
-                                  gridSpacing=[axis.step() for axis in space], gridGlobalOffset=[axis.at[0] for axis in space],
-                                  gridUnitSI={"mm": 1e-3, "um": 1e-6}[space[0].unit])
-                mesh.attrs.update(record.attributes)
-                for part in parts:
-                    part.attrs.update(unitSI=float(record.slope), position=np.zeros(3))
-    return asked(record, path, f"data/*/fields/{record.name}" if record.others else None) if not vector else \
-        [path, "--array", "data/*/fields/v/y"]
+def openpmd(version, unit_of_axes):
+    def write(record, folder):
+        path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
+        vector = record.axis("c") is not None
+        with h5py.File(path, "w") as file:
+            file.attrs.update(openPMD=np.bytes_(version), openPMDextension=np.uint32(0), basePath=np.bytes_("/data/%T/"),
+                              meshesPath=np.bytes_("fields/"), iterationEncoding=np.bytes_("groupBased"),
+                              iterationFormat=np.bytes_("/data/%T/"))
+            for number, time in enumerate(record.axis("t").at):
+                group = file.create_group(f"data/{number}")
+                group.attrs.update(time=time, dt=1.0, timeUnitSI=1e-3 if record.axis("t").unit == "ms" else 1.0)
+                for name, values in arrays_of(record).items():
+                    volume = np.moveaxis(values, [axis.role for axis in record.axes].index("t"), 0)[number]
+                    at = f"fields/{name}"
+                    mesh = group.create_group(at) if vector else group.create_dataset(at, data=volume)
+                    parts = [group.create_dataset(f"{at}/{c}", data=volume[i]) for i, c in enumerate("xyz")] if vector else [mesh]
+                    mesh.attrs.update(geometry=np.bytes_("cartesian"), dataOrder=np.bytes_("C"), unitDimension=np.zeros(7),
+                                      axisLabels=[np.bytes_(axis.name) for axis in space], timeOffset=np.float32(0),
+                                      gridSpacing=[axis.step() for axis in space], gridGlobalOffset=[axis.at[0] for axis in space],
+                                      gridUnitSI=unit_of_axes(space))
+                    mesh.attrs.update(record.attributes)
+                    for part in parts:
+                        part.attrs.update(unitSI=float(record.slope), position=np.zeros(3))
+        return asked(record, path, f"data/*/fields/{record.name}" if record.others else None) if not vector else \
+            [path, "--array", "data/*/fields/v/y"]
+
+    return write
+
+
+def unit_of_axis(axis):
+    return METERS[axis.unit]
+
+
+container("HDF5 openPMD")(openpmd("1.1.0", lambda space: unit_of_axis(space[0])))
+container("HDF5 openPMD 2", may=("all are given in",))(openpmd("2.0.0", lambda space: [unit_of_axis(axis) for axis in space]))
 
 
 @container("HDF5 axistags", by_axis=True)

@@ -32,8 +32,8 @@ struct ZarrDescription {
     bool half = false;              ///< stored as float16, of type f32
     std::string type_name;          ///< as the array has it
     ZarrTexts texts = ZarrTexts::none;
-    std::size_t text_bytes = 0;   ///< of one of them as stored; 0: they vary
-    std::string date_unit;        ///< of dates: `ns`, as NumPy has it
+    std::size_t text_bytes = 0;   ///< size of one of them as stored; 0: they vary
+    std::string date_unit;        ///< unit of dates: `ns`, as NumPy has it
     std::int64_t date_factor = 1; ///< by which their numbers count it
     std::string unread;           ///< why its chunks cannot be read; empty: they can
     std::vector<std::uint64_t> shape, chunk, inner; ///< inner: of chunks in a shard, if there are

@@ -59,7 +59,7 @@ std::optional<Coordinates> coordinates_in(const ZarrStore& store, const std::str
 
 std::vector<double> scaled_values(const ZarrStore& store, ZarrArray& array) {
     if (!array.type())
-        return {}; // of dates
+        return {}; // dates
     const Scaling scaling = scaling_by(attributes_of(array.attributes()),
                                        fmt::format("{}: {}", store.name(), array.path()));
     const std::uint64_t length = array.shape().empty() ? 1 : array.shape().front();

@@ -22,7 +22,7 @@ namespace {
 struct DateUnit {
     std::string_view name;
     std::int64_t months = 0, seconds = 0;
-    int digits = 0; ///< of a second
+    int digits = 0; ///< digits behind the second
 };
 constexpr std::array<DateUnit, 14> kDateUnits{{{"Y", 12},
                                                {"M", 1},

@@ -291,10 +291,10 @@ def texts(name, need, dates, form):
         record.axis("t").unit, record.times, record.dates = "", 43200 * np.arange(5.0), dates
 
 
-HALF_DAYS = ["2000-02-28 12:00", "2000-02-29 00:00", "2000-02-29 12:00", "2000-03-01 00:00", "2000-03-01 12:00"]
-texts("dates as texts", "time dates texts", HALF_DAYS, lambda date: date.replace(" ", "T") + ":00")
+HALF_DAYS = ["2000-02-28 12:00", "2000-02-29", "2000-02-29 12:00", "2000-03-01", "2000-03-01 12:00"]
+texts("dates as texts", "time dates texts", HALF_DAYS, lambda date: f"{np.datetime64(date, 'm')}:00")
 texts("dates as texts in a zone", "time dates texts", HALF_DAYS,
-      lambda date: f"{np.datetime64(date) + np.timedelta64(90, 'm')}:00+01:30")
+      lambda date: f"{np.datetime64(date, 'm') + np.timedelta64(90, 'm')}:00+01:30")
 texts("dates of NumPy", "time dates datetime64", HALF_DAYS, lambda date: np.datetime64(date, "ns"))
 
 

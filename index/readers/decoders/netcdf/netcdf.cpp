@@ -194,7 +194,7 @@ class NetcdfVolume final : public DecodedFile {
             steps_ = info_.times.size();
         const auto long_dimensions = [&](const std::string& of) -> std::size_t {
             for (const NetcdfVariable& other : file_.variables())
-                if (other.name.substr(other.name.rfind('/') + 1) == of)
+                if (other.type && other.name.substr(other.name.rfind('/') + 1) == of)
                     return static_cast<std::size_t>(
                         std::ranges::count_if(other.dimensions, [](const NetcdfDimension& each) {
                             return each.length > 1;

@@ -168,12 +168,18 @@ names = {f"{name}_{i}": values + i for name in ("rho", "T") for i in range(3)} |
 hdf5("family.h5", names | {"rho_mean": values})
 netcdf("family.nc", names=" ".join(names))
 zarr_group("family.zarr", **names)
-for given, begins, pattern in (("family.h5", "/", "T_*"), ("family.nc", "", "T_*"), ("family.zarr", "", "T_*")):
-    follow(given, "as the steps of one", (f"--array '{begins}{pattern}'",), gives="steps         3", build=True)
-    vector = ",".join(f"{begins}E{c}" for c in "xyz")
-    follow(given, "takes the length of a vector", (f"--array {vector}",), gives=f"{vector}.magnitude", build=True)
-follow(hdf5("mean.h5", {f"rho_{i}": values for i in range(3)} | {"rho_mean": values}), "takes 3 as the steps of one",
-       ("--array '/rho_[0-9]*'",), gives="steps         3", build=True)
+hdf5("mean.h5", {f"rho_{i}": values for i in range(3)} | {"rho_mean": values})
+for given, array, gives in [(f"family.{ending}", f"{begins}{name}", gives.format(begins))
+                            for ending, begins in (("h5", "/"), ("nc", ""), ("zarr", ""))
+                            for name, gives in (("T_*", "steps         3"), (f"Ex,{begins}Ey,{begins}Ez", "{0}Ez.magnitude"))] + \
+        [("mean.h5", "/rho_[0-9]*", "steps         3")]:
+    build = ["build", given, "-o", "family.isochron", "--quiet", "--force"]
+    status, out, err = run(*build)
+    words = f"--array {shlex.quote(array)} takes "
+    if not status or words not in err.splitlines()[-1] or run(*build, "--array", array)[0] or \
+            gives not in run("info", "family.isochron")[1]:
+        wrong.append(f"{given} {words}: {err}{run('info', 'family.isochron')}")
+followed += ["; --array '{}{}*' takes {} as the steps of one", "; --array {} takes the length of a vector"]
 
 # ---- sizes, types, what is left over
 raw = write("plain.dat", values.tobytes())

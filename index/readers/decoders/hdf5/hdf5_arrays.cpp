@@ -131,8 +131,9 @@ std::vector<Hdf5Array> called(const std::vector<Hdf5Array>& arrays, const std::s
 /// As `matching_arrays`.
 Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& datasets,
                    const std::string& pattern) {
+    const std::string path = pattern.starts_with('/') ? pattern : "/" + pattern;
     std::vector<Hdf5Dataset> steps;
-    for (const std::size_t step : matching_arrays(paths_of(datasets), pattern, file.name()).steps)
+    for (const std::size_t step : matching_arrays(paths_of(datasets), path, file.name()).steps)
         steps.push_back(datasets[step]);
     return steps_of(pattern, steps);
 }

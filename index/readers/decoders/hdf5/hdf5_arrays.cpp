@@ -6,8 +6,8 @@
 #include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/group_times.h"
 #include "index/readers/formats/stated/stated_attributes.h"
-#include "index/readers/formats/stated/stated_times.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "index/readers/decoders/hdf5/hdf5_times.h"
 
 #include "index/readers/decoders/hdf5/hdf5_stated.h"
-#include "index/readers/formats/stated/stated_times.h"
+#include "index/readers/formats/stated/group_times.h"
 
 #include <string>
 #include <vector>

@@ -22,6 +22,8 @@ LACKS = """
 NetCDF-3, NetCDF-4, Zarr 2 xarray, Zarr 3 dimension_names | direction, frame | CF 1.11, 4: coordinates are along axes, of no body
 NetCDF-3, NetCDF-4 | time dates datetime64 | netCDF User's Guide, Data Types: numbers and texts
 HDF5 scales, HDF5 bare | time dates datetime64 | HDF5 1.14, H5T: the class of times is not supported
+NetCDF groups, Zarr groups, HDF5 groups | direction, frame, time axis, extra axis, components, arrays, names of variables | CF 1.11, HDF5, Zarr: as without groups; a group for each step
+NetCDF groups, HDF5 groups | time dates datetime64 | netCDF User's Guide, HDF5 1.14, H5T: numbers and texts
 NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
 HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
 HDF5 bare | time told, order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
@@ -762,3 +764,67 @@ def ensight(record, folder):
                   f"number of steps: {len(time.at)}\nfilename start number: 0\nfilename increment: 1\n"
                   f"time values: {numbers(time.at)}\n")
     return [f"{folder}/v.case", "--resample", *sizes]
+
+
+# ---- A group for each step, with its time in an array of one value
+def in_groups(record, save):
+    """save(group, name, values, attributes, names of dimensions)"""
+    space = [axis for axis in record.axes if axis.role != "t"]
+    for axis in space:
+        save("", axis.variable, coordinates(axis), attributes_of(axis), [axis.name])
+    time = record.axis("t")
+    for number, values in enumerate(record.volumes()):
+        save(f"step{number}", record.name, values, attributes_of_values(record) | record.fill, [axis.name for axis in space])
+        if time.name:
+            save(f"step{number}", "time", coordinates(time)[number:number + 1], attributes_of(time), [])
+
+
+@container("NetCDF groups")
+def netcdf_groups(record, folder):
+    with netCDF4.Dataset(f"{folder}/v.nc", "w") as file:
+        for axis in record.axes:
+            if axis.role != "t":
+                file.createDimension(axis.name, len(axis.at))
+
+        def save(group, name, values, attributes, names):
+            text = values.dtype.kind == "U"
+            variable = (file.createGroup(group) if group else file).createVariable(
+                name, str if text else values.dtype, names, fill_value=attributes.get("_FillValue"))
+            variable.set_auto_maskandscale(False)
+            variable[...] = values.astype(object)[0] if text else values if names else values[0]
+            variable.setncatts({name: value for name, value in attributes.items() if name != "_FillValue"})
+
+        in_groups(record, save)
+    return [f"{folder}/v.nc"]
+
+
+@container("HDF5 groups")
+def hdf5_groups(record, folder):
+    with h5py.File(f"{folder}/v.h5", "w") as file:
+        def save(group, name, values, attributes, names):
+            where = f"{group}/{name}"
+            file[where] = values.astype("S") if values.dtype.kind == "U" else values
+            file[where].attrs.update(attributes)
+            if not group:
+                file[where].make_scale(name)
+            for i, label in enumerate(names if group else []):
+                file[where].dims[i].label = label
+                file[where].dims[i].attach_scale(file[label])
+
+        in_groups(record, save)
+    return [f"{folder}/v.h5"]
+
+
+@container("Zarr groups")
+def zarr_groups(record, folder):
+    zarr_2_group(f"{folder}/v.zarr", {})
+
+    def save(group, name, values, attributes, names):
+        if group:
+            zarr_2_group(f"{folder}/v.zarr/{group}", {})
+        said = plain_numbers(attributes)
+        zarr_2(f"{folder}/v.zarr/{group}/{name}", values, dict(said, _ARRAY_DIMENSIONS=names or ["one"]),
+               said.pop("_FillValue", None))
+
+    in_groups(record, save)
+    return [f"{folder}/v.zarr"]

@@ -156,17 +156,19 @@ std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& variable) const
     const std::string what = fmt::format("{} cannot be read", variable.name);
     expect(nc_inq_vartype(variable.group, variable.id, &type), what);
     const auto& along = variable.dimensions;
-    const std::size_t count = along.empty() ? 0 : along.front().length;
+    const bool of_characters = type == NC_CHAR && !along.empty();
+    const std::size_t count =
+        along.size() > (of_characters ? 1 : 0) ? along.front().length : std::size_t{1};
     std::vector<std::string> found;
     if (count == 0 || count > kMost)
         return found;
-    if (type == NC_STRING && along.size() == 1) {
+    if (type == NC_STRING && along.size() <= 1) {
         std::vector<char*> strings(count);
         expect(nc_get_var_string(variable.group, variable.id, strings.data()), what);
         for (const char* string : strings)
             found.emplace_back(trimmed(string ? string : ""));
         nc_free_string(count, strings.data());
-    } else if (type == NC_CHAR && along.size() == 2 && along.back().length <= kLongest) {
+    } else if (of_characters && along.size() <= 2 && along.back().length <= kLongest) {
         const std::size_t length = along.back().length;
         std::string all(count * length, '\0');
         expect(nc_get_var_text(variable.group, variable.id, all.data()), what);

@@ -64,7 +64,8 @@ class NetcdfFile {
     /// All values, as stored. Meant for coordinates.
     std::vector<double> values(const NetcdfVariable& variable) const;
 
-    /// The texts of a variable along its first dimension; empty: it holds none, or long ones.
+    /// The texts of a variable along its first dimension, or its only one; characters along the last
+    /// dimension are one. Empty: it holds none, or long ones.
     std::vector<std::string> texts(const NetcdfVariable& variable) const;
 
     /// Reads the box of values at `start` with `count` values along each dimension, as stored, in

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -69,7 +68,8 @@ StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool 
             StatedAxis axis = coordinate_in(file, *candidate);
             if (!candidate->type)
                 axis.dates = file.texts(*candidate);
-            if (!candidate->type && !are_dates(axis.dates))
+            if (!candidate->type &&
+                (axis.dates.size() != dimension.length || !are_dates(axis.dates)))
                 return true;
             coordinates.push_back(std::move(axis));
             return false;
@@ -91,18 +91,20 @@ StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool 
 std::optional<StatedAxis> time_in(const NetcdfFile& file, const std::string& group) {
     for (const NetcdfVariable& variable : file.variables()) {
         const std::size_t slash = variable.name.rfind('/');
-        const bool one = std::ranges::all_of(
-            variable.dimensions, [](const auto& dimension) { return dimension.length == 1; });
-        if (!variable.type || !one || variable.dimensions.size() > 1 ||
-            variable.name.substr(0, slash == variable.name.npos ? 0 : slash) != group)
+        if (variable.name.substr(0, slash == variable.name.npos ? 0 : slash) != group)
             continue;
         StatedAxis axis = coordinate_in(file, variable);
-        const bool named = role_by_name(axis.coordinate) == AxisRole::time;
         const auto role = role_by_attributes(axis);
-        if (axis.standard_name != "time" && !(named && (!role || role == AxisRole::time)))
+        if (axis.standard_name != "time" && !(role_by_name(axis.coordinate) == AxisRole::time &&
+                                              role.value_or(AxisRole::time) == AxisRole::time))
             continue;
-        axis.at = scaled_values(file, variable);
-        return axis;
+        const auto& along = variable.dimensions;
+        if (!variable.type)
+            axis.dates = file.texts(variable);
+        else if (along.empty() || (along.size() == 1 && along.front().length == 1))
+            axis.at = scaled_values(file, variable);
+        if (axis.at.size() == 1 || (axis.dates.size() == 1 && are_dates(axis.dates)))
+            return axis;
     }
     return std::nullopt;
 }

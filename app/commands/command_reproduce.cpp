@@ -124,6 +124,9 @@ MadePicture make(const ReproduceOptions& options, const PictureNote& note) {
         guard_outputs({{*options.out, OutputKind::picture}}, {{options.picture, data}, file.get()},
                       options.force);
     MadePicture made;
+    if (const std::string other = other_reading(options.picture, note.reading, *file);
+        !other.empty())
+        print_note("{}", other);
     if (data_hash_of(*file) != note.data_hash) {
         if (!options.any_data)
             throw interaction::Error(fmt::format(

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -67,9 +68,31 @@ std::vector<std::string> offered_by(const OpenSource& open, index::ReadOptions o
     return open(options)->info().arrays;
 }
 
+/// Whether names differ in the numbers at their ends alone.
+bool are_numbered(std::span<const std::string> names) {
+    const auto begin_of = [](const std::string& name) {
+        return name.substr(0, name.find_last_not_of("0123456789") + 1); // npos + 1 is 0
+    };
+    return names.size() > 1 && std::ranges::all_of(names, [&](const std::string& name) {
+               const std::string begin = begin_of(name);
+               return begin.size() < name.size() && begin == begin_of(names.front());
+           });
+}
+
+/// Whether the format takes the arrays that match a pattern as the steps of one.
+bool takes_as_steps(const OpenSource& open, index::ReadOptions options,
+                    const std::string& pattern) {
+    options.array = pattern;
+    try {
+        return open(options)->info().steps() > 1;
+    } catch (const index::Error&) {
+        return false;
+    }
+}
+
 /// Names of arrays with patterns such as `u*` replaced by the arrays that match. A pattern that is
 /// itself the name of an array, as of groups in HDF5 that are steps, stays, and so does one that no
-/// array matches: the format may know it.
+/// array matches, which the format may know, and one of numbered arrays that are the steps of one.
 std::vector<std::string> without_patterns(const OpenSource& open, const BuildArguments& arguments) {
     std::vector<std::string> names, offered;
     for (const std::string& given : arguments.arrays) {
@@ -92,7 +115,9 @@ std::vector<std::string> without_patterns(const OpenSource& open, const BuildArg
                 index::matches_pattern("*/" + pattern, name))
                 names.push_back(of_component ? name + given.substr(dot) : name_in(each));
         }
-        if (is_name || names.size() == before) {
+        if (is_name || names.size() == before ||
+            (are_numbered(std::span(names).subspan(before)) &&
+             takes_as_steps(open, read_options(arguments), given))) {
             names.resize(before);
             names.push_back(given);
         }

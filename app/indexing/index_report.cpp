@@ -53,6 +53,17 @@ std::vector<std::string_view> tier_names(const index::IndexFile& file) {
     return names;
 }
 
+/// Those of the series, and that this program would read the files otherwise.
+std::vector<std::string> notes_of(const index::IndexFile& file) {
+    std::vector<std::string> notes = file.info().notes;
+    if (const std::uint32_t reading = file.metadata().reading_number; reading != index::kReading)
+        notes.push_back(fmt::format("its files were read otherwise than this program reads them "
+                                    "(reading {}, this program has {}): built again, its places, "
+                                    "times or missing values may differ",
+                                    reading, index::kReading));
+    return notes;
+}
+
 std::string array_text(const index::IndexFile& file) {
     const index::IndexStats& stats = file.stats();
     const auto tiers = tier_names(file);
@@ -269,7 +280,7 @@ SafeText as_text(const IndexReport& report) {
         line("between", blends_text(quality));
     line("content hash", fmt::format("{:016x}", file.content_hash()));
     text += sources_text(info.sources);
-    for (const std::string& note : info.notes)
+    for (const std::string& note : notes_of(file))
         line("note", note);
     if (report.tree)
         text += tree_text(file);
@@ -336,7 +347,7 @@ nlohmann::ordered_json as_json(const IndexReport& report) {
     }
     j["content_hash"] = fmt::format("{:016x}", file.content_hash());
     j["sources"] = info.sources;
-    j["notes"] = info.notes;
+    j["notes"] = notes_of(file);
     j["between"] = blends_json(quality_of(report));
     if (report.tree) {
         j["tree"] = nlohmann::ordered_json::array();

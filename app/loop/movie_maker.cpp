@@ -260,6 +260,7 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
     const std::span<const double> times = all.at;
     interaction::Recording recording;
     header.data_hash = view.data_hash;
+    header.reading = view.reading;
     header.start = view.state;
     header.start.panel = false;
     header.start.room_panel = interaction::RoomPanel{};

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 namespace isochron::app {
@@ -82,6 +83,9 @@ PictureNote note_from_json(const json& value) {
     note.data_hash = text("data_hash");
     if (const json* other = members.find("recorded_on"))
         note.recorded_on = interaction::text(*other, "recorded_on");
+    if (const json* reading = members.find("reading_number"))
+        note.reading = static_cast<std::uint32_t>(interaction::natural(
+            *reading, "reading_number", std::numeric_limits<std::uint32_t>::max()));
     note.part = part_from(members.at("part"));
     note.size = size_from(members.at("size"));
     note.samples = static_cast<int>(interaction::natural(members.at("samples"), "samples", 64));
@@ -100,10 +104,11 @@ PictureNote note_from_json(const json& value) {
     note.latched = frame.latched;
     if (const json* movie = members.find("movie"))
         note.movie = movie_from(*movie);
-    members.done({"format", "version",   "program", "drawn_with", "configuration",
-                  "data",   "data_hash", "part",    "size",       "samples",
-                  "passes", "footprint", "shape",   "ray",        "caption",
-                  "text",   "state",     "frame",   "movie",      "recorded_on"});
+    members.done({"format",        "version",   "program", "drawn_with", "configuration",
+                  "data",          "data_hash", "part",    "size",       "samples",
+                  "passes",        "footprint", "shape",   "ray",        "caption",
+                  "text",          "state",     "frame",   "movie",      "recorded_on",
+                  "reading_number"});
     return note;
 }
 
@@ -162,6 +167,8 @@ std::string text_of(const PictureNote& note) {
         value["text"] = note.text;
     if (note.movie)
         value["movie"] = {{"rate", note.movie->rate}, {"recording", note.movie->recording}};
+    if (note.reading != 0)
+        value["reading_number"] = note.reading;
     if (!note.recorded_on.empty())
         value["recorded_on"] = note.recorded_on;
     return fmt::format("{}{}{}", kBegin, value.dump(-1, ' ', true, json::error_handler_t::replace),

@@ -37,6 +37,7 @@ struct PictureNote {
     std::string data;          ///< file name of the index, without its folder
     std::string data_hash;     ///< hexadecimal content hash
     std::string recorded_on{}; ///< hash of the recording's data, if those are others
+    std::uint32_t reading = 0; ///< `index::Metadata::reading_number` of the data; 0: not said
     PicturePart part;
     glm::ivec2 size{0};    ///< size of the window or room, pixels
     int samples = 1;       ///< samples of each pixel

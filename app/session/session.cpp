@@ -138,10 +138,9 @@ interaction::InputState Session::seen(const interaction::InputState& input, cons
 /// Where the data lie to the viewer as they did at the start.
 interaction::Similarity Session::all_in_view(const Audience& audience) const {
     const interaction::Pose first{config_.installation.viewers.front().position, {1, 0, 0, 0}};
-    return audience.viewers.empty()
-               ? home_.room_from_physical
-               : interaction::carried(home_.room_from_physical, first,
-                                      audience.viewers.front().head);
+    return audience.viewers.empty() ? home_.room_from_physical
+                                    : interaction::carried(home_.room_from_physical, first,
+                                                           audience.viewers.front().head);
 }
 
 PanelModel Session::panel_model(const FrameReport& report) const {
@@ -354,6 +353,7 @@ CaptureView Session::capture_view(const FrameReport& frame) const {
 PictureNote Session::note() const {
     PictureNote note = note_;
     note.data_hash = fmt::format("{:016x}", arrays_.file()->content_hash());
+    note.reading = arrays_.file()->metadata().reading_number;
     note.footprint = name_of(drawn_ ? drawn_->footprint : render::Footprint{});
     note.text = drawn_ ? drawn_->layout.text : 0.0f;
     note.as_seen = config_.pictures.only_kept ||

@@ -122,6 +122,30 @@ std::vector<std::string> comments_without_noun(const std::filesystem::path& root
     return found;
 }
 
+/// Sources with words by which axes are recognized, besides the one that makes axes of them.
+std::vector<std::string> other_sources_of_axes(const std::filesystem::path& root) {
+    static const std::regex kWord(
+        R"_("(latitude|longitude|n?l(at|on)|degrees?_?(north|east|[ne])|south_north|west_east|)_"
+        R"_(bottom_top|p?lev|projection_[xy]_coordinate|realization|n[xyz])")_");
+    std::vector<std::string> found;
+    for (const std::string& source : sources(root, "index"))
+        if (source != "index/readers/formats/stated/axis_roles.cpp" &&
+            std::regex_search(in_lower_case(text_in(root / source)), kWord))
+            found.push_back(source);
+    return found;
+}
+
+TEST(Words, OfAxesAndTheirUnitsStandInOneFile) {
+    EXPECT_EQ(other_sources_of_axes(checkout()), std::vector<std::string>{})
+        << "a format fills the record of what is stated; stated/axis_roles.cpp knows the words";
+    const PlantedTree tree;
+    tree.plant("index/readers/format.cpp", "if (unit == \"degrees_North\")\n");
+    tree.plant("index/readers/formats/stated/axis_roles.cpp", "\"degrees_north\", \"lat\"\n");
+    tree.plant("index/other.cpp", "// degrees_north is no string\n");
+    EXPECT_EQ(other_sources_of_axes(tree.root()),
+              std::vector<std::string>{"index/readers/format.cpp"});
+}
+
 TEST(Words, NoCommentLeavesOutItsNoun) {
     EXPECT_EQ(comments_without_noun(checkout()), std::vector<std::string>{})
         << "say `size of the picture` instead of `of the picture`, and what it is instead of `the "

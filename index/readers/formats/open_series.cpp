@@ -113,8 +113,27 @@ std::vector<SeriesFile> joined_by_time(std::vector<SeriesFile> files) {
     return joined;
 }
 
+/// Leaves out the last steps of a list whose files are not there, as where a run was stopped; a step of
+/// which only some files are there stays. A note says so.
+ListedFiles without_missing_end(ListedFiles listed, const std::string& name,
+                                std::vector<std::string>& notes) {
+    std::error_code ignored;
+    std::size_t there = listed.size();
+    while (there > 0 && !fs::exists(listed[there - 1].path, ignored))
+        --there;
+    if (there == 0 || there == listed.size() || listed[there - 1].time == listed[there].time)
+        return listed;
+    notes.push_back(fmt::format("{} names {} files, of which the last {} {} not there, {} and on: "
+                                "left out",
+                                name, listed.size(), listed.size() - there,
+                                listed.size() - there == 1 ? "is" : "are",
+                                listed[there].path.filename().string()));
+    listed.resize(there);
+    return listed;
+}
+
 /// What a list names.
-/// @param notes get how many entries there are twice
+/// @param notes get how many entries there are twice, and which are left out
 std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& options,
                                   std::vector<std::string>& notes) {
     if (options.times_from_names)
@@ -123,8 +142,9 @@ std::vector<SeriesFile> listed_in(const KnownFile& list, const ReadOptions& opti
     file_bytes(list.path);
     std::vector<SeriesFile> series;
     std::vector<KnownFile> known;
-    const ListedFiles listed =
-        ordered_entries(list.format->list(list.path), options.keep_first, notes);
+    const ListedFiles listed = without_missing_end(
+        ordered_entries(list.format->list(list.path), options.keep_first, notes),
+        list.path.filename().string(), notes);
     for (const ListedFile& file : listed)
         known.push_back(known_file(file.path));
     let_readers_read(known);

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <string_view>
 #include <type_traits>
 
 namespace isochron::index {
@@ -50,6 +52,55 @@ std::string listed(const std::vector<std::string>& offered) {
     if (offered.size() > kShown)
         list += fmt::format(" and {} more", offered.size() - kShown);
     return list;
+}
+
+using Families = std::map<std::string, std::vector<const StoredArray*>>; ///< by how names begin
+
+/// The first family of so many arrays that are alike; null: there is none.
+const Families::value_type* alike_in(const Families& families, std::size_t least,
+                                     std::size_t most) {
+    for (const auto& family : families) {
+        const StoredArray& first = *family.second.front();
+        if (family.second.size() >= least && family.second.size() <= most &&
+            std::ranges::all_of(family.second, [&](const StoredArray* array) {
+                return array->type == first.type && array->shape == first.shape &&
+                       array->components == 1;
+            }))
+            return &family;
+    }
+    return nullptr;
+}
+
+/// What else may be meant by arrays that are alike and whose names end in numbers, or in x, y and z,
+/// as options of commands behind those that choose one.
+std::string advice_on_families(std::span<const StoredArray> arrays) {
+    Families numbered, lettered;
+    for (const StoredArray& array : arrays) {
+        const std::size_t end = array.name.find_last_not_of("0123456789") + 1; // npos + 1 is 0
+        if (!is_offered(array) || array.name.empty())
+            continue;
+        if (array.by_pattern && end < array.name.size())
+            numbered[array.name.substr(0, end)].push_back(&array);
+        if (std::string_view("xyz").find(array.name.back()) != std::string_view::npos)
+            lettered[array.name.substr(0, array.name.size() - 1)].push_back(&array);
+    }
+    std::string advice;
+    if (const auto* family = alike_in(numbered, 2, arrays.size())) {
+        const auto begins = std::ranges::count_if(arrays, [&](const StoredArray& array) {
+            return array.name.starts_with(family->first);
+        });
+        const bool alone = static_cast<std::size_t>(begins) == family->second.size();
+        advice = fmt::format("; --array '{}{}*' takes {} as the steps of one", family->first,
+                             alone ? "" : "[0-9]", family->second.size());
+    }
+    if (const auto* family = alike_in(lettered, 3, 3)) {
+        std::vector<std::string> names;
+        for (const StoredArray* array : family->second)
+            names.push_back(array->name);
+        std::ranges::sort(names);
+        advice += fmt::format("; --array {} takes the length of a vector", fmt::join(names, ","));
+    }
+    return advice;
 }
 
 std::uint32_t component_of(const StoredArray& array, const ReadOptions& options,
@@ -204,9 +255,9 @@ ChosenScalar choose_scalar(std::span<const StoredArray> arrays, const ReadOption
         throw Error(fmt::format("{}: holds no array{}", file,
                                 arrays.empty() ? "" : " of numbers that can be read"));
     if (open && !options.any_array)
-        throw Error(fmt::format(
-            "{}: several arrays, choose one with --array: {}; --all-arrays takes all of one shape",
-            file, list));
+        throw Error(fmt::format("{}: several arrays, choose one with --array: {}; --all-arrays "
+                                "takes all of one shape{}",
+                                file, list, advice_on_families(arrays)));
     if (!found)
         throw Error(
             fmt::format("{}: no array {}, expected one of: {}", file, *options.array, list));

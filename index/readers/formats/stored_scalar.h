@@ -51,6 +51,7 @@ struct StoredArray {
     bool gaps = false;        ///< values may be missing; only NaN can stand for these
     std::string shape = {};   ///< where a list of arrays has it: `64 x 64 x 32`
     bool maybe_steps = false; ///< the axis of components can be read as time instead
+    bool by_pattern = false;  ///< a pattern of names takes arrays that match as the steps of one
 };
 
 /// An array, or one component of it, or its magnitude.

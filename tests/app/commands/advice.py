@@ -163,6 +163,24 @@ if "files of several channels, choose one with --array: channel 0, channel 1" no
     wrong.append(f"channels: {out}{err}")
 followed.append(": files of several channels, choose one with --array:")
 
+# ---- arrays that may be the steps or the components of one
+names = {f"{name}_{i}": values + i for name in ("rho", "T") for i in range(3)} | {f"E{c}": values for c in "xyz"}
+hdf5("family.h5", names | {"rho_mean": values})
+netcdf("family.nc", names=" ".join(names))
+zarr_group("family.zarr", **names)
+hdf5("mean.h5", {f"rho_{i}": values for i in range(3)} | {"rho_mean": values})
+for given, array, gives in [(f"family.{ending}", f"{begins}{name}", gives.format(begins))
+                            for ending, begins in (("h5", "/"), ("nc", ""), ("zarr", ""))
+                            for name, gives in (("T_*", "steps         3"), (f"Ex,{begins}Ey,{begins}Ez", "{0}Ez.magnitude"))] + \
+        [("mean.h5", "/rho_[0-9]*", "steps         3")]:
+    build = ["build", given, "-o", "family.isochron", "--quiet", "--force"]
+    status, out, err = run(*build)
+    words = f"--array {shlex.quote(array)} takes "
+    if not status or words not in err.splitlines()[-1] or run(*build, "--array", array)[0] or \
+            gives not in run("info", "family.isochron")[1]:
+        wrong.append(f"{given} {words}: {err}{run('info', 'family.isochron')}")
+followed += ["; --array '{}{}*' takes {} as the steps of one", "; --array {} takes the length of a vector"]
+
 # ---- sizes, types, what is left over
 raw = write("plain.dat", values.tobytes())
 follow(raw, "or raw values with --dims and --type", ("--dims", "6 5 4 --type f32"), gives="6 x 5 x 4")

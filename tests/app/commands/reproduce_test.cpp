@@ -1,15 +1,20 @@
 // A picture that the program has written is drawn again from its note, with the same bytes.
 #include "tests/app/explore/small_cave.h"
 #include "tests/support/child_process.h"
+#include "tests/support/index_repair.h"
 #include "tests/support/session_fixture.h"
 
 #include "app/output/picture_note.h"
+#include "index/volume/volume_series.h"
 #include "interaction/recording/recording.h"
 #include "stereo/image_file.h"
+
+#include <fmt/format.h>
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <span>
 
 namespace isochron::app {
 namespace {
@@ -142,6 +147,30 @@ TEST_F(ReproduceTest, RaysAndCaptionsAreInPicturesThatAskForThem) {
     EXPECT_GT(differ(plain, ray, 0, 64), 5);
     EXPECT_GT(differ(plain, caption, 0, 28), 100) << "at the top";
     EXPECT_GT(differ(plain, caption, 40, 64), 50) << "axes and scale bar below";
+}
+
+TEST_F(ReproduceTest, DataThatWereReadOtherwiseAreToldByTheirReading) {
+    record(kOne, "mono");
+    const std::string now = folder_.read("sphere.isochron");
+    std::string before = now;
+    const std::string key = "\"reading_number\":";
+    --before[before.rfind(key) + key.size()];
+    index::repair_checksums(std::as_writable_bytes(std::span(before)));
+    folder_.write("sphere.isochron", before);
+    EXPECT_THAT(isochron({"info", "sphere.isochron"}).out, HasSubstr("were read otherwise"));
+    const std::string picture = pictures({}).front();
+    const auto reproduced = [&] {
+        const ChildResult result = isochron({"reproduce", picture, "--data", "sphere.isochron"});
+        EXPECT_EQ(result.status, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_THAT(reproduced(), testing::Not(HasSubstr("read otherwise")));
+    folder_.write("sphere.isochron", now);
+    EXPECT_THAT(isochron({"info", "sphere.isochron"}).out,
+                testing::Not(HasSubstr("were read otherwise")));
+    EXPECT_THAT(reproduced(), HasSubstr(fmt::format("read otherwise (reading {}, sphere.isochron "
+                                                    "has {})",
+                                                    index::kReading - 1, index::kReading)));
 }
 
 TEST_F(ReproduceTest, OtherDataAreToldByTheirHash) {

@@ -37,7 +37,9 @@ TEST(PictureNote, ComesBackAsItWas) {
     note.latched = head_at_rest(2.51);
     note.ray = note.caption = true;
     EXPECT_EQ(text_of(note).find("recorded_on"), std::string::npos);
+    EXPECT_EQ(text_of(note).find("reading_number"), std::string::npos);
     note.recorded_on = "fedcba9876543210";
+    note.reading = 3;
     const std::string text = text_of(note);
     EXPECT_EQ(note_from(text), note);
     for (const char c : text)

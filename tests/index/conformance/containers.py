@@ -20,15 +20,20 @@ CONTAINERS = {}
 # Containers | what they have no way to say, in the words of the statements' needs | the place in the specification that shows it
 LACKS = """
 NetCDF-3, NetCDF-4, Zarr 2 xarray, Zarr 3 dimension_names | direction, frame | CF 1.11, 4: coordinates are along axes, of no body
+NetCDF-3, NetCDF-4 | time dates datetime64 | netCDF User's Guide, Data Types: numbers and texts
+HDF5 scales, HDF5 bare | time dates datetime64 | HDF5 1.14, H5T: the class of times is not supported
+NetCDF groups, Zarr groups, HDF5 groups | direction, frame, time axis, extra axis, components, arrays, names of variables | CF 1.11, HDF5, Zarr: as without groups; a group for each step
+NetCDF groups, HDF5 groups | time dates datetime64 | netCDF User's Guide, HDF5 1.14, H5T: numbers and texts
 NetCDF-3, NetCDF-4 | components | CF 1.11, 3.3: a vector is a variable for each component
 HDF5 scales | direction, frame | HDF5 1.14, Dimension Scales: along dimensions, of no body
 HDF5 bare | time told, order, names, time axis, extra axis, direction, frame, unit other, components first | HDF5 1.14, H5S: dimensions without scales have no names
-HDF5 openPMD | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
+HDF5 openPMD, HDF5 openPMD 2 | uneven, descending, direction, extra axis | openPMD 1.1.0, Mesh Based Records: gridSpacing is a positive number an axis
 HDF5 openPMD | unit by axis, unit other | openPMD 1.1.0, Mesh Based Records: gridUnitSI is one number, to meters
-HDF5 openPMD | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
-HDF5 openPMD | time axis, time dates | openPMD 1.1.0, iterations: time is a group for each, a number in seconds
-HDF5 openPMD | values scale offset, values unit, values gaps, unit words | openPMD 1.1.0, records: unitSI alone
-HDF5 openPMD | components last | openPMD 1.1.0, vector records: a dataset for each component
+HDF5 openPMD 2 | unit other, unit any | openPMD 2.0.0, Mesh Based Records: gridUnitSI is a number for each axis, to meters
+HDF5 openPMD, HDF5 openPMD 2 | names, frame | openPMD 1.1.0, Mesh Based Records: axisLabels are x, y, z in geometry cartesian
+HDF5 openPMD, HDF5 openPMD 2 | time axis, time dates | openPMD 1.1.0, iterations: time is a group for each, a number in seconds
+HDF5 openPMD, HDF5 openPMD 2 | values scale offset, values unit, values gaps, unit words | openPMD 1.1.0, records: unitSI alone
+HDF5 openPMD, HDF5 openPMD 2 | components last | openPMD 1.1.0, vector records: a dataset for each component
 HDF5 axistags | uneven, times uneven, first time, origin, descending | vigra, AxisInfo: one resolution
 HDF5 axistags | unit, time unit, time dates | vigra, AxisInfo: no unit
 HDF5 axistags | names, extra axis | vigra, AxisInfo: keys are x, y, z, t, c
@@ -81,6 +86,16 @@ OME-TIFF | order, names, time axis last, components last, extra axis | OME-XML 2
 OME-TIFF | unit words, unit other, unit any | OME-XML 2016-06, Pixels: PhysicalSizeUnit is one of UnitsLength
 OME-TIFF | origin, time dates | OME-XML 2016-06, Plane: PositionX is of the stage, DeltaT in a unit of time
 OME-TIFF | values, arrays, remark | OME-XML 2016-06, Pixels: numbers as they are
+MRC, MGH, Gaussian cube, BigDataViewer | uneven, unit by axis, unit words, unit other, unit any, names, extra axis | MRC2014, MGH, cube, BDV: one step along each of three axes, in one unit
+MRC, Gaussian cube, BigDataViewer | interval, first time, times uneven, time unit, time dates, time axis | MRC2014, cube, BDV: a volume, or a number of one
+MGH | first time, times uneven, time dates, time axis | MGH, footer: TR in ms, from 0
+MRC, MGH, Gaussian cube, BigDataViewer | values, arrays, components first, remark | MRC2014, MGH, cube, BDV: one array of numbers as they are
+MRC | descending, direction, frame, components last | MRC2014, words 11 to 16: a cell along x, y and z
+MGH | components last | MGH, nframes: volumes that follow each other
+Gaussian cube | frame | Gaussian, cubegen: of no body
+BigDataViewer | order, origin, descending, direction, frame, components last | BigDataViewer, ViewSetup: voxelSize, cells are z, y, x
+EnSight | order, uneven, descending, direction, frame, unit, names, extra axis, time unit, time dates, time axis | EnSight Gold, block uniform: origin and delta along x, y and z, no units
+EnSight | values, arrays, components first, components last, remark | EnSight Gold, variable files: numbers as they are
 BOV | order, uneven, descending, direction, frame, unit, names, extra axis | VisIt, BOV: BRICK_ORIGIN and BRICK_SIZE along x, y, z
 BOV | time unit, time dates, time axis | VisIt, BOV: TIME is a number, a file for each
 BOV | values, arrays, components first | VisIt, BOV: one array, as it is
@@ -116,6 +131,8 @@ def attributes_of(axis):
 
 def coordinates(axis):
     """As they are stored: packed, if the attributes say so."""
+    if axis.texts is not None:
+        return axis.texts
     if "scale_factor" not in axis.attributes:
         return np.asarray(axis.at, "f8")
     return np.round((axis.at - axis.attributes["add_offset"]) / axis.attributes["scale_factor"]).astype("i2")
@@ -159,8 +176,14 @@ def netcdf(kind):
         with netCDF4.Dataset(path, "w", format=kind) as file:
             for axis in record.axes:
                 file.createDimension(axis.name, len(axis.at))
-                stored = coordinates(axis)
-                variable = file.createVariable(axis.variable, stored.dtype, (axis.name,))
+                stored, names, kind_of_value = coordinates(axis), (axis.name,), None
+                if stored.dtype.kind == "U" and kind == "NETCDF4":
+                    stored, kind_of_value = stored.astype(object), str
+                elif stored.dtype.kind == "U":
+                    stored = netCDF4.stringtochar(stored.astype("S"))
+                    names += (f"{axis.name}_length",)
+                    file.createDimension(names[1], stored.shape[1])
+                variable = file.createVariable(axis.variable, kind_of_value or stored.dtype, names)
                 variable.set_auto_maskandscale(False)
                 variable[:] = stored
                 variable.setncatts(attributes_of(axis))
@@ -187,7 +210,8 @@ def hdf5(scales):
         path = f"{folder}/v.h5"
         with h5py.File(path, "w") as file:
             for axis in measured(record):
-                file[axis.variable] = coordinates(axis)
+                stored = coordinates(axis)
+                file[axis.variable] = stored.astype("S") if stored.dtype.kind == "U" else stored
                 file[axis.variable].attrs.update(attributes_of(axis))
                 if scales:
                     file[axis.variable].make_scale(axis.variable)
@@ -209,31 +233,41 @@ container("HDF5 scales", by_axis=True)(hdf5(True))
 container("HDF5 bare", may=("is taken for time", "coordinates taken from"), by_axis=True)(hdf5(False))
 
 
-@container("HDF5 openPMD")
-def hdf5_openpmd(record, folder):
-    path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
-    vector = record.axis("c") is not None
-    with h5py.File(path, "w") as file:
-        file.attrs.update(openPMD=np.bytes_("1.1.0"), openPMDextension=np.uint32(0), basePath=np.bytes_("/data/%T/"),
-                          meshesPath=np.bytes_("fields/"), iterationEncoding=np.bytes_("groupBased"),
-                          iterationFormat=np.bytes_("/data/%T/"))
-        for number, time in enumerate(record.axis("t").at):
-            group = file.create_group(f"data/{number}")
-            group.attrs.update(time=time, dt=1.0, timeUnitSI=1e-3 if record.axis("t").unit == "ms" else 1.0)
-            for name, values in arrays_of(record).items():
-                volume = np.moveaxis(values, [axis.role for axis in record.axes].index("t"), 0)[number]
-                at = f"fields/{name}"
-                mesh = group.create_group(at) if vector else group.create_dataset(at, data=volume)
-                parts = [group.create_dataset(f"{at}/{c}", data=volume[i]) for i, c in enumerate("xyz")] if vector else [mesh]
-                mesh.attrs.update(geometry=np.bytes_("cartesian"), dataOrder=np.bytes_("C"), unitDimension=np.zeros(7),
-                                  axisLabels=[np.bytes_(axis.name) for axis in space], timeOffset=np.float32(0),
-                                  gridSpacing=[axis.step() for axis in space], gridGlobalOffset=[axis.at[0] for axis in space],
-                                  gridUnitSI={"mm": 1e-3, "um": 1e-6}[space[0].unit])
-                mesh.attrs.update(record.attributes)
-                for part in parts:
-                    part.attrs.update(unitSI=float(record.slope), position=np.zeros(3))
-    return asked(record, path, f"data/*/fields/{record.name}" if record.others else None) if not vector else \
-        [path, "--array", "data/*/fields/v/y"]
+def openpmd(version, unit_of_axes):
+    def write(record, folder):
+        path, space = f"{folder}/v.h5", [axis for axis in record.axes if axis.role in "xyz"]
+        vector = record.axis("c") is not None
+        with h5py.File(path, "w") as file:
+            file.attrs.update(openPMD=np.bytes_(version), openPMDextension=np.uint32(0), basePath=np.bytes_("/data/%T/"),
+                              meshesPath=np.bytes_("fields/"), iterationEncoding=np.bytes_("groupBased"),
+                              iterationFormat=np.bytes_("/data/%T/"))
+            for number, time in enumerate(record.axis("t").at):
+                group = file.create_group(f"data/{number}")
+                group.attrs.update(time=time, dt=1.0, timeUnitSI=1e-3 if record.axis("t").unit == "ms" else 1.0)
+                for name, values in arrays_of(record).items():
+                    volume = np.moveaxis(values, [axis.role for axis in record.axes].index("t"), 0)[number]
+                    at = f"fields/{name}"
+                    mesh = group.create_group(at) if vector else group.create_dataset(at, data=volume)
+                    parts = [group.create_dataset(f"{at}/{c}", data=volume[i]) for i, c in enumerate("xyz")] if vector else [mesh]
+                    mesh.attrs.update(geometry=np.bytes_("cartesian"), dataOrder=np.bytes_("C"), unitDimension=np.zeros(7),
+                                      axisLabels=[np.bytes_(axis.name) for axis in space], timeOffset=np.float32(0),
+                                      gridSpacing=[axis.step() for axis in space], gridGlobalOffset=[axis.at[0] for axis in space],
+                                      gridUnitSI=unit_of_axes(space))
+                    mesh.attrs.update(record.attributes)
+                    for part in parts:
+                        part.attrs.update(unitSI=float(record.slope), position=np.zeros(3))
+        return asked(record, path, f"data/*/fields/{record.name}" if record.others else None) if not vector else \
+            [path, "--array", "data/*/fields/v/y"]
+
+    return write
+
+
+def unit_of_axis(axis):
+    return METERS[axis.unit]
+
+
+container("HDF5 openPMD")(openpmd("1.1.0", lambda space: unit_of_axis(space[0])))
+container("HDF5 openPMD 2", may=("all are given in",))(openpmd("2.0.0", lambda space: [unit_of_axis(axis) for axis in space]))
 
 
 @container("HDF5 axistags", by_axis=True)
@@ -283,8 +317,12 @@ def zarr_2_group(path, attributes):
 
 
 def zarr_3(path, values, attributes, fill=0, **more):
+    kinds = {"U": ("fixed_length_utf32", dict(length_bytes=values.dtype.itemsize)),
+             "M": ("numpy.datetime64", dict(unit="ns", scale_factor=1))}
+    kind = kinds.get(values.dtype.kind)
     save_json(f"{path}/zarr.json", dict(
-        zarr_format=3, node_type="array", shape=list(values.shape), data_type=values.dtype.name, attributes=attributes,
+        zarr_format=3, node_type="array", shape=list(values.shape), attributes=attributes,
+        data_type=dict(zip(("name", "configuration"), kind)) if kind else values.dtype.name,
         chunk_grid=dict(name="regular", configuration=dict(chunk_shape=list(values.shape))), fill_value=fill,
         chunk_key_encoding=dict(name="default", configuration=dict(separator="/")),
         codecs=[dict(name="bytes", configuration=dict(endian="little"))], **more))
@@ -631,3 +669,162 @@ def bov(record, folder):
                       f"BRICK_SIZE: {numbers([axis.at[-1] - axis.at[0] for axis in space])}\n"
                       f"DATA_COMPONENTS: {3 if record.axis('c') else 1}\n{remarks}")
     return [*files, *asked(record, "")[1:]]
+
+
+# ---- Formats of one field each
+def write_steps(record, folder, ending, write):
+    """A file for each step."""
+    files = []
+    for number, values in enumerate(record.volumes()):
+        files.append(f"{folder}/v{number}.{ending}")
+        write(files[-1], values)
+    return [*files, *asked(record, "")[1:]]
+
+
+@container("MRC")
+def mrc(record, folder):
+    def write(path, values):
+        space = [record.axis(role) for role in "xyz"]
+        cell = [axis.step() * METERS[axis.unit] / METERS["angstrom"] * len(axis.at) for axis in space]
+        origin = [axis.in_unit("angstrom")[0] for axis in space]
+        header = np.zeros(256, "<i4")
+        header[:4] = *values.shape[::-1], {"f4": 2, "i2": 1}[values.dtype.str[1:]]
+        header[7:10] = [len(axis.at) for axis in space]
+        header[10:16] = np.array([*cell, 90, 90, 90], "<f4").view("<i4")
+        header[16:19] = ["xyz".index(axis.role) + 1 for axis in record.space()]
+        header[27], header[52], header[53] = 20140, int.from_bytes(b"MAP ", "little"), 0x4444
+        header[49:52] = np.array(origin, "<f4").view("<i4")
+        with open(path, "wb") as out:
+            out.write(header.tobytes() + values.tobytes())
+
+    return write_steps(record, folder, "mrc", write)
+
+
+@container("MGH")
+def mgh(record, folder):
+    steps, first = record.steps("ras", "mm")
+    values, sizes = record.values, [len(axis.at) for axis in record.space()]
+    lengths = [np.linalg.norm(step) for step in steps]
+    head = np.array([1, *sizes, len(values), {"f4": 3, "i2": 4}[values.dtype.str[1:]], 0], ">i4").tobytes()
+    places = [*lengths, *np.ravel([step / length for step, length in zip(steps, lengths)]),
+              *(first + sum(step * size / 2 for step, size in zip(steps, sizes)))]
+    head += np.array(1, ">i2").tobytes() + np.array(places, ">f4").tobytes()
+    interval = record.axis("t").step() * (1e3 if record.axis("t").unit == "s" else 1)
+    with open(f"{folder}/v.mgh", "wb") as out:
+        out.write(head.ljust(284, b"\0") + values.astype(values.dtype.newbyteorder(">")).tobytes()
+                  + np.array([interval, 0, 0, 0, 0], ">f4").tobytes())
+    return asked(record, f"{folder}/v.mgh")
+
+
+@container("Gaussian cube")
+def cube(record, folder):
+    steps, first = record.steps("", "angstrom")
+    components = 3 if record.axis("c") else 1
+
+    def write(path, values):
+        lines = ["title", "another", f"0 {numbers(first)} {components}"]
+        lines += [f"{-len(axis.at)} {numbers(step)}" for axis, step in reversed(list(zip(record.space(), steps)))]
+        with open(path, "w", encoding="utf-8") as out:
+            out.write("\n".join([*lines, numbers(values)]) + "\n")
+
+    return write_steps(record, folder, "cube", write)
+
+
+@container("BigDataViewer", may=("stores unsigned values as i16",))
+def bigdataviewer(record, folder):
+    size = numbers([record.axis(role).step() for role in "xyz"])
+    with h5py.File(f"{folder}/v.h5", "w") as file:
+        file["s00/resolutions"], file["s00/subdivisions"] = np.ones((1, 3)), np.array([[8, 8, 8]])
+        for number, values in enumerate(record.volumes()):
+            file[f"t{number:05d}/s00/0/cells"] = values.astype("i2")
+    with open(f"{folder}/v.xml", "w", encoding="utf-8") as out:
+        out.write(f'<SpimData version="0.2"><SequenceDescription><ViewSetups><ViewSetup><id>0</id><voxelSize><unit>'
+                  f'{record.axis("x").unit}</unit><size>{size}</size></voxelSize></ViewSetup></ViewSetups>'
+                  "</SequenceDescription></SpimData>")
+    return asked(record, f"{folder}/v.h5")
+
+
+@container("EnSight", may=("resampled", "array v "))
+def ensight(record, folder):
+    """Read as a mesh: it is sampled at its own vertices."""
+    space, time = [record.axis(role) for role in "xyz"], record.axis("t")
+    sizes = [len(axis.at) for axis in space]
+
+    def column(values):
+        return "".join(f"{value:12.5e}\n" for value in np.ravel(values))
+
+    with open(f"{folder}/v.geo", "w", encoding="utf-8") as out:
+        out.write(f"a\nb\nnode id off\nelement id off\npart\n{1:10d}\nblock\nblock uniform\n" + "".join(
+            f"{size:10d}" for size in sizes) + "\n" + column([axis.at[0] for axis in space] + [axis.step() for axis in space]))
+    for number, values in enumerate(record.volumes()):
+        with open(f"{folder}/v.scl{number:03d}", "w", encoding="utf-8") as out:
+            out.write(f"v\npart\n{1:10d}\nblock\n" + column(values))
+    with open(f"{folder}/v.case", "w", encoding="utf-8") as out:
+        out.write("FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: v.geo\nVARIABLE\nscalar per node: v v.scl***\nTIME\ntime set: 1\n"
+                  f"number of steps: {len(time.at)}\nfilename start number: 0\nfilename increment: 1\n"
+                  f"time values: {numbers(time.at)}\n")
+    return [f"{folder}/v.case", "--resample", *sizes]
+
+
+# ---- A group for each step, with its time in an array of one value
+def in_groups(record, save):
+    """save(group, name, values, attributes, names of dimensions)"""
+    space = [axis for axis in record.axes if axis.role != "t"]
+    for axis in space:
+        save("", axis.variable, coordinates(axis), attributes_of(axis), [axis.name])
+    time = record.axis("t")
+    for number, values in enumerate(record.volumes()):
+        save(f"step{number}", record.name, values, attributes_of_values(record) | record.fill, [axis.name for axis in space])
+        if time.name:
+            save(f"step{number}", "time", coordinates(time)[number:number + 1], attributes_of(time), [])
+
+
+@container("NetCDF groups")
+def netcdf_groups(record, folder):
+    with netCDF4.Dataset(f"{folder}/v.nc", "w") as file:
+        for axis in record.axes:
+            if axis.role != "t":
+                file.createDimension(axis.name, len(axis.at))
+
+        def save(group, name, values, attributes, names):
+            text = values.dtype.kind == "U"
+            variable = (file.createGroup(group) if group else file).createVariable(
+                name, str if text else values.dtype, names, fill_value=attributes.get("_FillValue"))
+            variable.set_auto_maskandscale(False)
+            variable[...] = values.astype(object)[0] if text else values if names else values[0]
+            variable.setncatts({name: value for name, value in attributes.items() if name != "_FillValue"})
+
+        in_groups(record, save)
+    return [f"{folder}/v.nc"]
+
+
+@container("HDF5 groups")
+def hdf5_groups(record, folder):
+    with h5py.File(f"{folder}/v.h5", "w") as file:
+        def save(group, name, values, attributes, names):
+            where = f"{group}/{name}"
+            file[where] = values.astype("S") if values.dtype.kind == "U" else values
+            file[where].attrs.update(attributes)
+            if not group:
+                file[where].make_scale(name)
+            for i, label in enumerate(names if group else []):
+                file[where].dims[i].label = label
+                file[where].dims[i].attach_scale(file[label])
+
+        in_groups(record, save)
+    return [f"{folder}/v.h5"]
+
+
+@container("Zarr groups")
+def zarr_groups(record, folder):
+    zarr_2_group(f"{folder}/v.zarr", {})
+
+    def save(group, name, values, attributes, names):
+        if group:
+            zarr_2_group(f"{folder}/v.zarr/{group}", {})
+        said = plain_numbers(attributes)
+        zarr_2(f"{folder}/v.zarr/{group}/{name}", values, dict(said, _ARRAY_DIMENSIONS=names or ["one"]),
+               said.pop("_FillValue", None))
+
+    in_groups(record, save)
+    return [f"{folder}/v.zarr"]

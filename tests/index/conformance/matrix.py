@@ -284,6 +284,20 @@ dated("dates noleap", "noleap", noons("02-28", "03-01", "03-02", "03-03", "03-04
 dated("dates 360_day", "360_day", noons("02-29", "02-30", "03-01", "03-02", "03-03", of=" (360_day)"))
 
 
+def texts(name, need, dates, form):
+    @statement(name, need)
+    def change(record):
+        record.axis("t").texts = np.array([form(date) for date in dates])
+        record.axis("t").unit, record.times, record.dates = "", 43200 * np.arange(5.0), dates
+
+
+HALF_DAYS = ["2000-02-28 12:00", "2000-02-29", "2000-02-29 12:00", "2000-03-01", "2000-03-01 12:00"]
+texts("dates as texts", "time dates texts", HALF_DAYS, lambda date: f"{np.datetime64(date, 'm')}:00")
+texts("dates as texts in a zone", "time dates texts", HALF_DAYS,
+      lambda date: f"{np.datetime64(date, 'm') + np.timedelta64(90, 'm')}:00+01:30")
+texts("dates of NumPy", "time dates datetime64", HALF_DAYS, lambda date: np.datetime64(date, "ns"))
+
+
 @statement("months since", "time dates")
 def months_since(record):
     time = record.axis("t")
@@ -482,7 +496,7 @@ def compare(record, said, surfaces):
         wrong.append(f"unit {said['value_unit']!r}, expected {record.unit!r}")
     if said["nan_values"] != gaps:
         wrong.append(f"{said['nan_values']} missing values, expected {gaps}")
-    if not np.allclose([said["low"], said["high"]], ends):
+    if not np.allclose([said["low"], said["high"]], ends, atol=1e-6 * (ends[1] - ends[0])):
         wrong.append(f"values from {of([said['low'], said['high']])}, expected {of(ends)}")
     if record.upright and said["anatomy"] != "enu":
         wrong.append("nothing says which way is up")

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-METERS = {"m": 1, "km": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "micrometers": 1e-6}
+METERS = {"m": 1, "km": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "angstrom": 1e-10, "micrometers": 1e-6}
 SECONDS = {"s": 1, "ms": 1e-3, "h": 3600, "hours": 3600, "second": 1, "sec": 1, "millisecond": 1e-3, "msec": 1e-3}
 
 
@@ -19,6 +19,7 @@ class Axis:
     unit: str = ""
     attributes: dict = field(default_factory=dict)  # of the coordinates, in words of CF
     variable: str = ""  # what the coordinates are called
+    texts: np.ndarray = None  # or dates, as texts or datetime64, in place of numbers
 
     def __post_init__(self):
         self.variable = self.variable or self.name

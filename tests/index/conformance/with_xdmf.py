@@ -116,6 +116,13 @@ include = '<xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="%s"%s/>'
 expect(write("including.xmf", temporal("".join(include % (name, "") for name in ("one.xmf", "timed.xdmf")))), moving[:2], **even)
 pointed = include % ("series.xmf", ' xpointer="xpointer(//Xdmf/Domain/Grid/Grid[3])"')
 expect(write("pointed.xmf", pointed), moving[2], times=[2], **even)
+dates = "".join(grid(f'<Time Value="2000-02-{28 + t // 2}T{t % 2 * 12}:00:00Z"/>' + steps[t]) for t in range(3))
+expect(write("dates.xmf", temporal(dates)), moving, times=[0, 43200, 86400], **even)
+# A run that was stopped: the document is ahead of its datasets.
+behind = attribute(item("heavy.h5:/step3/rho")), attribute(item("later.h5:/rho"))
+for number, missing in enumerate([behind[:1], behind[1:], behind]):
+    expect(write(f"stopped{number}.xmf", temporal("".join(grid(f'<Time Value="{t}"/>' + step) for t, step in enumerate(
+        [*steps, *missing])))), moving, times=[0, 1, 2], note="3 of", **even)
 # What is refused.
 refuse(write("hole.xmf", spatial(block(0, 1, rho[0]) + block(2, 4, rho[0]))), "at least 2 vertices")
 refuse(write("gap.xmf", spatial(block(0, 2, "heavy.h5:/cells", center="Cell") +
@@ -136,4 +143,6 @@ refuse(write("beyond.xmf", grid(attribute(part.replace("1 3 0 0", "1 5 0 0")))),
 refuse(write("loop.xmf", '<Grid Reference="/Xdmf/Domain/Grid"/>'), "which is not in it")
 refuse(write("other.xmf", temporal(grid(steps[0]) + grid(steps[1], STRETCHED))), "is not as in step 0")
 refuse(write("cut.xmf", "<Grid>"), "damaged XML")
+for value in ("2000-02-28T25:00:00", "1.5 s", ""):
+    refuse(write("no_time.xmf", temporal(grid(f'<Time Value="{value}"/>' + steps[0]))), "expected a number or a date")
 done()

@@ -5,7 +5,6 @@
 #include "index/readers/decoders/hdf5/bigdataviewer.h"
 
 #include "index/error.h"
-#include "index/readers/formats/length_units.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
 #include "index/system/input_file.h"
@@ -104,11 +103,13 @@ std::string view_of_bigdataviewer(const Hdf5File& file) {
     return views.front();
 }
 
-void place_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, SeriesInfo& info) {
+void take_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, StatedArray& array,
+                        std::vector<std::string>& notes) {
     const auto parts = view_in(view.path);
-    if (!parts)
+    if (!parts || array.axes.size() != 3)
         return;
     const auto& [setup, level] = *parts;
+    std::string unit;
     glm::dvec3 factor(1.0), size(1.0);
     if (const auto resolutions = file.dataset("/" + setup + "/resolutions")) {
         const std::vector<double> all = file.values(*resolutions);
@@ -127,8 +128,8 @@ void place_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, SeriesIn
     else if (!text.empty())
         throw Error(fmt::format("{}: damaged XML: {}", beside.string(), document.ErrorName()));
     if (!root)
-        info.notes.push_back(fmt::format("{} is not there, which has the size of the voxels",
-                                         beside.filename().string()));
+        notes.push_back(fmt::format("{} is not there, which has the size of the voxels",
+                                    beside.filename().string()));
     const std::string id = std::to_string(std::atoi(setup.c_str() + 1));
     const Element* described = element_at(root, {"SequenceDescription", "ViewSetups", "ViewSetup"});
     while (described && text_in(element_at(described, {"id"})) != id)
@@ -138,23 +139,26 @@ void place_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, SeriesIn
     if (stated.size() == 3 &&
         std::ranges::all_of(stated, [](double s) { return s > 0 && s < 1e30; })) {
         size = {stated[0], stated[1], stated[2]};
-        info.length_unit = tidy_length_unit(text_in(element_at(described, {"voxelSize", "unit"})));
+        unit = text_in(element_at(described, {"voxelSize", "unit"}));
     }
-    info.grid.spacing = size * factor;
-    info.grid.origin =
-        size * (factor - 1.0) / 2.0; // vertices are the centers of what they stand for
+    for (int axis = 0; axis < 3; ++axis) { // vertices are the centers of what they stand for
+        StatedAxis& along = array.axes[static_cast<std::size_t>(2 - axis)];
+        along.step = size[axis] * factor[axis];
+        along.first = size[axis] * (factor[axis] - 1) / 2;
+        along.unit = unit;
+        along.regular = true;
+    }
     for (const Element* registration = element_at(root, {"ViewRegistrations", "ViewRegistration"});
          registration; registration = registration->NextSiblingElement("ViewRegistration"))
         if (registration->IntAttribute("setup", -1) == std::atoi(id.c_str()) &&
             is_moved(registration)) {
             if (auto note = note_on_unread({"ViewRegistrations, which move or turn the view"}))
-                info.notes.push_back(std::move(*note));
+                notes.push_back(std::move(*note));
             break;
         }
     if (view.type == StoredType::i16)
-        info.notes.emplace_back(
-            "BigDataViewer stores unsigned values as i16: those above 32767 are "
-            "negative here");
+        notes.emplace_back("BigDataViewer stores unsigned values as i16: those above 32767 are "
+                           "negative here");
 }
 
 } // namespace isochron::index

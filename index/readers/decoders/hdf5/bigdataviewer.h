@@ -2,9 +2,10 @@
 #pragma once
 
 #include "index/readers/decoders/hdf5/hdf5_file.h"
-#include "index/volume/volume_series.h"
+#include "index/readers/formats/stated/stated_array.h"
 
 #include <string>
+#include <vector>
 
 namespace isochron::index {
 
@@ -14,9 +15,11 @@ bool is_bigdataviewer(const Hdf5File& file);
 /// @throws Error naming the arrays of the setups where there are several
 std::string view_of_bigdataviewer(const Hdf5File& file);
 
-/// Sets spacing, origin and unit of a level by the size of its setup's voxels, as `SpimData` in the
-/// .xml of the file's name has it, and by the level's resolution.
+/// Takes the places of a level from the size of its setup's voxels, as `SpimData` in the .xml of the
+/// file's name has it, and from the level's resolution.
 /// @param view such as `/t00000/s01/2/cells`; other datasets are left as they are
-void place_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, SeriesInfo& info);
+/// @param array its record
+void take_bigdataviewer(const Hdf5File& file, const Hdf5Dataset& view, StatedArray& array,
+                        std::vector<std::string>& notes);
 
 } // namespace isochron::index

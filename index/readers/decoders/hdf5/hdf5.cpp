@@ -71,6 +71,8 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     std::vector<std::string> notes;
     const ArrayLayout layout = lay_out(record, objects_of(*file, first), options, notes);
     take_coordinates(*file, first, layout, record, notes);
+    if (of_views)
+        take_bigdataviewer(*file, first, record, notes);
     Hdf5Volume volume{{}, array.steps, layout};
     volume.member = member_of(record, layout, options);
     volume.info.notes = std::move(notes);
@@ -86,9 +88,9 @@ std::unique_ptr<DecodedFile> decode_hdf5(const std::filesystem::path& path,
     const std::size_t steps = layout.time ? first.dimensions[*layout.time] : array.steps.size();
     expect_few_steps(steps, file->name());
     place_axes(record, layout, options, volume.info);
-    if (of_views)
-        place_bigdataviewer(*file, first, volume.info);
     time_hdf5(*file, array, record, layout, steps, options, volume.info);
+    if (array.steps.size() > 1 && !volume.info.times.empty()) // the last ones may have none
+        volume.datasets.resize(volume.info.times.size());
     return open_volume(std::move(file), array.name, std::move(volume), options);
 }
 

@@ -6,6 +6,7 @@
 #include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/series/numbered_name.h"
 #include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/group_times.h"
 #include "index/readers/formats/stated/stated_attributes.h"
 
 #include <fmt/format.h>
@@ -48,12 +49,8 @@ Hdf5Array steps_of(std::string name, const std::vector<Hdf5Dataset>& steps) {
     Hdf5Array array{.name = std::move(name), .steps = {}, .groups = {}, .note = read.note};
     for (const std::size_t step : read.order)
         array.steps.push_back(steps[step]);
-    std::vector<std::string> in_order;
-    for (const Hdf5Dataset& step : array.steps) {
+    for (const Hdf5Dataset& step : array.steps)
         array.groups.push_back(group_in(step.path, array.name));
-        in_order.push_back(step.path);
-    }
-    array.times = times_of_groups(in_order);
     return array;
 }
 
@@ -87,9 +84,7 @@ std::vector<GroupedPath> paths_of(const std::vector<Hdf5Dataset>& datasets) {
 std::vector<Hdf5Array> put_together(const Hdf5File& file,
                                     const std::vector<Hdf5Dataset>& datasets) {
     const auto has_time = [&](const std::string& group) {
-        return std::ranges::any_of(kTimeAttributes, [&](const char* name) {
-            return file.numbers(group, name).size() == 1;
-        });
+        return states_time(attributes_of(file, group));
     };
     std::vector<Hdf5Array> arrays;
     for (const GroupedArray& grouped : grouped_arrays(paths_of(datasets), has_time)) {
@@ -136,8 +131,9 @@ std::vector<Hdf5Array> called(const std::vector<Hdf5Array>& arrays, const std::s
 /// As `matching_arrays`.
 Hdf5Array matching(const Hdf5File& file, const std::vector<Hdf5Dataset>& datasets,
                    const std::string& pattern) {
+    const std::string path = pattern.starts_with('/') ? pattern : "/" + pattern;
     std::vector<Hdf5Dataset> steps;
-    for (const std::size_t step : matching_arrays(paths_of(datasets), pattern, file.name()).steps)
+    for (const std::size_t step : matching_arrays(paths_of(datasets), path, file.name()).steps)
         steps.push_back(datasets[step]);
     return steps_of(pattern, steps);
 }
@@ -196,8 +192,10 @@ Hdf5Array choose_array(const Hdf5File& file, const ReadOptions& options) {
         std::string shape = shape_text(array.steps.front().dimensions);
         if (array.steps.size() > 1)
             shape += fmt::format(", {} steps", array.steps.size());
-        listed.push_back(
-            {.name = array.name, .type = array.steps.front().type, .shape = std::move(shape)});
+        listed.push_back({.name = array.name,
+                          .type = array.steps.front().type,
+                          .shape = std::move(shape),
+                          .by_pattern = true});
     }
     asked.component.reset(); // components are an axis of the dataset here
     const ChosenScalar chosen = choose_scalar(listed, asked, file.name());

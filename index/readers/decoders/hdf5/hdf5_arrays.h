@@ -2,9 +2,7 @@
 #pragma once
 
 #include "index/readers/decoders/hdf5/hdf5_file.h"
-#include "index/readers/formats/series/numbered_groups.h"
 
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,11 +19,7 @@ struct Hdf5Array {
     std::vector<std::string> offered = {}; ///< what it was chosen from, with types
     std::optional<std::string> note = {};  ///< how the numbers of the groups are read
     std::optional<std::string> open = {};  ///< that other numbers may count its steps
-    std::optional<GroupTimes> times = {};  ///< that the names of the groups state
 };
-
-/// Attributes of a group, or of one around it, that state its time.
-inline constexpr std::initializer_list<const char*> kTimeAttributes{"time", "Time", "TIME", "t"};
 
 /// Picks the array that `options` name: by a path, the end of one, or a path with `*`; without a
 /// name, the only volume. In openPMD's files of one iteration each, `*` stands for its number, so

@@ -108,7 +108,8 @@ std::optional<Attribute> attribute_of(hid_t file, const std::string& object,
 
 std::string tidy_text(std::string text) {
     text.resize(std::min(text.find('\0'), text.size()));
-    std::ranges::replace_if(text, [](unsigned char c) { return c < ' '; }, ' ');
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < ' '; }, ' ');
     return std::string(trimmed(text));
 }
 
@@ -280,10 +281,10 @@ std::vector<std::string> Hdf5File::texts_in(const std::string& path) const {
     const Hdf5Handle type(open ? H5Dget_type(open.id()) : -1, H5Tclose);
     const Hdf5Handle space(open ? H5Dget_space(open.id()) : -1, H5Sclose);
     const hssize_t count = space ? H5Sget_simple_extent_npoints(space.id()) : 0;
-    if (!type || H5Tget_class(type.id()) != H5T_STRING || count < 1 || count > kMostNumbers ||
-        shape->dimensions.empty())
+    if (!type || H5Tget_class(type.id()) != H5T_STRING || count < 1 || count > kMostNumbers)
         return {};
-    const auto all = static_cast<std::size_t>(count), rows = std::size_t{shape->dimensions.front()};
+    const auto all = static_cast<std::size_t>(count),
+               rows = shape->dimensions.empty() ? 1 : std::size_t{shape->dimensions.front()};
     constexpr std::size_t kLongest = 4096;
     const std::size_t length = H5Tget_size(type.id());
     const bool varying = H5Tis_variable_str(type.id()) > 0;

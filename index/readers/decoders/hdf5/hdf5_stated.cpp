@@ -3,6 +3,7 @@
 
 #include "index/readers/formats/stated/axis_roles.h"
 #include "index/readers/formats/stated/stated_attributes.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stated/stated_values.h"
 
 #include <fmt/format.h>
@@ -60,14 +61,20 @@ std::string inside(const std::string& group, const std::string& name) {
 std::optional<StatedAxis> coordinates_in(const Hdf5File& file, const std::string& path,
                                          std::uint64_t length, bool values) {
     const auto found = file.dataset(path);
-    if (!found || !found->type || found->dimensions != std::vector<std::uint64_t>{length})
+    StatedAxis axis;
+    axis.coordinate = last_name(path);
+    axis.length = length;
+    if (found && !found->type) {
+        axis.dates = file.texts_in(path);
+        return axis.dates.size() == length && are_dates(axis.dates) ? std::optional(axis)
+                                                                    : std::nullopt;
+    }
+    const bool alone = found && found->dimensions.empty() && length == 1;
+    if (!alone && (!found || found->dimensions != std::vector<std::uint64_t>{length}))
         return std::nullopt;
     // NetCDF-4 gives a dimension without coordinates a scale of zeros.
     if (file.text(path, "NAME").starts_with("This is a netCDF dimension but not"))
         return std::nullopt;
-    StatedAxis axis;
-    axis.coordinate = last_name(path);
-    axis.length = length;
     const StatedAttributes attributes = attributes_of(file, path);
     take_cf_attributes(attributes, axis);
     if (!values)

@@ -66,11 +66,17 @@ class XdmfFile final : public DecodedFile {
         for (std::string& note : chosen_.notes())
             info_.notes.push_back(std::move(note));
         note_other_type(part);
+        leave_out_missing_end();
         StatedTimes times{.name = "Time"};
-        for (const XdmfGrid& step : steps_)
+        std::vector<std::string> dates;
+        for (const XdmfGrid& step : steps_) {
             if (step.time)
                 times.values.push_back(*step.time);
-        if (times.values.size() == steps_.size())
+            dates.push_back(step.date);
+        }
+        if (are_dates(dates))
+            place_dates(dates, times.name, info_, options.dates);
+        else if (times.values.size() == steps_.size())
             place_times(std::move(times), info_, options.dates);
         if (!info_.times.empty()) // the last ones may have none
             steps_.resize(info_.times.size());
@@ -189,17 +195,42 @@ class XdmfFile final : public DecodedFile {
         return *dataset.type;
     }
 
-    Hdf5Dataset open_dataset(const XdmfItem& item) {
+    /// Leaves out the last steps whose datasets are not there, as where a run was stopped.
+    void leave_out_missing_end() {
+        const std::size_t all = items_.size();
+        const auto is_there = [&](const XdmfItem& item) {
+            std::error_code ignored;
+            return item.where != XdmfItem::Where::hdf5 ||
+                   (fs::exists(heavy_of(item.text, item.document).file, ignored) &&
+                    find_dataset(item));
+        };
+        while (items_.size() > 1 && std::ranges::none_of(items_.back(), is_there))
+            items_.pop_back();
+        if (items_.size() == all)
+            return;
+        info_.notes.push_back(
+            fmt::format("{} of {} steps are written, the values of step {} are "
+                        "not there ({}): left out",
+                        items_.size(), all, items_.size(),
+                        excerpt(steps_[items_.size()].parts.front().attributes.front().item.text)));
+        steps_.resize(items_.size());
+    }
+
+    std::optional<Hdf5Dataset> find_dataset(const XdmfItem& item) {
         const XdmfHeavy heavy = heavy_of(item.text, item.document);
         if (!heavy_ || heavy_path_ != heavy.file) {
             values_.reset();
             heavy_ = std::make_unique<Hdf5File>(heavy.file);
             heavy_path_ = heavy.file;
         }
-        auto dataset = heavy_->dataset(heavy.path);
+        return heavy_->dataset(heavy.path);
+    }
+
+    Hdf5Dataset open_dataset(const XdmfItem& item) {
+        auto dataset = find_dataset(item);
         if (!dataset)
-            throw Error(
-                fmt::format("{}: holds no dataset {}", heavy_->name(), excerpt(heavy.path)));
+            throw Error(fmt::format("{}: holds no dataset {}", heavy_->name(),
+                                    excerpt(heavy_of(item.text, item.document).path)));
         return std::move(*dataset);
     }
 

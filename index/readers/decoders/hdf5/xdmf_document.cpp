@@ -8,6 +8,7 @@
 #include "index/readers/decoders/hdf5/xdmf_paths.h"
 #include "index/readers/formats/named_file.h"
 #include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
 #include "index/readers/formats/unread_fields.h"
@@ -17,6 +18,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -174,7 +176,10 @@ class XdmfParser {
         whole.notes.push_back(fmt::format("put together from {} parts", grids));
         whole.parts.front().begin = found.begins.front();
         for (std::size_t i = 1; i < blocks.size(); ++i) {
-            whole.time = whole.time ? whole.time : blocks[i].time;
+            if (!whole.time) {
+                whole.time = blocks[i].time;
+                whole.date = std::move(blocks[i].date);
+            }
             whole.parts.push_back(std::move(blocks[i].parts.front()));
             whole.parts.back().begin = found.begins[i];
         }
@@ -204,9 +209,22 @@ class XdmfParser {
             fail(fmt::format("{} times, expected {}", times.size(), count));
         for (std::size_t i = 0; i < count && data; ++i)
             steps_[first + i].time = times[i];
-        if (double value = 0; !data && count == 1 &&
-                              time.QueryDoubleAttribute("Value", &value) == tinyxml2::XML_SUCCESS)
-            steps_[first].time = value;
+        if (!data && count == 1 && time.Attribute("Value"))
+            give_xdmf_time(time, steps_[first]);
+    }
+
+    void give_xdmf_time(const XMLElement& time, XdmfGrid& step) const {
+        std::string value = attribute(time, {"Value"});
+        value = trimmed(value);
+        double number = 0;
+        const auto [end, failure] = std::from_chars(value.data() + value.starts_with('+'),
+                                                    value.data() + value.size(), number);
+        const bool is_number = failure == std::errc{} && end == value.data() + value.size();
+        if (!is_number && !are_dates(std::span(&value, 1)))
+            fail(
+                fmt::format("a Time of Value \"{}\", expected a number or a date", excerpt(value)));
+        step.time = is_number ? number : 0;
+        step.date = is_number ? "" : value;
     }
 
     XdmfGrid uniform(const XMLElement& grid) {
@@ -214,12 +232,8 @@ class XdmfParser {
         place(grid, step);
         XdmfPart& part = step.parts.emplace_back();
         part.grid = step.grid;
-        if (const XMLElement* time = child_of(grid, "Time")) {
-            double value = 0;
-            if (time->QueryDoubleAttribute("Value", &value) != tinyxml2::XML_SUCCESS)
-                fail("a Time without a Value");
-            step.time = value;
-        }
+        if (const XMLElement* time = child_of(grid, "Time"))
+            give_xdmf_time(*time, step);
         for (auto* one = grid.FirstChildElement("Attribute"); one;
              one = one->NextSiblingElement("Attribute")) {
             const XMLElement& element = *referred(one);

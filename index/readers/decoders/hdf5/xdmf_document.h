@@ -50,6 +50,7 @@ struct XdmfGrid {
     Grid grid;
     std::vector<std::string> notes;
     std::optional<double> time;
+    std::string date;            ///< in place of the time, which is 0 then
     std::vector<XdmfPart> parts; ///< one, or the parts of a spatial collection
 };
 

@@ -5,8 +5,8 @@
 #include "index/readers/formats/cropped_file.h"
 #include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/group_times.h"
 #include "index/readers/formats/stated/stated_attributes.h"
-#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
 #include "index/readers/formats/text_header.h"
@@ -50,15 +50,6 @@ bool is_volume(const NetcdfFile& file, const NetcdfVariable& variable) {
     return may_be_volume(stated(file, variable, false));
 }
 
-/// The time that a group states, by an attribute of its own.
-std::optional<double> time_of_group(const NetcdfFile& file, const NetcdfVariable& within) {
-    for (const char* name : {"time", "Time", "TIME", "t"})
-        if (const std::vector<double> found = file.numbers(group_of(within), name);
-            found.size() == 1)
-            return found.front();
-    return std::nullopt;
-}
-
 /// Variables with three dimensions, and those of several groups that are the steps of one.
 struct Offered {
     std::vector<StoredArray> arrays;
@@ -81,10 +72,7 @@ Offered offered_in(const NetcdfFile& file, const ReadOptions& options) {
             paths.push_back({variable.name, fmt::format("{}", fmt::join(lengths, " x "))});
         }
     const auto has_time = [&](const std::string& group) {
-        const auto within = std::ranges::find_if(variables, [&](const NetcdfVariable* variable) {
-            return variable->name.substr(0, variable->name.rfind('/')) == group;
-        });
-        return within != variables.end() && time_of_group(file, **within);
+        return states_time(attributes_of(file, group));
     };
     Offered offered;
     const bool by_pattern = options.array && options.array->find('*') != std::string::npos;
@@ -100,7 +88,8 @@ Offered offered_in(const NetcdfFile& file, const ReadOptions& options) {
             steps.push_back(variables[step]);
         offered.arrays.push_back({.name = array.name,
                                   .type = steps.front()->type,
-                                  .shape = paths[array.steps.front()].kind});
+                                  .shape = paths[array.steps.front()].kind,
+                                  .by_pattern = true});
         if (steps.size() > 1)
             offered.arrays.back().shape += fmt::format(", {} steps", steps.size());
     }
@@ -144,8 +133,7 @@ void expect_no_other_format(const NetcdfFile& file) {
                                     "plain NetCDF; mnc2nii of the MINC tools makes NIfTI of it",
                                     file.name()));
     if (!file.variables().empty() &&
-        file.text(group_of(file.variables().front()), "Conventions").find("AMBER") !=
-            std::string::npos)
+        file.text(file.at(""), "Conventions").find("AMBER") != std::string::npos)
         throw Error(fmt::format("{}: a trajectory of AMBER, expected volumes", file.name()));
 }
 
@@ -197,14 +185,16 @@ class NetcdfVolume final : public DecodedFile {
         place_axes(array, layout_, options, info_);
         if (!options.spacing)
             offer_cell_sizes(objects, array, layout_, info_);
+        if (variables_.size() > 1) {
+            expect_alike();
+            steps_ = variables_.size();
+        }
         place_times(array, options);
-        if (layout_.time && !info_.times.empty())
+        if (steps_ > 1 && !info_.times.empty()) // the last ones may have none
             steps_ = info_.times.size();
-        if (variables_.size() > 1)
-            time_groups();
         const auto long_dimensions = [&](const std::string& of) -> std::size_t {
             for (const NetcdfVariable& other : file_.variables())
-                if (other.name.substr(other.name.rfind('/') + 1) == of)
+                if (other.type && other.name.substr(other.name.rfind('/') + 1) == of)
                     return static_cast<std::size_t>(
                         std::ranges::count_if(other.dimensions, [](const NetcdfDimension& each) {
                             return each.length > 1;
@@ -300,40 +290,27 @@ class NetcdfVolume final : public DecodedFile {
     }
 
     void place_times(const StatedArray& array, const ReadOptions& options) {
-        if (!layout_.time) {
-            if (const auto time = time_alone(file_))
-                place_steps(*time, options, info_);
-            return;
-        }
-        place_steps(array.axes[*layout_.time], options, info_);
-        if (!info_.times.empty())
-            return;
-        const NetcdfDates found = dates_along(file_, variable_.dimensions[*layout_.time]);
-        place_dates(found.dates, found.name, info_, options.dates);
+        if (layout_.time && variables_.size() == 1)
+            return place_steps(array.axes[*layout_.time], options, info_);
+        std::vector<std::string> paths;
+        for (const NetcdfVariable& variable : variables_)
+            paths.push_back(variable.name);
+        place_group_times(
+            paths, [&](const std::string& path) { return attributes_of(file_, path); },
+            [&](const std::string& group) { return time_in(file_, group); }, options, info_);
     }
 
-    /// Times of steps that have a group each: as the groups state them, or their names.
-    void time_groups() {
-        if (layout_.time && steps_ > 1)
+    /// @throws Error naming the file: groups that are the steps hold several, or differ
+    void expect_alike() const {
+        if (steps_ > 1)
             throw Error(fmt::format("{}: each of {} groups holds several steps, choose one with "
                                     "--array {}",
                                     file_.name(), variables_.size(), variable_.name));
-        std::vector<std::string> paths;
-        std::vector<double> times;
-        for (const NetcdfVariable& variable : variables_) {
+        for (const NetcdfVariable& variable : variables_)
             if (variable.type != variable_.type ||
                 scaling_by(attributes_of(file_, variable), variable.name) != info_.scaling)
                 throw Error(fmt::format("{}: {} is not as {}", file_.name(), variable.name,
                                         variable_.name));
-            paths.push_back(variable.name);
-            if (const auto time = time_of_group(file_, variable))
-                times.push_back(*time);
-        }
-        const auto named = times_of_groups(paths);
-        const bool stated = times.size() == paths.size() && times.front() != times.back();
-        info_.times = stated ? times : named ? named->times : std::vector<double>();
-        info_.time_unit = named && !stated ? named->unit : "";
-        steps_ = variables_.size();
     }
 
     NetcdfFile file_;

@@ -53,10 +53,6 @@ std::pair<nc_type, std::size_t> attribute_shape(const NetcdfVariable& variable, 
 
 } // namespace
 
-NetcdfVariable group_of(const NetcdfVariable& variable) {
-    return {.group = variable.group, .id = NC_GLOBAL};
-}
-
 std::string text(const NetcdfVariable& variable) {
     std::vector<std::string> dimensions;
     for (const NetcdfDimension& dimension : variable.dimensions)
@@ -121,25 +117,65 @@ void NetcdfFile::add_group(int group, const std::string& prefix) {
 
 std::vector<const NetcdfVariable*> NetcdfFile::along(const NetcdfVariable& of,
                                                      const NetcdfDimension& dimension) const {
-    std::vector<const NetcdfVariable*> found;
+    std::vector<const NetcdfVariable*> numbers, texts;
     std::string prefix = of.name.substr(0, of.name.rfind('/') + 1);
     while (true) {
-        for (const NetcdfVariable& variable : variables_)
-            if (variable.type && variable.dimensions == std::vector{dimension} &&
-                variable.name.starts_with(prefix) &&
-                variable.name.find('/', prefix.size()) == std::string::npos)
-                found.push_back(&variable);
+        for (const NetcdfVariable& variable : variables_) {
+            const auto& along = variable.dimensions;
+            if (along.empty() || along.front() != dimension || along.size() > 2 ||
+                !variable.name.starts_with(prefix) ||
+                variable.name.find('/', prefix.size()) != std::string::npos)
+                continue;
+            if (!variable.type)
+                texts.push_back(&variable);
+            else if (along.size() == 1)
+                numbers.push_back(&variable);
+        }
         if (prefix.empty())
-            return found;
+            break;
         prefix.pop_back();
         prefix.resize(prefix.rfind('/') + 1);
     }
+    numbers.insert(numbers.end(), texts.begin(), texts.end());
+    return numbers;
 }
 
-bool NetcdfFile::is_text(const NetcdfVariable& variable) const {
+NetcdfVariable NetcdfFile::at(const std::string& path) const {
+    const auto named = std::ranges::find(variables_, path, &NetcdfVariable::name);
+    if (named != variables_.end())
+        return *named;
+    NetcdfVariable group{.group = file_, .id = NC_GLOBAL};
+    if (!path.empty())
+        expect(nc_inq_grp_full_ncid(file_, ("/" + path).c_str(), &group.group), path);
+    return group;
+}
+
+std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& variable) const {
+    constexpr std::size_t kLongest = 64, kMost = 1 << 20; // characters of a date, texts
     nc_type type = NC_NAT;
-    expect(nc_inq_vartype(variable.group, variable.id, &type), variable.name);
-    return type == NC_CHAR;
+    const std::string what = fmt::format("{} cannot be read", variable.name);
+    expect(nc_inq_vartype(variable.group, variable.id, &type), what);
+    const auto& along = variable.dimensions;
+    const bool of_characters = type == NC_CHAR && !along.empty();
+    const std::size_t count =
+        along.size() > (of_characters ? 1 : 0) ? along.front().length : std::size_t{1};
+    std::vector<std::string> found;
+    if (count == 0 || count > kMost)
+        return found;
+    if (type == NC_STRING && along.size() <= 1) {
+        std::vector<char*> strings(count);
+        expect(nc_get_var_string(variable.group, variable.id, strings.data()), what);
+        for (const char* string : strings)
+            found.emplace_back(trimmed(string ? string : ""));
+        nc_free_string(count, strings.data());
+    } else if (of_characters && along.size() <= 2 && along.back().length <= kLongest) {
+        const std::size_t length = along.back().length;
+        std::string all(count * length, '\0');
+        expect(nc_get_var_text(variable.group, variable.id, all.data()), what);
+        for (std::size_t i = 0; i < count; ++i)
+            found.emplace_back(trimmed(all.substr(i * length, length).c_str()));
+    }
+    return found;
 }
 
 std::vector<std::string> NetcdfFile::attributes(const NetcdfVariable& variable) const {

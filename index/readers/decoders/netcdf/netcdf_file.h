@@ -25,9 +25,6 @@ struct NetcdfVariable {
     std::vector<NetcdfDimension> dimensions = {}; ///< slowest first
 };
 
-/// A stand-in for the group of a variable, through which the group's attributes are read.
-NetcdfVariable group_of(const NetcdfVariable& variable);
-
 /// `T(time 2, lev 18, lat 64, lon 128)`
 std::string text(const NetcdfVariable& variable);
 
@@ -45,12 +42,13 @@ class NetcdfFile {
     const std::vector<NetcdfVariable>& variables() const { return variables_; }
 
     /// The variables of numbers along this dimension alone, in the group of `of` and the groups
-    /// around it, the nearest first.
+    /// around it, the nearest first; behind them those of texts, or of characters along a second one.
     std::vector<const NetcdfVariable*> along(const NetcdfVariable& of,
                                              const NetcdfDimension& dimension) const;
 
-    /// Whether a variable is characters.
-    bool is_text(const NetcdfVariable& variable) const;
+    /// The variable at a path, or a stand-in for the group there, through which the group's attributes
+    /// are read; empty: the root.
+    NetcdfVariable at(const std::string& path) const;
 
     /// Names of a variable's attributes.
     std::vector<std::string> attributes(const NetcdfVariable& variable) const;
@@ -65,6 +63,10 @@ class NetcdfFile {
 
     /// All values, as stored. Meant for coordinates.
     std::vector<double> values(const NetcdfVariable& variable) const;
+
+    /// The texts of a variable along its first dimension, or its only one; characters along the last
+    /// dimension are one. Empty: it holds none, or long ones.
+    std::vector<std::string> texts(const NetcdfVariable& variable) const;
 
     /// Reads the box of values at `start` with `count` values along each dimension, as stored, in
     /// the machine's byte order. @throws Error naming file and variable

@@ -1,15 +1,15 @@
 // Fills the record of an array from a NetCDF file.
 #include "index/readers/decoders/netcdf/netcdf_stated.h"
 
-#include "index/lower_case.h"
 #include "index/readers/formats/stated/axis_roles.h"
 #include "index/readers/formats/stated/stated_attributes.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stated/stated_values.h"
 
 #include <fmt/format.h>
 
-#include <span>
 #include <utility>
+#include <vector>
 
 namespace isochron::index {
 namespace {
@@ -45,8 +45,18 @@ StatedAttributes attributes_of(const NetcdfFile& file, const NetcdfVariable& var
             .names = [&file, variable] { return file.attributes(variable); }};
 }
 
+StatedAttributes attributes_of(const NetcdfFile& file, const std::string& path) {
+    return attributes_of(file, file.at(path));
+}
+
 std::vector<StatedAttributes> objects_of(const NetcdfFile& file, const NetcdfVariable& variable) {
-    return {attributes_of(file, variable), attributes_of(file, group_of(variable))};
+    std::vector<StatedAttributes> objects{attributes_of(file, variable)};
+    for (std::string group = variable.name; !group.empty();) {
+        const std::size_t slash = group.rfind('/');
+        group.resize(slash == group.npos ? 0 : slash);
+        objects.push_back(attributes_of(file, group));
+    }
+    return objects;
 }
 
 StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool values) {
@@ -54,13 +64,21 @@ StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool 
     for (const NetcdfDimension& dimension : variable.dimensions) {
         std::vector<const NetcdfVariable*> candidates = file.along(variable, dimension);
         std::vector<StatedAxis> coordinates;
-        for (const NetcdfVariable* candidate : candidates)
-            coordinates.push_back(coordinate_in(file, *candidate));
+        std::erase_if(candidates, [&](const NetcdfVariable* candidate) {
+            StatedAxis axis = coordinate_in(file, *candidate);
+            if (!candidate->type)
+                axis.dates = file.texts(*candidate);
+            if (!candidate->type &&
+                (axis.dates.size() != dimension.length || !are_dates(axis.dates)))
+                return true;
+            coordinates.push_back(std::move(axis));
+            return false;
+        });
         StatedAxis axis;
         if (const auto chosen =
                 coordinate_of(dimension.name, file.text(variable, "coordinates"), coordinates)) {
             axis = std::move(coordinates[*chosen]);
-            if (values)
+            if (values && axis.dates.empty())
                 axis.at = scaled_values(file, *candidates[*chosen]);
         }
         axis.name = dimension.name;
@@ -70,38 +88,25 @@ StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool 
     return array;
 }
 
-std::optional<StatedAxis> time_alone(const NetcdfFile& file) {
+std::optional<StatedAxis> time_in(const NetcdfFile& file, const std::string& group) {
     for (const NetcdfVariable& variable : file.variables()) {
-        if (!variable.type || !variable.dimensions.empty())
+        const std::size_t slash = variable.name.rfind('/');
+        if (variable.name.substr(0, slash == variable.name.npos ? 0 : slash) != group)
             continue;
         StatedAxis axis = coordinate_in(file, variable);
-        if (role_by_attributes(axis) != AxisRole::time ||
-            (axis.standard_name != "time" && role_by_name(axis.coordinate) != AxisRole::time))
+        const auto role = role_by_attributes(axis);
+        if (axis.standard_name != "time" && !(role_by_name(axis.coordinate) == AxisRole::time &&
+                                              role.value_or(AxisRole::time) == AxisRole::time))
             continue;
-        axis.at = scaled_values(file, variable);
-        return axis;
+        const auto& along = variable.dimensions;
+        if (!variable.type)
+            axis.dates = file.texts(variable);
+        else if (along.empty() || (along.size() == 1 && along.front().length == 1))
+            axis.at = scaled_values(file, variable);
+        if (axis.at.size() == 1 || (axis.dates.size() == 1 && are_dates(axis.dates)))
+            return axis;
     }
     return std::nullopt;
-}
-
-NetcdfDates dates_along(const NetcdfFile& file, const NetcdfDimension& time) {
-    constexpr std::size_t kLongest = 64; // characters of a date
-    for (const NetcdfVariable& variable : file.variables()) {
-        const std::string name = lower_case(own_name(variable));
-        if (variable.type || variable.dimensions.size() != 2 ||
-            variable.dimensions.front() != time || variable.dimensions.back().length > kLongest ||
-            (name != "times" && name != "xtime") || !file.is_text(variable))
-            continue;
-        const std::size_t length = variable.dimensions.back().length;
-        std::string all(time.length * length, '\0');
-        file.read(variable, std::vector<std::size_t>(2), std::vector{time.length, length},
-                  std::as_writable_bytes(std::span(all)));
-        NetcdfDates found{variable.name};
-        for (std::size_t step = 0; step < time.length; ++step)
-            found.dates.emplace_back(all.substr(step * length, length).c_str());
-        return found;
-    }
-    return {};
 }
 
 } // namespace isochron::index

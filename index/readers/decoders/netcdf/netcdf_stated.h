@@ -11,6 +11,8 @@
 namespace isochron::index {
 
 StatedAttributes attributes_of(const NetcdfFile& file, const NetcdfVariable& variable);
+/// Those of the variable or the group at a path; empty: the root.
+StatedAttributes attributes_of(const NetcdfFile& file, const std::string& path);
 
 /// The variable with its group and the groups around that, as `take_grid_attributes` takes them.
 std::vector<StatedAttributes> objects_of(const NetcdfFile& file, const NetcdfVariable& variable);
@@ -18,14 +20,8 @@ std::vector<StatedAttributes> objects_of(const NetcdfFile& file, const NetcdfVar
 /// The record of a variable. @param values whether coordinates are read; roles need only names
 StatedArray stated(const NetcdfFile& file, const NetcdfVariable& variable, bool values);
 
-/// The time of a file with one step, by a variable without dimensions; none.
-std::optional<StatedAxis> time_alone(const NetcdfFile& file);
-
-/// A date as text for each step, from a variable `Times` (WRF) or `xtime` (MPAS).
-struct NetcdfDates {
-    std::string name; ///< name of the variable; empty: there is none
-    std::vector<std::string> dates = {};
-};
-NetcdfDates dates_along(const NetcdfFile& file, const NetcdfDimension& time);
+/// A variable of a group that is one time, by its standard name or its own; none.
+/// @param group its path; empty: the root
+std::optional<StatedAxis> time_in(const NetcdfFile& file, const std::string& group);
 
 } // namespace isochron::index

@@ -311,7 +311,7 @@ void take_calibration(const std::map<std::string, std::string>& values, const au
         "ImageJ",    "images", "channels", "slices",  "frames",  "hyperstack", "mode",
         "unit",      "yunit",  "zunit",    "spacing", "loop",    "min",        "max",
         "finterval", "fps",    "tunit",    "xorigin", "yorigin", "zorigin",    "cf",
-        "c0",        "c1",     "vunit",    "inverty", "axes"};
+        "c0",        "c1",     "vunit",    "inverty", "axes",    "order"};
     std::vector<std::string> unread = fields_besides(kRead, values);
     const double function = values.contains("cf") ? number("cf", kNone) : kNone;
     const double slope = number("c1", 1), intercept = number("c0", 0);

@@ -11,6 +11,7 @@
 #include "index/readers/formats/cropped_file.h"
 #include "index/readers/formats/series/numbered_groups.h"
 #include "index/readers/formats/stated/array_places.h"
+#include "index/readers/formats/stated/group_times.h"
 #include "index/readers/formats/stated/stated_attributes.h"
 #include "index/readers/formats/stated/stated_values.h"
 #include "index/readers/formats/stored_file.h"
@@ -61,8 +62,6 @@ class ZarrVolume final : public DecodedFile {
                                     name_, steps_.size(), steps_.front()));
         member_ = member_of(stated_, layout_, asked);
         describe(level.attributes, objects.front(), asked);
-        if (!steps_.empty())
-            time_groups();
         part_ = crop_description(info_, options, name_);
     }
 
@@ -148,7 +147,9 @@ class ZarrVolume final : public DecodedFile {
         if (volumes.empty())
             throw Error(fmt::format("{}: holds no array of three dimensions{}{}", name_,
                                     paths.empty() ? "" : ", only ", fmt::join(paths, ", ")));
-        const auto has_time = [&](const std::string& group) { return time_of(group).has_value(); };
+        const auto has_time = [&](const std::string& group) {
+            return states_time(of_group(group));
+        };
         std::vector<GroupedArray> arrays =
             wanted.find('*') == wanted.npos ? grouped_arrays(volumes, has_time)
                                             : std::vector{matching_arrays(volumes, wanted, name_)};
@@ -164,7 +165,8 @@ class ZarrVolume final : public DecodedFile {
                  .type = types[first],
                  .shape =
                      volumes[first].kind +
-                     (each.steps.size() > 1 ? fmt::format(", {} steps", each.steps.size()) : "")});
+                     (each.steps.size() > 1 ? fmt::format(", {} steps", each.steps.size()) : ""),
+                 .by_pattern = true});
         }
         ReadOptions which = options;
         which.component.reset();
@@ -182,34 +184,8 @@ class ZarrVolume final : public DecodedFile {
         options.array.reset();
     }
 
-    /// The time that a group states.
-    std::optional<double> time_of(const std::string& group) const {
-        const json attributes = attributes_of_group(*store_, group);
-        for (const char* name : {"time", "Time", "TIME", "t"})
-            if (const auto found = attributes.find(name);
-                found != attributes.end() && found->is_number())
-                return found->get<double>();
-        return std::nullopt;
-    }
-
-    /// Times of steps that have a group each: as the groups state them, or their names.
-    void time_groups() {
-        if (const auto named = times_of_groups(steps_)) {
-            info_.times = named->times;
-            info_.time_unit = named->unit;
-        }
-        std::vector<double> times;
-        for (const std::string& path : steps_)
-            for (std::size_t end = path.rfind('/'); end != path.npos && end > 0;
-                 end = path.rfind('/', end - 1))
-                if (const auto time = time_of(path.substr(0, end))) {
-                    times.push_back(*time);
-                    break;
-                }
-        if (times.size() == steps_.size() && times.front() != times.back()) {
-            info_.times = std::move(times);
-            info_.time_unit.clear();
-        }
+    StatedAttributes of_group(const std::string& group) const {
+        return attributes_of(attributes_of_group(*store_, group));
     }
 
     void describe(const json& attributes, const StatedAttributes& of_array,
@@ -235,6 +211,7 @@ class ZarrVolume final : public DecodedFile {
         for (StoredArray& each : offered)
             each.gaps = missing_.make_gaps(*array_->type());
         chosen_ = choose_scalar(offered, options, name_);
+        array_->expect_known_codecs();
         info_.scaling = scaling_by(of_array, where);
         info_.value_unit = value_unit_by(of_array);
         if (info_.arrays.empty())
@@ -263,8 +240,13 @@ class ZarrVolume final : public DecodedFile {
             info_.notes.push_back(std::move(*note));
         if (layout_.time)
             place_steps(stated_.axes[*layout_.time], options, info_);
-        else if (const auto time = time_alone(*store_, *array_))
-            place_steps(*time, options, info_);
+        else
+            place_group_times(
+                steps_.empty() ? std::vector{array_->path()} : steps_,
+                [&](const std::string& path) { return of_group(path); },
+                [&](const std::string& group) { return time_in(*store_, group); }, options, info_);
+        if (!steps_.empty() && !info_.times.empty()) // the last ones may have none
+            steps_.resize(info_.times.size());
     }
 
     std::vector<std::string> labels_in(const json& attributes, std::uint64_t channels) const {

@@ -41,17 +41,21 @@ std::size_t ZarrArray::values_in_chunk() const {
 
 /// Makes values of stored bytes.
 void ZarrArray::decode_chunk(const std::string& name, ZarrBytes& values) {
-    const std::size_t size = said_.element(), bytes = values_in_chunk() * size;
+    const bool vary = said_.texts == ZarrTexts::varying;
+    const std::size_t size = said_.element(), bytes = vary ? kMostTexts : values_in_chunk() * size;
     // A check adds to what comes out of the codecs before it.
     constexpr std::size_t kSlack = 64;
     for (const ZarrCodec& codec : said_.pipeline.codecs)
         decode(codec, bytes + kSlack, name, values, spare_);
     if (spare_.capacity() > kLarge)
         spare_ = {};
+    if (vary)
+        return;
     if (values.size() != bytes)
         throw Error(fmt::format("{}: {} bytes, expected {}", name, values.size(), bytes));
-    if (said_.pipeline.big_endian)
-        swap_bytes(std::as_writable_bytes(std::span(values)), size);
+    if (said_.pipeline.big_endian && said_.texts != ZarrTexts::bytes)
+        swap_bytes(std::as_writable_bytes(std::span(values)),
+                   said_.texts == ZarrTexts::utf32 ? 4 : size);
     if (!said_.pipeline.order.empty()) {
         transpose(values, spare_);
         values.swap(spare_);
@@ -121,8 +125,14 @@ const ZarrBytes& ZarrArray::chunk_at(const std::vector<std::uint64_t>& at) {
     return kept_.keep(at, std::move(values), bytes);
 }
 
+void ZarrArray::expect_known_codecs() const {
+    if (!said_.unread.empty())
+        throw Error(said_.unread);
+}
+
 void ZarrArray::read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
                      std::span<std::byte> out) {
+    expect_known_codecs();
     const std::size_t rank = said_.shape.size();
     std::vector<std::uint64_t> first(rank), last(rank), at;
     for (std::size_t i = 0; i < rank; ++i) {

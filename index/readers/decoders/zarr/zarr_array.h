@@ -39,12 +39,20 @@ class ZarrArray {
     bool half() const { return said_.half; }
     const std::string& type_name() const { return said_.type_name; }
 
+    /// @throws Error naming the codec that is not known
+    void expect_known_codecs() const;
+
     /// Whether a chunk spans these dimensions, and is large, but small enough to be kept: then it
     /// takes less memory to copy pieces out of the kept chunk than to copy all of it.
     bool keeps_whole(std::span<const std::size_t> dimensions) const;
 
+    /// The texts of a short array of one dimension, or of none: dates as ISO 8601 has them, of UTC.
+    /// Empty: it holds none. @throws Error as `read` does
+    std::vector<std::string> texts();
+
     /// The box of values from `start`, `count` along each dimension, as stored, in the machine's
-    /// byte order, the last dimension fastest. @throws Error naming the chunk that is damaged
+    /// byte order, the last dimension fastest. @throws Error naming the chunk that is damaged, or the
+    /// codec that is not known
     void read(std::span<const std::uint64_t> start, std::span<const std::uint64_t> count,
               std::span<std::byte> out);
 
@@ -69,12 +77,14 @@ class ZarrArray {
     void load_from_shard(const std::vector<std::uint64_t>& at, ZarrBytes& values);
     const ShardIndex& index_of_shard(const std::vector<std::uint64_t>& shard,
                                      const std::string& key, const std::string& name);
+    std::vector<std::string> texts_in(const ZarrBytes& chunk, const std::string& name) const;
     void decode_chunk(const std::string& name, ZarrBytes& values);
     void transpose(const ZarrBytes& stored, ZarrBytes& out) const;
 
     const ZarrStore* store_;
     ZarrDescription said_;
-    static constexpr std::size_t kKept = std::size_t{256} << 20, kLarge = std::size_t{64} << 20;
+    static constexpr std::size_t kKept = std::size_t{256} << 20, kLarge = std::size_t{64} << 20,
+                                 kMostTexts = std::size_t{16} << 20; ///< bytes of a chunk
     ZarrCache<ZarrBytes> kept_{kKept};
     ZarrCache<ShardIndex> shards_{std::size_t{64} << 20};
     ZarrBytes chunk_values_, spare_; ///< their memory is used again

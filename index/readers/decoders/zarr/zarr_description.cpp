@@ -9,10 +9,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace isochron::index {
@@ -46,6 +48,51 @@ std::optional<json> json_at(const ZarrStore& store, const std::string& key) {
     if (!parsed.is_object())
         throw Error(fmt::format("{}: {} is no JSON object", store.name(), key));
     return parsed;
+}
+
+/// The number of a text like `<U19`; 0: it is none, or a large one
+std::size_t number_in(std::string_view text) {
+    std::size_t number = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
+    constexpr std::size_t kLongest = 4096;
+    return failure == std::errc{} && end == text.data() + text.size() && number <= kLongest ? number
+                                                                                            : 0;
+}
+
+/// Types of texts and dates: `|S19`, `<U19`, `<M8[ns]` and, packed by a filter, `|O` of version 2;
+/// `string`, `fixed_length_utf32`, `null_terminated_bytes` and `numpy.datetime64` of version 3.
+void take_text_type(const json& type, ZarrDescription& said) {
+    if (!type.is_string() && !type.is_object())
+        return; // a structure
+    const std::string name = type.is_string() ? type.get<std::string>() : type.value("name", "");
+    const json more =
+        type.is_object() ? type.value("configuration", json::object()) : json::object();
+    if (name == "string" || name == "|O") {
+        said.texts = ZarrTexts::varying;
+    } else if (name == "fixed_length_utf32" || name == "null_terminated_bytes") {
+        said.texts = name.front() == 'f' ? ZarrTexts::utf32 : ZarrTexts::bytes;
+        said.text_bytes = number_in(std::to_string(more.value("length_bytes", 0)));
+    } else if (name == "numpy.datetime64") {
+        said.date_unit = more.value("unit", "");
+        said.date_factor = more.value("scale_factor", 1);
+    } else if (name.size() > 2 && std::string_view("<>|").find(name[0]) != std::string_view::npos) {
+        if (name[1] == 'S' || name[1] == 'U') {
+            said.texts = name[1] == 'U' ? ZarrTexts::utf32 : ZarrTexts::bytes;
+            said.text_bytes = number_in(name.substr(2)) * (name[1] == 'U' ? 4 : 1);
+        } else if (name.substr(1, 3) == "M8[" && name.ends_with(']')) { // `<M8[25s]` counts 25 s
+            const std::size_t unit = name.find_first_not_of("0123456789", 4);
+            said.date_unit = name.substr(unit, name.size() - 1 - unit);
+            said.date_factor = unit > 4 ? static_cast<std::int64_t>(
+                                              number_in(std::string_view(name).substr(4, unit - 4)))
+                                        : 1;
+        }
+    }
+    if (!said.date_unit.empty()) {
+        said.texts = ZarrTexts::dates;
+        said.text_bytes = sizeof(std::int64_t);
+    } else if (said.texts != ZarrTexts::varying && said.text_bytes == 0) {
+        said.texts = ZarrTexts::none;
+    }
 }
 
 /// `<f4`, `|u1`, `>i2` of version 2; `float32` of version 3. Half floats become f32.
@@ -87,6 +134,9 @@ class ZarrDescriber {
     void take_shard(const json& configuration);
     void check() const;
     void fill_with(const json& value);
+    /// Adds the next codec; one that is not known matters when values are read.
+    void add_codec(ZarrPipeline& pipeline, const std::string& name, std::size_t element,
+                   bool first);
     std::string where(const std::string& what) const;
 
     const ZarrStore& store_;
@@ -127,8 +177,8 @@ void ZarrDescriber::check() const {
             (!said_.inner.empty() && (said_.inner[i] == 0 || said_.chunk[i] % said_.inner[i] != 0)))
             throw Error(fmt::format("{}: chunks of {}, in it {}", where(""),
                                     fmt::join(said_.chunk, " x "), fmt::join(said_.inner, " x ")));
-    if (said_.type)
-        product(said_.parts(), size_of(*said_.type), where(""));
+    if (said_.type || said_.texts != ZarrTexts::none)
+        product(said_.parts(), said_.half ? 4 : said_.element(), where(""));
 }
 
 void ZarrDescriber::fill_with(const json& value) {
@@ -160,6 +210,18 @@ std::vector<std::size_t> ZarrDescriber::lengths_in(const json& list) const {
     return list.get<std::vector<std::size_t>>();
 }
 
+void ZarrDescriber::add_codec(ZarrPipeline& pipeline, const std::string& name, std::size_t element,
+                              bool first) {
+    if (name == "vlen-utf8" && said_.texts == ZarrTexts::varying)
+        return; // their own layout, which is taken apart behind the others
+    try {
+        const ZarrCodec codec = codec_of(name, element, where(""));
+        pipeline.codecs.insert(first ? pipeline.codecs.begin() : pipeline.codecs.end(), codec);
+    } catch (const Error& error) {
+        said_.unread = error.what();
+    }
+}
+
 void ZarrDescriber::describe_v2(const json& j) {
     said_.shape = lengths_in(j.at("shape"));
     said_.chunk = lengths_in(j.at("chunks"));
@@ -167,6 +229,8 @@ void ZarrDescriber::describe_v2(const json& j) {
     const std::string name = dtype.is_string() ? dtype.get<std::string>() : "";
     said_.type = type_of_zarr(name);
     said_.type_name = dtype.is_string() ? name : dtype.dump();
+    if (!said_.type)
+        take_text_type(dtype, said_);
     said_.half = name.ends_with("f2");
     said_.pipeline.big_endian = name.starts_with('>');
     said_.separator = j.value("dimension_separator", ".");
@@ -176,11 +240,11 @@ void ZarrDescriber::describe_v2(const json& j) {
     const std::size_t element = said_.element();
     if (const auto compressor = j.find("compressor");
         compressor != j.end() && !compressor->is_null())
-        said_.pipeline.codecs.push_back(codec_of(compressor->at("id"), element, where("")));
+        add_codec(said_.pipeline, compressor->at("id"), element, false);
     if (const auto filters = j.find("filters"); filters != j.end() && filters->is_array())
         for (auto filter = filters->rbegin(); filter != filters->rend(); ++filter)
-            said_.pipeline.codecs.push_back(
-                codec_of(filter->at("id"), filter->value("elementsize", element), where("")));
+            add_codec(said_.pipeline, filter->at("id"), filter->value("elementsize", element),
+                      false);
     fill_with(j.value("fill_value", json()));
     said_.attributes = json_at(store_, zarr_key(said_.path, ".zattrs")).value_or(json::object());
     if (const auto names = said_.attributes.find("_ARRAY_DIMENSIONS");
@@ -193,6 +257,8 @@ void ZarrDescriber::describe_v3(const json& j) {
     const json& type = j.at("data_type");
     said_.type = type_of_zarr(type.is_string() ? type.get<std::string>() : "");
     said_.type_name = type.is_string() ? type.get<std::string>() : type.dump();
+    if (!said_.type)
+        take_text_type(type, said_);
     said_.half = said_.type_name == "float16";
     const json& grid = j.at("chunk_grid");
     if (grid.at("name") != "regular")
@@ -227,7 +293,7 @@ ZarrPipeline ZarrDescriber::pipeline_v3(const json& codecs, bool outer) {
         else if (name == "sharding_indexed" && outer && codecs.size() == 1)
             take_shard(configuration);
         else
-            pipeline.codecs.insert(pipeline.codecs.begin(), codec_of(name, element, where("")));
+            add_codec(pipeline, name, element, true);
     }
     std::vector<std::size_t> sorted = pipeline.order;
     std::ranges::sort(sorted);

@@ -4,6 +4,7 @@
 #include "index/readers/decoders/zarr/zarr_groups.h"
 #include "index/readers/formats/stated/axis_roles.h"
 #include "index/readers/formats/stated/stated_attributes.h"
+#include "index/readers/formats/stated/stated_times.h"
 #include "index/readers/formats/stated/stated_values.h"
 
 #include <fmt/format.h>
@@ -43,15 +44,22 @@ struct Coordinates {
 std::optional<Coordinates> coordinates_in(const ZarrStore& store, const std::string& path,
                                           const std::vector<std::uint64_t>& shape) {
     auto array = ZarrArray::open(store, path);
-    if (!array || !array->type() || array->shape() != shape)
+    if (!array || array->shape() != shape)
         return std::nullopt;
     StatedAxis axis;
     axis.coordinate = path.substr(path.rfind('/') + 1); // npos + 1 is 0
+    if (!array->type()) {
+        axis.dates = array->texts();
+        if (!are_dates(axis.dates))
+            return std::nullopt;
+    }
     take_cf_attributes(attributes_of(array->attributes()), axis);
     return Coordinates{std::move(axis), std::move(*array)};
 }
 
 std::vector<double> scaled_values(const ZarrStore& store, ZarrArray& array) {
+    if (!array.type())
+        return {}; // dates
     const Scaling scaling = scaling_by(attributes_of(array.attributes()),
                                        fmt::format("{}: {}", store.name(), array.path()));
     const std::uint64_t length = array.shape().empty() ? 1 : array.shape().front();
@@ -247,17 +255,14 @@ std::vector<StatedAxis> axes_of(const json& image, const json& dataset, const Za
     return axes;
 }
 
-std::optional<StatedAxis> time_alone(const ZarrStore& store, const ZarrArray& array) {
-    for (const std::string& group : groups_around(array))
-        for (const std::vector<std::uint64_t>& shape :
-             {std::vector<std::uint64_t>{}, std::vector<std::uint64_t>{1}}) {
-            auto found = coordinates_in(store, zarr_key(group, "time"), shape);
-            if (!found)
-                continue;
-            found->axis.at = scaled_values(store, found->array);
-            return found->axis;
-        }
-    return std::nullopt;
+std::optional<StatedAxis> time_in(const ZarrStore& store, const std::string& group) {
+    auto found = coordinates_in(store, zarr_key(group, "time"), {});
+    if (!found)
+        found = coordinates_in(store, zarr_key(group, "time"), {1});
+    if (!found)
+        return std::nullopt;
+    found->axis.at = scaled_values(store, found->array);
+    return found->axis;
 }
 
 std::size_t long_dimensions_of(const ZarrStore& store, const ZarrArray& array,

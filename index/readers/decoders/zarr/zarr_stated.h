@@ -24,8 +24,8 @@ std::vector<StatedAxis> axes_of(const ZarrStore& store, const ZarrArray& array);
 std::vector<StatedAxis> axes_of(const nlohmann::json& image, const nlohmann::json& dataset,
                                 const ZarrArray& array);
 
-/// The time of a step that is alone, by an array `time` of one value beside the array; none.
-std::optional<StatedAxis> time_alone(const ZarrStore& store, const ZarrArray& array);
+/// The array `time` of one value in a group; none.
+std::optional<StatedAxis> time_in(const ZarrStore& store, const std::string& group);
 
 /// How many dimensions longer than 1 the array of a name beside this one has; 0: there is none.
 std::size_t long_dimensions_of(const ZarrStore& store, const ZarrArray& array,

@@ -359,6 +359,8 @@ void place_steps(const StatedAxis& time, const ReadOptions& options, SeriesInfo&
                        .unit = time.unit == "1" ? "" : time.unit,
                        .calendar = time.calendar,
                        .missing = time.missing};
+    if (!time.dates.empty())
+        return place_dates(time.dates, stated.name, info, options.dates);
     if (time.at.empty()) {
         if (!time.regular || (time.length == 1 && time.first == 0))
             return;

@@ -111,7 +111,7 @@ std::optional<AxisRole> role_by_attributes(const StatedAxis& stated) {
     constexpr std::string_view kAxes = "xyzt";
     if (axis.size() == 1 && kAxes.find(axis) != kAxes.npos)
         return static_cast<AxisRole>(kAxes.find(axis));
-    if (stated.kind == "time" || units.find(" since ") != units.npos)
+    if (stated.kind == "time" || !stated.dates.empty() || units.find(" since ") != units.npos)
         return AxisRole::time;
     if (stated.kind == "channel")
         return AxisRole::channel;

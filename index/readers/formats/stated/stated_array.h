@@ -23,10 +23,11 @@ struct StatedAxis {
 
     /// The variable that has the coordinates, `height`; empty: there is none.
     std::string coordinate = {};
-    std::vector<double> at = {}; ///< the coordinates of all vertices, scaled
-    double first = 0, step = 1;  ///< or the coordinate of the first vertex, and the distance
-    bool regular = false;        ///< whether `first` and `step` are stated
-    std::string unit = {};       ///< unit of the coordinates, as it is written
+    std::vector<double> at = {};         ///< the coordinates of all vertices, scaled
+    std::vector<std::string> dates = {}; ///< or of all steps, where they are texts
+    double first = 0, step = 1; ///< or the coordinate of the first vertex, and the distance
+    bool regular = false;       ///< whether `first` and `step` are stated
+    std::string unit = {};      ///< unit of the coordinates, as it is written
 
     /// Attributes of the CF conventions that the variable of the coordinates has.
     std::string axis = {}, standard_name = {}, positive = {}, calendar = {};

@@ -103,14 +103,17 @@ void take_open_pmd(const Nearest& nearest, const std::vector<StatedAttributes>& 
                         inside = slowest_first(nearest, objects.front().numbers("position"));
     if (spacing.empty())
         return;
-    const std::vector<double> unit = nearest.numbers({"gridUnitSI"}, 1);
-    const double meters = unit.empty() ? 1 : unit.front();
+    std::vector<double> meters = nearest.numbers({"gridUnitSI"}, 1);
+    if (meters.empty()) // one for each axis, from version 2.0.0 on
+        meters = slowest_first(nearest, nearest.numbers({"gridUnitSI"}, 3));
+    const std::vector<std::string> units(3, meters.empty() ? "" : "m");
+    meters.resize(3, meters.empty() ? 1 : meters.front());
     first.resize(3);
     for (std::size_t i = 0; i < 3; ++i) {
-        first[i] = (first[i] + (inside.size() == 3 ? inside[i] * spacing[i] : 0)) * meters;
-        spacing[i] *= meters;
+        first[i] = (first[i] + (inside.size() == 3 ? inside[i] * spacing[i] : 0)) * meters[i];
+        spacing[i] *= meters[i];
     }
-    set_regular(array, space, spacing, first, std::vector<std::string>(3, unit.empty() ? "" : "m"));
+    set_regular(array, space, spacing, first, units);
 }
 
 /// `resolution` has a number for each dimension, or for each that is no channel and longer than 1,

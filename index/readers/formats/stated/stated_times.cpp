@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -21,20 +22,52 @@
 namespace isochron::index {
 namespace {
 
-/// [s] since 1970; none where it is no date.
+/// [s] since 1970-01-01 of a date as ISO 8601 has it, alone or with a time of day, a fraction of its
+/// seconds and a zone: `2005-08-28`, `2005-08-28_12:00:00.5`, `2005-08-28T12:00+02:00`; none: it is none
 std::optional<double> seconds_of(const std::string& text) {
-    int year = 0, month = 0, day = 0, hour = 0, minute = 0;
-    double second = 0;
-    char between = 0;
-    if (std::sscanf(text.c_str(), "%5d-%2d-%2d%c%2d:%2d:%6lf", &year, &month, &day, &between, &hour,
-                    &minute, &second) != 7 ||
-        std::string("_T ").find(between) == std::string::npos || hour < 0 || hour > 23 ||
-        minute < 0 || minute > 59 || !(second >= 0 && second < 61))
+    int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, end = 0;
+    if (std::sscanf(text.c_str(), "%5d-%2d-%2d%n", &year, &month, &day, &end) != 3 || end < 8)
         return std::nullopt;
     const auto days = day_number({year, month, day}, Calendar::gregorian);
-    if (!days)
+    std::string_view rest = std::string_view(text).substr(static_cast<std::size_t>(end));
+    const auto pass = [&](int count) { rest.remove_prefix(static_cast<std::size_t>(count)); };
+    double fraction = 0;
+    if (!rest.empty() && std::string_view("_T ").find(rest.front()) != rest.npos) {
+        pass(1);
+        if (std::sscanf(rest.data(), "%2d:%2d%n", &hour, &minute, &end) != 2)
+            return std::nullopt;
+        pass(end);
+        if (std::sscanf(rest.data(), ":%2d%n", &second, &end) == 1)
+            pass(end);
+        if (rest.starts_with('.')) {
+            const auto [behind, failure] =
+                std::from_chars(rest.data(), rest.data() + rest.size(), fraction);
+            pass(failure == std::errc{} ? static_cast<int>(behind - rest.data()) : 1);
+        }
+    }
+    int zone_hour = 0, zone_minute = 0;
+    if (rest.starts_with('+') || rest.starts_with('-')) {
+        const int sign = rest.front() == '-' ? -1 : 1;
+        if (std::sscanf(rest.data() + 1, "%2d:%2d%n", &zone_hour, &zone_minute, &end) != 2 &&
+            std::sscanf(rest.data() + 1, "%2d%2d%n", &zone_hour, &zone_minute, &end) != 2)
+            return std::nullopt;
+        pass(end + 1);
+        zone_hour *= sign;
+        zone_minute *= sign;
+    } else if (rest == "Z") {
+        pass(1);
+    }
+    if (!rest.empty() || !days || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
+        second < 0 || second > 60 || std::abs(zone_hour) > 14 || std::abs(zone_minute) > 59)
         return std::nullopt;
-    return static_cast<double>(*days * 86400 + hour * 3600 + minute * 60) + second;
+    return static_cast<double>(*days * 86400 + (hour - zone_hour) * 3600 +
+                               (minute - zone_minute) * 60 + second) +
+           fraction;
+}
+
+/// Whether a text stands for no date.
+bool is_no_date(const std::string& text) {
+    return text.empty() || text == "NaT";
 }
 
 /// What the digits before the point of such a number are.
@@ -141,13 +174,21 @@ void drop_missing(StatedTimes& stated, SeriesInfo& info) {
                         stated.name));
 }
 
-constexpr double kDay = 86400; ///< [s]
-
-/// `2005-08-28`, midnight of which is so many seconds after that of 1970-01-01.
-std::string written(double seconds) {
+/// `2005-08-28`, the day in which so many seconds after 1970-01-01 are.
+std::string written_day(double seconds) {
+    constexpr double kDay = 86400;
     const auto date =
         date_of(static_cast<std::int64_t>(std::floor(seconds / kDay)), Calendar::gregorian);
     return fmt::format("{:04}-{:02}-{:02}", date->year, date->month, date->day);
+}
+
+/// `2005-08-28`, and the time of day where it is not midnight; whole seconds.
+std::string written(double seconds) {
+    const auto of_day =
+        static_cast<int>(seconds - std::floor(seconds / 86400) * 86400); // 0 to 86399
+    return written_day(seconds) + (of_day == 0 ? ""
+                                               : fmt::format(" {:02}:{:02}:{:02}", of_day / 3600,
+                                                             of_day / 60 % 60, of_day % 60));
 }
 
 /// The length of the date that a text begins with, whose year of four digits is last.
@@ -187,7 +228,7 @@ void write_reference_anew(StatedTimes& stated, SeriesInfo& info, std::optional<D
     else if (behind.front() == '_' || behind.front() == '-') // as dates in names have it
         behind.front() = ' ';
     stated.unit.replace(since + kSince.size(), reference.size(),
-                        written(read.seconds.front()) + behind);
+                        written_day(read.seconds.front()) + behind);
 }
 
 } // namespace
@@ -217,17 +258,29 @@ void place_times(StatedTimes stated, SeriesInfo& info, std::optional<DayMonth> d
                                          stated.unit));
 }
 
+bool are_dates(std::span<const std::string> texts) {
+    std::vector<std::string> dates(texts.begin(), texts.end());
+    std::erase_if(dates, is_no_date);
+    if (std::ranges::all_of(dates, [](const auto& date) { return seconds_of(date).has_value(); }))
+        return !dates.empty();
+    const TextDates read = dates_of_texts(dates, {});
+    return (read.open || !read.seconds.empty()) &&
+           std::ranges::all_of(dates, [](const std::string& date) {
+               return date.find_first_of("0123456789") == 0;
+           });
+}
+
 void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info,
                  std::optional<DayMonth> said) {
-    if (dates.empty())
-        return;
-    std::vector<double> times;
+    StatedTimes stated{.name = name};
     for (const std::string& date : dates)
-        if (const auto seconds = seconds_of(date))
-            times.push_back(*seconds);
-    if (times.size() != dates.size()) {
+        if (is_no_date(date))
+            stated.values.push_back(std::numeric_limits<double>::quiet_NaN());
+        else if (const auto seconds = seconds_of(date))
+            stated.values.push_back(*seconds);
+    if (stated.values.size() != dates.size()) {
         const auto none = std::ranges::find_if(
-            dates, [](const std::string& date) { return !seconds_of(date).has_value(); });
+            dates, [](const std::string& date) { return !is_no_date(date) && !seconds_of(date); });
         TextDates read = dates_of_texts({dates.begin(), dates.end()}, said);
         if (read.seconds.empty()) {
             info.notes.push_back(read.open
@@ -240,15 +293,14 @@ void place_dates(std::span<const std::string> dates, const std::string& name, Se
         if (read.year_last)
             info.notes.push_back(
                 fmt::format("{}: dates are read as {}", name, name_of(read.order)));
-        times = std::move(read.seconds);
+        stated.values = std::move(read.seconds);
     }
-    const double begin = std::floor(times.front());
-    const auto of_day = static_cast<std::int64_t>(begin - std::floor(begin / kDay) * kDay);
-    info.time_unit = fmt::format("seconds since {} {:02}:{:02}:{:02}", written(begin),
-                                 of_day / 3600, of_day / 60 % 60, of_day % 60);
-    for (double& at : times)
+    const auto first = std::ranges::find_if(stated.values, [](double at) { return at == at; });
+    const double begin = first == stated.values.end() ? 0 : std::floor(*first);
+    stated.unit = "seconds since " + written(begin);
+    for (double& at : stated.values)
         at -= begin;
-    info.times = std::move(times);
+    place_times(std::move(stated), info);
 }
 
 } // namespace isochron::index

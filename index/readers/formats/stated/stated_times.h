@@ -27,8 +27,12 @@ struct StatedTimes {
 /// @param dates order of day and month in a reference date whose year is last, where a user says it
 void place_times(StatedTimes stated, SeriesInfo& info, std::optional<DayMonth> dates = {});
 
-/// Sets times to the seconds since the first of such dates: `2005-08-28_12:00:00`, `28/08/2005`. Where a
-/// text is none, a note says so, and there are no times.
+/// Whether texts are dates, but for those that stand for none: empty ones, `NaT`.
+bool are_dates(std::span<const std::string> texts);
+
+/// Sets times to the seconds since the first of such dates, in UTC where they have zones:
+/// `2005-08-28_12:00:00`, `2005-08-28T12:00:00.5+02:00`, `28/08/2005`. Where a text is none, a note says
+/// so, and there are no times; those that stand for none are left out as `place_times` does.
 /// @param name by which the note calls them @param said order of day and month, where a user says it
 void place_dates(std::span<const std::string> dates, const std::string& name, SeriesInfo& info,
                  std::optional<DayMonth> said = {});

@@ -307,6 +307,25 @@ TEST(Pvd, PutsThePartsOfAStepTogether) {
                 HasSubstr("dimensions"));
 }
 
+TEST(Pvd, LeavesOutLastStepsThatAreNotThere) {
+    TestFolder folder;
+    for (const char* name : {"a.vti", "b.vti"})
+        folder.write(name, read_file(kFolder / "ascii.vti"));
+    const std::string sets = R"(<DataSet timestep="1" file="a.vti"/>)"
+                             R"(<DataSet timestep="2" file="b.vti"/>)";
+    const auto open = [&](const std::string& more) {
+        return open_series({folder.write("s.pvd", collection(sets + more))});
+    };
+    const auto series = open(R"(<DataSet timestep="3" file="c.vti"/>)");
+    EXPECT_THAT(series->info().times, testing::ElementsAre(1, 2));
+    EXPECT_THAT(series->info().notes,
+                testing::Contains("s.pvd names 3 files, of which the last 1 is not there, c.vti "
+                                  "and on: left out"));
+    EXPECT_THAT(error_of([&] { open(R"(<DataSet timestep="2" part="1" file="c.vti"/>)"); }),
+                HasSubstr("c.vti: there is no such file"))
+        << "a part of a step";
+}
+
 TEST(Pvd, RefusesMissingFiles) {
     TestFolder folder;
     for (const char* name : {"a.vti", "b.vti"})

@@ -198,8 +198,7 @@ void LiveLoop::run(Session& session) {
             pacer.wait();
         const FrameOutlook next = both(session.outlook(), outlook(input, acts(happened)));
         const bool prepared = !next.busy && !next.changed && session.prepare_some();
-        waited_ = running && !prepared &&
-                  may_wait(session.frames(), session.outputs().headset()) &&
+        waited_ = running && !prepared && may_wait(session.frames(), session.outputs().headset()) &&
                   wait(next, session.outputs().windows());
         if (waited_)
             session.has_waited();

@@ -22,9 +22,9 @@
 #include "app/quality/capture_wait.h"
 #include "app/quality/frame_plan.h"
 #include "app/scene/scene.h"
+#include "app/session/frame_planner.h"
 #include "app/session/nothing_seen.h"
 #include "app/session/picker.h"
-#include "app/session/frame_planner.h"
 #include "app/session/picture_maker.h"
 #include "app/session/preparation.h"
 #include "app/session/session_panel.h"
@@ -228,7 +228,7 @@ class Session {
     FramePlan plan_;               ///< plan of the last frame
     std::optional<Picture> drawn_; ///< last picture
     WindowContents contents_;
-    bool waited_ = false; ///< see `has_waited`
+    bool waited_ = false;          ///< see `has_waited`
     bool told_of_lifting_ = false; ///< the user knows that the background is lifted
     CaptureWait captures_;
     bool awaited_ = false;

@@ -108,8 +108,7 @@ std::optional<Attribute> attribute_of(hid_t file, const std::string& object,
 
 std::string tidy_text(std::string text) {
     text.resize(std::min(text.find('\0'), text.size()));
-    std::ranges::replace_if(
-        text, [](unsigned char c) { return c < ' '; }, ' ');
+    std::ranges::replace_if(text, [](unsigned char c) { return c < ' '; }, ' ');
     return std::string(trimmed(text));
 }
 

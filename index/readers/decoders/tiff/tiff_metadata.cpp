@@ -69,9 +69,8 @@ std::string text_of_ome(const tinyxml2::XMLElement& element, const char* name,
 class OmePlanes {
   public:
     OmePlanes(const tinyxml2::XMLElement& pixels, const TiffStack& stack, const std::string& file)
-        : order_(text_of_ome(pixels, "DimensionOrder", "XYCZT")), sizes_{{'C', stack.channels},
-                                                                         {'Z', stack.slices},
-                                                                         {'T', stack.frames}},
+        : order_(text_of_ome(pixels, "DimensionOrder", "XYCZT")),
+          sizes_{{'C', stack.channels}, {'Z', stack.slices}, {'T', stack.frames}},
           planes_(stack.channels * stack.slices * stack.frames) {
         std::string sorted = order_;
         std::ranges::sort(sorted);

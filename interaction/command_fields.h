@@ -159,6 +159,31 @@ void each_field(Visit&& visit, Records&... r) {
     visit(Field{.key = "places", .most = kMostRulerPlaces}, r.places...);
 }
 
+template <class Visit, Of<KeyFrame>... Records>
+void each_field(Visit&& visit, Records&... r) {
+    visit(Field{"time", 0, kLongestFilm}, r.time...);
+    visit(Field{.key = "hold", .low = 0, .high = kLongestFilm, .may_lack = true}, r.hold...);
+    visit(Field{.key = "pace", .may_lack = true}, r.pace...);
+    visit(Field{"head"}, r.head...);
+    visit(Field{"step"}, r.step...);
+    visit(Field{.key = "fraction", .low = 0, .high = kMostFraction, .may_lack = true},
+          r.fraction...);
+    visit(Field{"room_from_physical"}, r.room_from_physical...);
+    visit(Field{.key = "array", .most = kLongestArrayName}, r.array...);
+    visit(Field{.key = "isosurfaces", .least = 1, .most = kMostIsosurfaces}, r.isosurfaces...);
+    visit(Field{"picked", 0, kMostIsosurfaces - 1}, r.picked...);
+    visit(Field{"isovalue"}, r.isovalue...);
+    visit(Field{"coloring"}, r.coloring...);
+    visit(Field{"look"}, r.look...);
+    visit(Field{"bounding_box"}, r.bounding_box...);
+    visit(Field{"grid"}, r.grid...);
+    visit(Field{"orthographic"}, r.orthographic...);
+    visit(Field{"between"}, r.between...);
+    visit(Field{"mark"}, r.mark...);
+    visit(Field{"clip"}, r.clip...);
+    visit(Field{"ruler"}, r.ruler...);
+}
+
 /// The settings, the isovalue of the picked surface, and the commands that happen once.
 template <class Visit, Of<Commands>... Records>
 void each_field(Visit&& visit, Records&... r) {

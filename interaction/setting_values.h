@@ -286,4 +286,40 @@ struct Ruler {
     bool operator==(const Ruler&) const = default;
 };
 
+/// How isovalue and time go from a key to the next one.
+enum class KeyPace : std::uint8_t {
+    eased, ///< slow at the ends of a move, and without a jump of their rates between moves
+    even   ///< at one rate all the way
+};
+template <>
+inline constexpr std::array<std::string_view, 2> kNames<KeyPace>{"eased", "even"};
+
+inline constexpr std::size_t kMostKeyFrames = 128;
+inline constexpr double kLongestFilm = 3600.0;      ///< [s]
+inline constexpr double kShortestMove = 1.0 / 1024; ///< [s] from the rest at a key to the next key
+
+/// A key frame of a film: what is seen at one of its times. A setting that a key does not hold goes
+/// from the key before to the key behind, or stays as it is.
+struct KeyFrame {
+    double time = 0;                        ///< [s] of the film
+    double hold = 0;                        ///< [s] that the film rests here
+    KeyPace pace = KeyPace::eased;          ///< from here to the next key
+    std::optional<Pose> head = {};          ///< viewer's head in the room
+    std::optional<std::uint32_t> step = {}; ///< counted from 0
+    std::uint32_t fraction = 0;             ///< way to the next step, see Instant
+    std::optional<Similarity> room_from_physical = {};
+    std::optional<std::string> array = {};
+    std::optional<std::vector<Isosurface>> isosurfaces = {};
+    std::optional<std::uint32_t> picked = {};
+    std::optional<double> isovalue = {}; ///< the picked surface's
+    std::optional<Coloring> coloring = {};
+    std::optional<Look> look = {};
+    std::optional<bool> bounding_box = {}, grid = {}, orthographic = {};
+    std::optional<BetweenSteps> between = {};
+    std::optional<Mark> mark = {};
+    std::optional<ClipPlane> clip = {};
+    std::optional<Ruler> ruler = {};
+    bool operator==(const KeyFrame&) const = default;
+};
+
 } // namespace isochron::interaction

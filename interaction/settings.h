@@ -51,6 +51,8 @@ struct SettingsOf {
     Holds<StepRange> play_range{};
     Holds<std::vector<Bookmark>> bookmarks{}; ///< all of them, at most kMostBookmarks
 
+    Holds<std::vector<KeyFrame>> keys{}; ///< a film's, by time, at most kMostKeyFrames
+
     // Where and how it is seen.
     Holds<Similarity> room_from_physical{}; ///< navigation's result
     Holds<std::vector<Viewpoint>> views{};  ///< all saved ones, at most kMostViews
@@ -93,6 +95,7 @@ constexpr void each_setting(Visit&& visit, Records&... r) {
     visit(Field{"playback"}, r.playback...);
     visit(Field{.key = "play_range", .dragged = true}, r.play_range...);
     visit(Field{.key = "bookmarks", .most = kMostBookmarks}, r.bookmarks...);
+    visit(Field{.key = "keys", .most = kMostKeyFrames}, r.keys...);
     visit(Field{.key = "room_from_physical", .dragged = true}, r.room_from_physical...);
     visit(Field{.key = "quality", .configured = "quality.mode"}, r.quality...);
     visit(Field{.key = "eye_separation", .low = 0, .high = kWidestEyes, .dragged = true},

@@ -9,6 +9,7 @@
 #include "app/output/movie_file.h"
 #include "app/output/picture_parts.h"
 #include "app/telling.h"
+#include "app/text.h"
 #include "index/error.h"
 #include "index/file/index_series.h"
 #include "index/file/sections/file_layout.h"
@@ -147,10 +148,15 @@ std::string hash_of(const fs::path& recording) {
     return fmt::format("{:016x}", index::checksum_of(std::as_bytes(std::span(text))));
 }
 
+/// Whether the film is kept as a recording, which `replay` plays, and not drawn.
+bool writes_recording(const MovieOptions& options) {
+    return fs::path(options.out).extension() == ".jsonl";
+}
+
 /// What cannot be written is told before anything is drawn.
 void check_output(const MovieOptions& options) {
     const fs::path out(options.out);
-    constexpr std::array kSuffixes{".mp4", ".mkv", ".mov", ".gif"};
+    constexpr std::array kSuffixes{".mp4", ".mkv", ".mov", ".gif", ".jsonl"};
     if (is_movie_folder(out))
         return;
     if (std::ranges::find(kSuffixes, out.extension().string()) == kSuffixes.end())
@@ -162,14 +168,43 @@ void check_output(const MovieOptions& options) {
 
 /// Options that only one kind of source has. @throws UsageError
 void check_source(const MovieOptions& options, bool of_index) {
-    if (!of_index &&
-        (options.series.isovalue || !options.series.steps.empty() || options.series.between))
+    const SeriesMovie& series = options.series;
+    if (!of_index && (series.isovalue || !series.steps.empty() || series.between || series.turn ||
+                      !series.keys.empty()))
         throw UsageError(fmt::format(
-            "{}: a recording has its own isovalues, steps and moments between them; --isovalue, "
-            "--steps and --between go with an index",
+            "{}: a recording has its own view, isovalues, steps and moments between them; "
+            "--isovalue, --steps, --between, --keys and --turn go with an index",
             options.recording));
+    if (!series.keys.empty() && (series.turn || !series.steps.empty()))
+        throw UsageError("--keys: the keys say where to look and which steps pass; --turn and "
+                         "--steps go without them");
+    if (!of_index && writes_recording(options))
+        throw UsageError(fmt::format("{}: it is a recording already; a recording is made of an "
+                                     "index: isochron movie INDEX --turn -o film.jsonl",
+                                     options.recording));
     if (of_index && options.data)
         throw UsageError("--data goes with a recording; an index is the data itself");
+}
+
+/// `film.mp4: 12 s, 361 frames at 30 per second, 1280 x 720`.
+std::string words_of_film(const MovieOptions& options, const interaction::Recording& recording,
+                          const glm::ivec2& size) {
+    const double seconds =
+        recording.frames.back().input.time.count() - recording.frames.front().input.time.count();
+    const double frames = std::floor(seconds * options.rate + 1.5);
+    return fmt::format("{}: {:.4g} s, {:.0f} frames at {:g} per second, {} x {} pixels",
+                       whole_path(options.out), seconds, frames, options.rate, size.x, size.y);
+}
+
+void keep_recording(const MovieOptions& options, const interaction::Recording& recording,
+                    const Reads& reads) {
+    guard_outputs({{options.out, OutputKind::recording}}, reads, options.force);
+    write_recording(options.out, recording);
+    print_report("wrote {}: {} frames at {:g} per second; `isochron replay` plays them\n",
+                 options.out, recording.frames.size(), options.rate);
+    tell_result({{"source", options.recording},
+                 {"rate", options.rate},
+                 {"movies", {{{"file", options.out}, {"frames", recording.frames.size()}}}}});
 }
 
 /// For the program that started this one: `42 %`.
@@ -211,9 +246,15 @@ void make_movie(const MovieOptions& options, ClusterJob& job) {
     if (of_index)
         recording =
             steps_seen(session, config, *file, recording.header, options.series, options.rate);
+    Reads reads = reads_of(options, file.get());
+    if (!options.series.keys.empty())
+        reads.files.emplace_back(options.series.keys);
+    if (writes_recording(options))
+        return keep_recording(options, recording, reads);
+    print_report("{}\n",
+                 words_of_film(options, recording, config.installation.windows.front().size));
     const PictureNames names = picture_names(config.installation);
     BackgroundWork writing;
-    const Reads reads = reads_of(options, file.get());
     Movies movies(options, names, {options.rate, of_index ? "" : hash_of(options.recording)}, reads,
                   writing);
     Clock clock(recording, options.rate);
@@ -249,7 +290,7 @@ void add_movie(Command& program) {
         "movie", "Make a movie of a recording, or of all steps of an index: a file that ffmpeg "
                  "encodes, or a folder of its frames.");
     command.examples({"isochron movie walk.jsonl -o walk.mp4",
-                      "isochron movie run42.isochron --isovalue 100 -o frames/"});
+                      "isochron movie run42.isochron --turn -o turn.mp4"});
     add_replay_source(command, *options,
                       "Recording made by `explore --record`. Or an index: the movie then shows all "
                       "its steps from where `explore` looks first, in 10 s, or in more where each "
@@ -257,7 +298,7 @@ void add_movie(Command& program) {
     command
         .option("-o,--output,--out", options->out,
                 "Movie to write: .mp4, .mkv or .mov (H.264), or .gif; or a folder for its frames "
-                "(.png)")
+                "(.png); or .jsonl, the film of an index as a recording, which `replay` plays")
         .required()
         .type_name("FILE");
     command
@@ -276,6 +317,18 @@ void add_movie(Command& program) {
             "a blend of both (default: what `isochron info` advises)")
         .one_of(interaction::all_names<interaction::BetweenSteps>())
         .type_name("MODE");
+    command
+        .option("--keys", options->series.keys,
+                "Of an index, a film through key frames: a file of keys (docs/FORMATS.md), or a "
+                "session that has keys (Ctrl + M in `explore`)")
+        .type_name("FILE");
+    command.flag("--turn", options->series.turn,
+                 "Of an index, one turn about the data's up axis while the steps pass; with "
+                 "`--steps 5`, while step 5 stands");
+    command.option("--length", options->series.seconds, "Length of the turn")
+        .between(0.1, interaction::kLongestFilm)
+        .shows_default()
+        .type_name("SECONDS");
     command.option("--rate", options->rate, "Frames per second")
         .positive()
         .shows_default()

@@ -8,6 +8,7 @@
 #include "index/file/index_states.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
+#include "interaction/navigation/key_frames.h"
 
 #include <fmt/format.h>
 
@@ -152,7 +153,7 @@ void keep_session(LiveLoop& live, const std::optional<std::filesystem::path>& pa
     SavedSession kept{.program = std::string(kProgram),
                       .data = fs::absolute(*options.data).string(),
                       .data_hash = data_hash_of(file),
-                      .state = session.state().as_commands(),
+                      .state = interaction::kept_state(session.state().as_commands()),
                       .head = live.standing(),
                       .arrays = session.left_arrays(),
                       .only_looked = !earlier || earlier->only_looked,

@@ -15,6 +15,7 @@
 #include "index/system/module.h"
 #include "index/system/new_file.h"
 #include "index/system/user_folders.h"
+#include "interaction/navigation/key_frames.h"
 
 #include <fmt/format.h>
 
@@ -163,7 +164,7 @@ interaction::RecordingHeader header_of(const Session& session, const Config& con
     }
     header.data_hash = data_hash_of(file);
     header.reading = file.metadata().reading_number;
-    header.start = session.state().as_commands();
+    header.start = interaction::kept_state(session.state().as_commands());
     return header;
 }
 

@@ -5,13 +5,21 @@
 #include "app/command_line/step_range.h"
 #include "app/config/first_placement.h"
 #include "app/explore/explore_start.h"
+#include "app/kept/session_file.h"
+#include "app/loop/key_film.h"
 #include "app/loop/movie_maker.h"
 #include "app/loop/replay.h"
 #include "app/version.h"
+#include "index/error.h"
+#include "index/system/input_file.h"
+#include "interaction/error.h"
+#include "interaction/recording/key_film.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace isochron::app {
 namespace {
@@ -43,6 +51,45 @@ void play_steps(const SeriesMovie& movie, std::size_t steps, interaction::Comman
     state.playback = playback;
 }
 
+/// The keys of a file, or of a session. @throws interaction::Error
+std::vector<interaction::KeyFrame> keys_of(const std::string& path) {
+    constexpr std::uint64_t kLargest = 1 << 22; ///< [byte]
+    const std::string text = index::read_text(path, kLargest);
+    if (!is_session_text(text))
+        return interaction::keys_from(text, path);
+    auto keys = read_session(path).state.keys.value_or(std::vector<interaction::KeyFrame>());
+    if (keys.empty())
+        throw interaction::Error(
+            fmt::format("{}: a session without keys: Ctrl + M in `explore` makes them", path));
+    return keys;
+}
+
+/// @throws interaction::Error naming the first key that these data cannot show
+void expect_fit(const std::vector<interaction::KeyFrame>& keys, const std::string& path,
+                const Session& session, std::size_t steps) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const interaction::Commands shown = interaction::way_to_key(keys[i], session.state(), {});
+        std::vector<std::string> refused = session.state().refusals(shown, steps);
+        if (shown.array)
+            try {
+                session.expect_array(*shown.array);
+            } catch (const index::Error& error) {
+                refused.emplace_back(error.what());
+            }
+        if (!refused.empty())
+            throw interaction::Error(fmt::format("{}: key {} does not fit the data: {}", path,
+                                                 i + 1, fmt::join(refused, "; ")));
+    }
+}
+
+std::vector<interaction::KeyFrame> turn(const Session& session, const index::SeriesInfo& info,
+                                        const SeriesMovie& movie) {
+    const auto steps = steps_or_all(movie.steps, "--steps", info.steps());
+    return interaction::turn_keys(session.state(), physical_center(info.grid),
+                                  index::Instant(steps.front()), index::Instant(steps.back()),
+                                  movie.seconds);
+}
+
 } // namespace
 
 interaction::RecordingHeader header_of_series(const ReplaySource& options) {
@@ -67,9 +114,16 @@ interaction::Recording steps_seen(Session& session, const Config& config,
     else if (!config.between)
         start.between = advised_between(file);
     session.set_state(start);
-    PictureNote view = session.note();
-    play_steps(movie, info.steps(), view.state);
-    interaction::Recording recording = series_seen(header, view, session.times(), rate);
+    interaction::Recording recording;
+    if (movie.turn || !movie.keys.empty()) {
+        const auto keys = movie.turn ? turn(session, info, movie) : keys_of(movie.keys);
+        expect_fit(keys, movie.keys, session, info.steps());
+        recording = film_of_keys(session, header, keys, rate);
+    } else {
+        PictureNote view = session.note();
+        play_steps(movie, info.steps(), view.state);
+        recording = series_seen(header, view, session.times(), rate);
+    }
     session.set_state(start_of(recording.header, session.state(), info.steps(), {}));
     return recording;
 }

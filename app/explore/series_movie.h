@@ -15,16 +15,20 @@ struct SeriesMovie {
     std::optional<double> isovalue;     ///< none: as at the first look
     std::string steps;                  ///< FIRST:LAST[:STRIDE]; empty: all
     std::optional<std::string> between; ///< a name of BetweenSteps; none: as configured or advised
+    std::string keys{};                 ///< file of keys, or session that has them; empty: none
+    bool turn = false;                  ///< one turn about the data's up axis, while the steps pass
+    double seconds = 10;                ///< length of the turn
 };
 
 /// The header that a recording of a first look at this index would have, without its state.
 /// `options.recording` names the index.
 interaction::RecordingHeader header_of_series(const ReplaySource& options);
 
-/// The recording: the steps pass as fast as playback shows the whole series at first. Sets the
-/// session's state to its start.
+/// The recording: the steps pass as fast as playback shows the whole series at first, or as the keys
+/// or the turn have it. Sets the session's state to its start.
 /// @param rate frames per second: each step is shown for at least one
 /// @param file the index @throws UsageError when the series does not have such steps
+/// @throws interaction::Error naming the file of keys and the key that does not fit the data
 interaction::Recording steps_seen(Session& session, const Config& config,
                                   const index::IndexFile& file,
                                   const interaction::RecordingHeader& header,

@@ -117,6 +117,25 @@ bool holds(const Field&, const T& record) {
     return all;
 }
 
+bool holds(const Field& field, const std::vector<interaction::KeyFrame>& keys) {
+    double rests = -interaction::kShortestMove; // until then the film rests at the key before
+    return keys.size() <= field.most &&
+           std::ranges::all_of(keys, [&](const interaction::KeyFrame& key) {
+               const bool later = key.time >= rests + interaction::kShortestMove;
+               rests = key.time + key.hold;
+               bool all = later && rests <= interaction::kLongestFilm &&
+                          (!key.step || holds(field, *key.step));
+               const auto check = [&]<class T>(const Field& inner, const T& member) {
+                   if constexpr (requires { member.has_value(); })
+                       all = all && (!member || holds(inner, *member));
+                   else
+                       all = all && holds(inner, member);
+               };
+               interaction::each_field(check, key);
+               return all;
+           });
+}
+
 // @return false when the value is refused and `kept` unchanged
 
 template <class T>
@@ -150,7 +169,8 @@ void apply_to(ExplorerState& state, const interaction::Commands& commands, std::
             if (member == &state.picked)
                 field.high = static_cast<double>(state.isosurfaces.size()) - 1;
             else if (member == &state.instant || member == &state.mark ||
-                     member == &state.play_range || member == &state.bookmarks)
+                     member == &state.play_range || member == &state.bookmarks ||
+                     member == &state.keys)
                 field.high = static_cast<double>(state.known_steps(held)) - 1;
             else if (member == &state.steps)
                 field.high = static_cast<double>(held);
@@ -203,6 +223,8 @@ bool ExplorerState::resume(const interaction::Commands& kept, std::size_t held) 
     const bool whole = kept.room_from_physical.has_value(); // else a user wrote it
     if (whole && !kept.look)
         look = {.occlusion = 0.0f};
+    if (whole && !kept.keys)
+        keys.clear();
     return apply(kept, held);
 }
 

@@ -81,7 +81,7 @@ std::string surface_words(const ExplorerState& before, const ExplorerState& afte
 
 /// What people call a setting, where that is not its key.
 std::string words_of_setting(std::string_view key) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kWords{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kWords{
         {{"picked", "surface that is chosen"},
          {"coloring", "colors"},
          {"look", "look"},
@@ -91,6 +91,7 @@ std::string words_of_setting(std::string_view key) {
          {"follow", "following the last step"},
          {"playback", "playing"},
          {"play_range", "range that plays"},
+         {"keys", "key frames"},
          {"room_from_physical", "view"},
          {"eye_separation", "eyes"},
          {"views", "viewpoints"},

@@ -23,7 +23,7 @@ using nlohmann::json;
 
 constexpr const char* kFormat = "isochron session";
 constexpr std::uint64_t kVersion = 1;
-constexpr std::uint64_t kLargest = 1 << 20; ///< largest file [byte]
+constexpr std::uint64_t kLargest = 1 << 22; ///< largest file [byte]
 
 json place_json(const interaction::StandingPlace& head) {
     return {{"position", {head.position.x, head.position.y, head.position.z}},
@@ -102,7 +102,7 @@ bool is_lasting(const SavedSession& session) {
     const interaction::Commands& state = session.state;
     return !session.name.empty() || (state.mark && state.mark->point) ||
            (state.ruler && !state.ruler->places.empty()) ||
-           (state.bookmarks && !state.bookmarks->empty());
+           (state.bookmarks && !state.bookmarks->empty()) || (state.keys && !state.keys->empty());
 }
 
 void save_session(const std::filesystem::path& path, const SavedSession& session) {
@@ -129,6 +129,12 @@ void save_session(const std::filesystem::path& path, const SavedSession& session
     index::NewFile file(path);
     file.write_at(0, std::as_bytes(std::span(text)));
     file.commit();
+}
+
+bool is_session_text(const std::string& text) {
+    const json value = json::parse(text, nullptr, false);
+    const auto format = value.is_object() ? value.find("format") : value.end();
+    return value.is_object() && format != value.end() && *format == kFormat;
 }
 
 SavedSession read_session(const std::filesystem::path& path) {

@@ -36,12 +36,15 @@ struct SavedSession {
 };
 
 /// Whether a session is kept for ever: it has a name, or somebody has put marks into it (the mark, the
-/// ruler or bookmarks).
+/// ruler, bookmarks or key frames).
 bool is_lasting(const SavedSession& session);
 
 /// Writes readable JSON. The file appears under its name when complete, or not at all.
 /// @throws index::Error when it cannot be written
 void save_session(const std::filesystem::path& path, const SavedSession& session);
+
+/// Whether a text begins as a session's file may: its format is one.
+bool is_session_text(const std::string& text);
 
 /// @throws index::Error when the file cannot be read
 /// @throws interaction::Error naming the file: not a session, a newer version, ...

@@ -55,18 +55,6 @@ std::optional<float> progress_in(std::string_view line) {
     return static_cast<float>(percent) / 100.0f;
 }
 
-/// Where devices were, with nothing pressed.
-interaction::InputState at_rest(interaction::InputState input) {
-    std::erase_if(input.devices,
-                  [](const interaction::DeviceState& each) { return each.name == "pointer"; });
-    for (interaction::DeviceState& device : input.devices) {
-        device.buttons = 0;
-        device.actions.reset();
-        std::ranges::fill(device.valuators, 0.0f);
-    }
-    return input;
-}
-
 } // namespace
 
 fs::path free_recording_name(const fs::path& folder) {
@@ -186,6 +174,7 @@ void MovieMaker::start() {
     }
     process_ = process;
     words_ = ends[0];
+    began_ = std::chrono::steady_clock::now();
     fcntl(words_, F_SETFL, O_NONBLOCK);
 }
 
@@ -241,6 +230,14 @@ std::optional<float> MovieMaker::progress() const {
     return busy() ? std::optional(progress_) : std::nullopt;
 }
 
+std::string MovieMaker::words() const {
+    if (process_ <= 0 || progress_ <= 0)
+        return process_ > 0 ? last_ : "";
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
+    return fmt::format("{}\n{} left", last_,
+                       human_time(passed * (1 / static_cast<double>(progress_) - 1)));
+}
+
 std::vector<std::string> MovieMaker::messages() {
     return std::exchange(messages_, {});
 }
@@ -252,13 +249,8 @@ interaction::RecordingHeader sized(interaction::RecordingHeader header,
     return header;
 }
 
-/// Frames of a movie of blended steps: more than ten hours of them.
-constexpr double kMostMoments = 1 << 20;
-
-interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
-                                   const interaction::StepTimes& all, double rate) {
-    const std::span<const double> times = all.at;
-    interaction::Recording recording;
+interaction::RecordingHeader header_of_view(interaction::RecordingHeader header,
+                                            const PictureNote& view) {
     header.data_hash = view.data_hash;
     header.reading = view.reading;
     header.start = view.state;
@@ -268,11 +260,34 @@ interaction::Recording series_seen(interaction::RecordingHeader header, const Pi
     header.start.leaving = false;
     header.start.exporting = interaction::ExportWork{};
     header.start.follow = false;
+    header.start.playback = interaction::PlaybackState{};
+    return header;
+}
+
+interaction::InputState devices_of_view(const PictureNote& view) {
+    interaction::InputState input = with_heads(view.input, view.latched);
+    std::erase_if(input.devices,
+                  [](const interaction::DeviceState& each) { return each.name == "pointer"; });
+    for (interaction::DeviceState& device : input.devices) {
+        device.buttons = 0;
+        device.actions.reset();
+        std::ranges::fill(device.valuators, 0.0f);
+    }
+    return input;
+}
+
+/// Frames of a movie of blended steps: more than ten hours of them.
+constexpr double kMostMoments = 1 << 20;
+
+interaction::Recording series_seen(interaction::RecordingHeader header, const PictureNote& view,
+                                   const interaction::StepTimes& all, double rate) {
+    const std::span<const double> times = all.at;
+    interaction::Recording recording;
+    header = header_of_view(std::move(header), view);
     header.start.instant.emplace();
     const interaction::PlaybackState played =
         view.state.playback.value_or(interaction::PlaybackState{});
-    header.start.playback = interaction::PlaybackState{};
-    const interaction::InputState seen = at_rest(with_heads(view.input, view.latched));
+    const interaction::InputState seen = devices_of_view(view);
     // A frame's length, and a little, so that no rounding leaves a step out.
     const double least = (1 + 1e-6) / rate;
     const interaction::StepTrack track(

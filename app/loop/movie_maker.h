@@ -7,6 +7,7 @@
 #include "interaction/recording/recording.h"
 #include "interaction/step_gaps.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -58,6 +59,8 @@ class MovieMaker {
     bool busy() const { return written_.valid() || process_ > 0; }
     /// How much of the movie is finished, 0 to 1.
     std::optional<float> progress() const;
+    /// Name, length and size of the movie that is being made, and how much time is left.
+    std::string words() const;
     /// One line for each movie that ended since the last call: its name, or the error.
     std::vector<std::string> messages();
 
@@ -77,6 +80,7 @@ class MovieMaker {
     std::string last_;  ///< the newest line that does not report progress
     std::string error_; ///< the newest one that begins with the program's name
     float progress_ = 0;
+    std::chrono::steady_clock::time_point began_; ///< its process
     std::vector<std::string> messages_;
 };
 
@@ -86,6 +90,13 @@ std::filesystem::path free_recording_name(const std::filesystem::path& folder);
 /// The header with the size that the user has chosen for movies, if they have.
 interaction::RecordingHeader sized(interaction::RecordingHeader header,
                                    const interaction::WrittenPictures& pictures);
+
+/// The header of a recording that nobody steers: what is seen, in the best quality, with nothing
+/// over it. @param view what is seen, see `Session::note`
+interaction::RecordingHeader header_of_view(interaction::RecordingHeader header,
+                                            const PictureNote& view);
+/// The devices of a view where they were, with nothing pressed.
+interaction::InputState devices_of_view(const PictureNote& view);
 
 /// A recording in which all steps pass once, as fast as playback would show them, seen from one
 /// place in the best quality.

@@ -1,10 +1,12 @@
 // The movies and recordings that the panel asks for, and the folder of pictures that it chooses.
 #include "app/loop/panel_movies.h"
 
+#include "app/loop/key_film.h"
 #include "app/text.h"
 #include "index/error.h"
 #include "index/system/new_file.h"
 #include "interaction/error.h"
+#include "interaction/navigation/key_frames.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +25,7 @@ void PanelMovies::begin_or_end_recording(Session& session) {
     } else {
         try {
             interaction::RecordingHeader header = movies_.orders().header;
-            header.start = session.state().as_commands();
+            header.start = interaction::kept_state(session.state().as_commands());
             const auto path = free_recording_name(chosen_folder(session));
             recording_->begin(path, header);
             session.show_messages({"recording to " + whole_path(path)});
@@ -70,8 +72,14 @@ void PanelMovies::after_frame(Session& session, const LiveFrame&) {
                                            session.times(), how.rate)](
                          const auto& path) { write_recording(path, series); },
                      recording_->work(), manner);
+    else if (wish == MovieWish::keys && !session.state().keys.empty())
+        movies_.make(
+            [film = film_of_keys(session, sized(movies_.orders().header, how), session.state().keys,
+                                 how.rate)](const auto& path) { write_recording(path, film); },
+            recording_->work(), manner);
     movies_.update();
-    session.set_movies({true, recording_->is_open(), movies_.progress()});
+    session.set_movies({true, recording_->is_open(), movies_.progress(),
+                        movies_.busy() ? movies_.words() : whole_path(chosen_folder(session))});
 }
 
 std::string PanelMovies::why_stay() const {

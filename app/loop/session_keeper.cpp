@@ -4,6 +4,7 @@
 #include "app/kept/earlier_sessions.h"
 #include "app/kept/session_picture.h"
 #include "app/text.h"
+#include "interaction/navigation/key_frames.h"
 #include "render/gl/gl.h"
 
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ std::vector<std::string> SessionKeeper::finish(const Session& session) {
 
 bool SessionKeeper::keep(const ExplorerState& state, const interaction::StandingPlace& head,
                          const Arrays& arrays) {
-    interaction::Commands commands = state.as_commands();
+    interaction::Commands commands = interaction::kept_state(state.as_commands());
     if (commands == kept_.state && head == kept_.head && arrays == kept_.arrays)
         return false;
     kept_.state = std::move(commands);

@@ -35,6 +35,7 @@ enum class PanelPlace : std::uint8_t {
 enum class MovieWish : std::uint8_t {
     recording, ///< a movie of this session's recording, so far
     series,    ///< a movie of all steps, as they are seen now
+    keys,      ///< a film of the key frames
     give_up,   ///< to cancel the movie that is being made
     record     ///< to begin a recording, or to end the recording that goes on
 };
@@ -43,6 +44,7 @@ struct MovieState {
     bool offered = false;            ///< this session can have movies made
     bool recorded = false;           ///< it is being recorded
     std::optional<float> progress{}; ///< how much of the movie is made, 0 to 1
+    std::string words{}; ///< its name, folder, length, size and time left; else the folder
 };
 
 /// An array as it is listed.

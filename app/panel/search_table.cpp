@@ -267,6 +267,13 @@ constexpr OtherNames kOtherNames[] = {
     {"movie", "save animation, export movie, export animation, make a movie, video, mp4, avi, gif, "
               "render animation, animation, film, keyframe, camera path, turntable movie"},
     {"movie_of_recording", "movie of camera path, keyframe, video of session, screen capture"},
+    {"movie_of_keys", "keyframes, key frames, camera path, animation, render animation, flythrough, "
+                      "film, video of keys"},
+    {"add_key", "keyframe, key frame, set key, insert keyframe, camera path, waypoint, animation, "
+                "film, storyboard"},
+    {"remove_key", "delete keyframe, delete key frame, clear key"},
+    {"next_key", "next keyframe, camera path, preview keys"},
+    {"previous_key", "previous keyframe, camera path"},
     {"movie_rate",
      "fps of movie, movie frame rate, video frame rate, frames per second of a movie"},
     {"record", "recording, record a movie, screen recording, trace, macro, log, capture session, "
@@ -859,6 +866,8 @@ void add_pictures(Lines& lines) {
     }
     if (last_step(model) > 0)
         movie("movie", "make a movie of these steps with this view", MovieWish::series);
+    if (model.asked.keys.size() > 1)
+        movie("movie_of_keys", "make a movie of the key frames", MovieWish::keys);
     if (model.movies.recorded)
         movie("movie_of_recording", "make a movie of the recording so far", MovieWish::recording);
     lines

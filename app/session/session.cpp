@@ -5,6 +5,7 @@
 #include "app/frame/stop_watch.h"
 #include "app/session/start_state.h"
 #include "index/file/index_watch.h"
+#include "interaction/navigation/key_frames.h"
 #include "interaction/navigation/navigation.h"
 #include "interaction/tools/tool_table.h"
 
@@ -366,7 +367,7 @@ PictureNote Session::note() const {
              ++i)
             state.isosurfaces[i].isovalue = shown->query.isovalues[i];
     }
-    note.state = state.as_commands();
+    note.state = interaction::kept_state(state.as_commands());
     return note;
 }
 

@@ -244,6 +244,15 @@ std::vector<KeyLine> all_lines() {
     line("B N", "save this viewpoint, go to the next saved one");
     add(save_view, "save_view", 38, {'B'}, kQuiet, "save this viewpoint", save_this_view);
     add(next_view, "next_view", 39, {'N'}, 0, "go to the next saved viewpoint");
+    line("Ctrl + M, Ctrl + Shift + M", "make what is seen a key of the film, remove this key");
+    add(add_key, "add_key", kNoOldBit, {{'M', kCtrl}}, kQuiet,
+        "key frame: add what is seen to the film's keys");
+    add(remove_key, "remove_key", kNoOldBit, {{'M', kCtrlShift}}, kQuiet,
+        "key frame: remove the film's key that is seen, or the last one");
+    line("Ctrl + J, Ctrl + Shift + J", "next, previous key of the film");
+    add(next_key, "next_key", kNoOldBit, {{'J', kCtrl}}, 0, "key frame: go to the next one");
+    add(previous_key, "previous_key", kNoOldBit, {{'J', kCtrlShift}}, 0,
+        "key frame: go to the previous one");
     line("H", "floor grid on, off");
     add(grid, "grid", 40, {'H'}, 0, "", toggle<&Settings::grid, &Commands::grid>);
     line("1 2 3, Ctrl + 1", "quality: automatic, fast, best, as in the paper");

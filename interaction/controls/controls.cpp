@@ -2,6 +2,7 @@
 #include "interaction/controls/controls.h"
 
 #include "interaction/controls/action_table.h"
+#include "interaction/controls/key_frame_controls.h"
 #include "interaction/controls/key_repeat.h"
 #include "interaction/controls/key_words.h"
 #include "interaction/controls/room_panel.h"
@@ -80,6 +81,9 @@ struct Controls::State {
         // The panel at arm's length can only be read in perspective projection.
         if (commands.room_panel && commands.room_panel->shown && context.settings.orthographic)
             commands.orthographic = false;
+        for (const Action action : kKeyFrameActions)
+            if (now.pressed(action))
+                press_key_frames(action, context.settings, now.viewer(), commands, notes);
         if (now.pressed(Action::stamp))
             commands.stamps.push_back(fmt::format("stamp-{}", ++stamps));
         if (now.pressed(WandButton::next_tool)) {

@@ -96,6 +96,10 @@ enum class Action : std::uint8_t {
     between_steps,
     export_surfaces,
     lift_background,
+    add_key,
+    next_key,
+    previous_key,
+    remove_key,
     count
 };
 /// Each tool can be chosen, too: those actions follow the others.

@@ -32,6 +32,8 @@ template <class T>
 json to_json(const std::vector<T>& list);
 template <class T>
 void from_json(const json& value, const Field& field, std::vector<T>& into);
+json to_json(const Mark& mark);
+void from_json(const json& value, const Field& field, Mark& into);
 
 // Numbers, words and texts.
 

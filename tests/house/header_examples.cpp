@@ -45,6 +45,8 @@
 #include "interaction/controls/motion_gate.h"
 #include "interaction/controls/panel_pointer.h"
 #include "interaction/enum_names.h"
+#include "interaction/recording/key_film.h"
+#include "interaction/recording/recording.h"
 #include "interaction/tools/tool.h"
 #include "interaction/trackers/pose_filter.h"
 #include "render/cells/cell_buffers.h"
@@ -192,6 +194,11 @@ namespace {
 void panel_pointer_example(PanelPointer& pointer, const InputState& input,
                            const TouchedPanel& panel) {
 #include "interaction/controls/panel_pointer.example"
+}
+
+void key_film_example(const std::string& text, const Settings& settings, const InputState& devices,
+                      const StepTimes& times, Recording& recording) {
+#include "interaction/recording/key_film.example"
 }
 
 void tool_example(Tool& tool, std::span<const ToolHand> hands, const ToolContext& now,

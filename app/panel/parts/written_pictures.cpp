@@ -5,13 +5,19 @@
 #include "app/panel/panel_words.h"
 #include "app/panel/parts/rows.h"
 #include "app/panel/parts/theme.h"
+#include "interaction/controls/key_frame_controls.h"
+#include "interaction/navigation/key_frames.h"
 #include "interaction/step_track.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -108,6 +114,38 @@ void picture_rows(const PanelModel& model, interaction::Commands& commands) {
     keep(model, pictures, commands);
 }
 
+/// The film's key frames. @return whether the user wants a movie of them
+bool key_row(const PanelModel& model, interaction::Commands& commands) {
+    using interaction::Action;
+    const auto& keys = model.asked.keys;
+    const double seconds = interaction::seconds_of(keys);
+    text_row("keys", keys.size() < 2
+                         ? fmt::format("{}", keys.size())
+                         : fmt::format("{} in {:.4g} s, {:.0f} pictures", keys.size(), seconds,
+                                       std::ceil(seconds * model.asked.pictures.rate) + 1));
+    tip("views, moments and settings through which a film goes");
+    constexpr std::array<std::tuple<const char*, Action, const char*>, 4> kButtons{
+        {{"add", Action::add_key, "make what is seen the film's next key (Ctrl + M)"},
+         {"remove", Action::remove_key, "remove the key that is seen, or the last one"},
+         {"previous", Action::previous_key, "go to the key before (Ctrl + Shift + J)"},
+         {"next", Action::next_key, "go to the next key (Ctrl + J)"}}};
+    std::vector<std::string> notes;
+    for (const auto& [label, action, effect] : kButtons) {
+        ImGui::BeginDisabled(action != Action::add_key && keys.empty());
+        if (ImGui::Button(fmt::format("{}##key", label).c_str()))
+            press_key_frames(action, model.asked, model.head, commands, notes);
+        ImGui::EndDisabled();
+        tip(effect);
+        if (action != Action::next_key)
+            ImGui::SameLine();
+    }
+    ImGui::BeginDisabled(keys.size() < 2);
+    const bool wanted = ImGui::Button("film of these keys");
+    ImGui::EndDisabled();
+    tip(keys.size() < 2 ? "a film needs two keys" : "a movie that goes through all keys");
+    return wanted;
+}
+
 std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Commands& commands) {
     std::optional<MovieWish> wish;
     if (model.movies.progress) {
@@ -116,6 +154,7 @@ std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Comman
         if (ImGui::Button("Cancel"))
             wish = MovieWish::give_up;
         tip("stop and delete the movie");
+        ImGui::TextUnformatted(model.movies.words.c_str());
         return wish;
     }
     WrittenPictures pictures = model.asked.pictures;
@@ -124,6 +163,13 @@ std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Comman
     text_row("steps",
              fmt::format("{} to {}", first_of(range, steps) + 1, last_of(range, steps) + 1));
     tip("the range that plays: drag its ends in the time bar");
+    const interaction::PlaybackState& played = model.asked.playback;
+    const std::span<const double> times = std::span(model.info.times).first(steps);
+    const interaction::StepTrack track(times, range, played);
+    const double seconds = std::max(track.duration() / interaction::track_rate(played, times),
+                                    track.places() / pictures.rate);
+    text_row("length", fmt::format("{:.4g} s, {:.0f} pictures", seconds, seconds * pictures.rate));
+    tip("at the playback speed, or longer where each step needs a picture");
     row("rate");
     ImGui::SetNextItemWidth(kField);
     number_field("##rate", pictures.rate,
@@ -131,7 +177,10 @@ std::optional<MovieWish> movie_rows(const PanelModel& model, interaction::Comman
                  "%.4g pictures a second");
     size_rows(pictures);
     folder_row(pictures);
+    text_row("", model.movies.words);
     keep(model, pictures, commands);
+    if (key_row(model, commands))
+        wish = MovieWish::keys;
     ImGui::BeginDisabled(steps < 2);
     if (ImGui::Button("these steps, this view"))
         wish = MovieWish::series;

@@ -203,6 +203,17 @@ std::vector<std::string> commands_in(const std::filesystem::path& page) {
     return found;
 }
 
+/// A page's block of JSON.
+std::string block_in(const std::filesystem::path& page) {
+    std::ifstream lines(page);
+    std::string block, line;
+    while (std::getline(lines, line) && line != "```json") {
+    }
+    while (std::getline(lines, line) && line != "```")
+        block += line + '\n';
+    return block;
+}
+
 TEST_F(HelpExamples, OfThePageAboutSteeringWorkInASession) {
     test_support::VirtualDisplay screen;
     environment_.push_back(std::string("DISPLAY=") + std::getenv("DISPLAY"));
@@ -295,6 +306,7 @@ TEST_P(GuideCommands, WorkAsTheyAreWritten) {
     const std::vector<std::string> commands =
         commands_in(test_support::source_root() + "/" + page + ".md");
     EXPECT_FALSE(commands.empty());
+    folder_.write("keys.json", block_in(test_support::source_root() + "/docs/guide/recordings.md"));
     for (std::string command : commands) {
         shorten(command);
         const ChildResult result = shell(command);

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <set>
 
 namespace isochron::app {
@@ -160,7 +161,8 @@ TEST_F(MovieTest, ARecordingOfASecondHasTheFramesOfASecond) {
     }
     // A folder holds the same frames; each can be made again.
     EXPECT_EQ(
-        program({"movie", recording, "-o", "frames_0.5/", "--rate", "20", "--eyes", "each"}).status, 0);
+        program({"movie", recording, "-o", "frames_0.5/", "--rate", "20", "--eyes", "each"}).status,
+        0);
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "frames_0.5_center/frame_00020.png"));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "frames_0.5_center/frame_00021.png"));
     EXPECT_EQ(program({"reproduce", "frames_0.5_center/frame_00020.png"}).status, 0);
@@ -222,6 +224,81 @@ TEST_F(MovieTest, OfAnIndexHasEveryStepOnceAsTheExplorerShowsItFirst) {
         EXPECT_THAT(refused.err, testing::HasSubstr(words));
         EXPECT_FALSE(std::filesystem::exists(folder_.path() / "no"));
     }
+}
+
+TEST_F(MovieTest, OfKeysGoesThroughThemAndIsTheSameTwiceAndAsARecording) {
+    build_sphere(folder_.path());
+    const auto program = [&](const std::vector<std::string>& arguments) {
+        return run_child(test_support::binary_root() + "/isochron", arguments, folder_.path());
+    };
+    const auto movie = [&](const std::string& out, const std::vector<std::string>& more) {
+        std::vector<std::string> all{"movie", "sphere.isochron", "-o", out, "--size", "64",
+                                     "48",    "--rate",          "4"};
+        all.insert(all.end(), more.begin(), more.end());
+        return program(all);
+    };
+    folder_.write("keys.json", R"({"format": "isochron keys", "version": 1, "keys": [
+        {"time": 0, "step": 0, "isovalue": 8},
+        {"time": 1, "hold": 0.5, "step": 3, "isovalue": 12},
+        {"time": 2.5, "step": 5}]})");
+    const ChildResult said = movie("a/", {"--keys", "keys.json"});
+    ASSERT_EQ(said.status, 0) << said.err;
+    EXPECT_THAT(said.out + said.err,
+                testing::HasSubstr("/a/: 2.5 s, 11 frames at 4 per second, 64 x 48 pixels"));
+    ASSERT_EQ(movie("b/", {"--keys", "keys.json"}).status, 0);
+    ASSERT_EQ(movie("film.jsonl", {"--keys", "keys.json"}).status, 0);
+    ASSERT_EQ(
+        program({"movie", "film.jsonl", "-o", "c/", "--rate", "4", "--size", "64", "48"}).status,
+        0);
+    std::set<std::string> pictures;
+    const auto frame = [&](const char* name, int number) {
+        return fmt::format("{}/frame_{:05}.png", name, number);
+    };
+    for (int i = 0; i < 11; ++i) {
+        const std::string bytes = folder_.read(frame("a", i));
+        EXPECT_EQ(folder_.read(frame("b", i)), bytes) << i;
+        const PictureNote note = note_from(note_text_in(folder_.path() / frame("a", i)));
+        const double time = std::min(i / 4.0, 1.0); // eased, then it rests
+        EXPECT_NEAR(note.state.isosurfaces->front().isovalue, 8 + 4 * time * time * (3 - 2 * time),
+                    1e-9);
+        if (i >= 4 && i <= 6) {
+            EXPECT_EQ(note.state.instant, index::Instant(3)) << i;
+        }
+        const PictureNote again = note_from(note_text_in(folder_.path() / frame("c", i)));
+        EXPECT_EQ(again.state, note.state) << i;
+        EXPECT_EQ(program({"reproduce", frame("c", i)}).status, 0);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / frame("a", 11)));
+    // A turn ends as it began, and the steps pass meanwhile.
+    ASSERT_EQ(movie("turn.jsonl", {"--turn", "--length", "2"}).status, 0);
+    std::ifstream file(folder_.path() / "turn.jsonl");
+    const interaction::Recording turn = interaction::read_recording(file, "turn.jsonl");
+    ASSERT_EQ(turn.frames.size(), 9u);
+    EXPECT_EQ(turn.frames.back().commands.room_from_physical, turn.header.start.room_from_physical);
+    EXPECT_EQ(turn.frames.back().commands.instant, index::Instant(5));
+
+    folder_.write("late.json", R"({"format": "isochron keys", "version": 1, "keys": [
+        {"time": 0}, {"time": 1, "step": 6}]})");
+    folder_.write("other.json", R"({"format": "isochron keys", "version": 1, "keys": [
+        {"time": 0, "array": "none"}]})");
+    using Row = std::pair<std::vector<std::string>, std::string>;
+    for (const auto& [wrong, words] :
+         std::vector<Row>{{{"--keys", "late.json"},
+                           "late.json: key 2 does not fit the data: step is 6, "
+                           "expected at most 5"},
+                          {{"--keys", "other.json"}, "other.json: key 1 does not fit the data: "},
+                          {{"--keys", "none.json"}, "none.json: "},
+                          {{"--keys", "keys.json", "--turn"}, "--keys: "},
+                          {{"--turn", "--steps", "0:9"}, "--steps 0:9: "}}) {
+        const ChildResult refused = movie("no/", wrong);
+        EXPECT_NE(refused.status, 0);
+        EXPECT_THAT(refused.err, testing::HasSubstr(words));
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+        EXPECT_FALSE(std::filesystem::exists(folder_.path() / "no"));
+    }
+    EXPECT_NE(program({"movie", "film.jsonl", "--turn", "-o", "no/"}).status, 0);
+    EXPECT_NE(program({"movie", "film.jsonl", "-o", "no.jsonl"}).status, 0);
+    EXPECT_NE(movie("keys.json", {"--keys", "keys.json"}).status, 0);
 }
 
 /// A blob that moves so slowly that blends stand for what lies between its steps, or so fast that

@@ -176,6 +176,38 @@ TEST_F(ClusterJobTest, PicturesEqualThoseOfASingleProcess) {
     EXPECT_THAT(folder_.read("timing_rank4.json"), HasSubstr("\"barrier\""));
 }
 
+TEST_F(ClusterJobTest, AFilmOfKeysHasTheSameBytesTwiceAndOnFiveProcesses) {
+    build_sphere(folder_.path());
+    folder_.write("cave.toml", small_cave());
+    folder_.write("keys.json", R"({"format": "isochron keys", "version": 1, "keys": [
+        {"time": 0, "step": 0, "isovalue": 8,
+         "head": [0, 1.6, 0, 0, 0, 0, 1],
+         "room_from_physical": {"translation": [-0.5, 0.8, -1.5], "rotation": [0, 0, 0, 1],
+                                "scale": 0.05}},
+        {"time": 1, "hold": 0.5, "step": 3, "isovalue": 12,
+         "room_from_physical": {"translation": [-0.2, 1, -1], "rotation": [0, 0.6, 0, 0.8],
+                                "scale": 0.03}},
+        {"time": 3, "step": 5, "head": [0.3, 1.5, 0, 0, 0, 0, 1],
+         "room_from_physical": {"translation": [-1, 0.5, -1.5], "rotation": [0, 0, 0, 1],
+                                "scale": 0.1}}]})");
+    const std::string film = "$isochron movie sphere.isochron --config cave.toml --keys keys.json "
+                             "--rate 2 -o ";
+    for (const char* name : {"a.jsonl", "b.jsonl"}) {
+        const ChildResult made = alone(film + name);
+        ASSERT_EQ(made.status, 0) << made.err;
+    }
+    EXPECT_EQ(folder_.read("a.jsonl"), folder_.read("b.jsonl"));
+    const std::string replay = " --every 1 --eyes each --out ";
+    ASSERT_EQ(alone("$isochron replay a.jsonl" + replay + "alone").status, 0);
+    ASSERT_EQ(alone("$isochron replay b.jsonl" + replay + "again").status, 0);
+    const auto expected = files_in("alone");
+    EXPECT_EQ(expected.size(), 7u * 4 * 2);
+    EXPECT_EQ(files_in("again"), expected);
+    const ChildResult result = job(5, "$isochron replay a.jsonl" + replay + "job");
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(files_in("job"), expected);
+}
+
 TEST_F(ClusterJobTest, ChangesOfArraysGiveThePicturesOfASingleProcess) {
     record_changing_arrays(small_cave());
     const std::string replay = "$isochron replay arrays.jsonl --stamps --eyes each --out ";

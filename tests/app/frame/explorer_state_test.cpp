@@ -1,6 +1,7 @@
 // Surfaces and coloring: what commands set, what is refused, and old recordings.
 #include "app/frame/explorer_state.h"
 
+#include "interaction/navigation/key_frames.h"
 #include "interaction/recording/commands_json.h"
 #include "interaction/recording/recording.h"
 
@@ -77,6 +78,19 @@ TEST(ExplorerState, RefusesTimesThatTheSeriesLacks) {
     EXPECT_FALSE(refused([](Commands& commands) {
         commands.bookmarks = {{"last", index::Instant(4)}};
     }));
+    using interaction::KeyFrame;
+    const std::vector<std::pair<std::vector<KeyFrame>, bool>> kKeys{
+        {{{.time = 0}, {.time = 1, .step = 4}}, false},
+        {{{.time = 0}, {.time = 1, .step = 5}}, true},
+        {{{.time = 0, .hold = 1}, {.time = 1}}, true},
+        {{{.time = 1}, {.time = 0}}, true},
+        {{{.time = interaction::kLongestFilm, .hold = 1}}, true},
+        {{{.time = -1}}, true},
+        {{{.time = 0, .isosurfaces = std::vector<interaction::Isosurface>()}}, true},
+        {{{.time = 0, .clip = interaction::ClipPlane{true, {}, {0, 0, 2}}}}, true},
+        {std::vector<KeyFrame>(interaction::kMostKeyFrames + 1), true}};
+    for (const auto& [keys, wrong] : kKeys)
+        EXPECT_EQ(refused([&](Commands& commands) { commands.keys = keys; }), wrong);
     for (const auto& playback :
          {interaction::PlaybackState{.every = 0}, interaction::PlaybackState{.every = 1001},
           interaction::PlaybackState{.rate = 0}})
@@ -127,6 +141,17 @@ TEST(ExplorerState, SetsAllOfItselfThroughJson) {
     ExplorerState again;
     EXPECT_TRUE(again.apply(interaction::commands_from(json, "start"), 1));
     EXPECT_EQ(again, state);
+}
+
+TEST(ExplorerState, IsKeptWithoutAnEmptyListOfKeysWhichEarlierVersionsDoNotKnow) {
+    ExplorerState state;
+    const Commands kept = interaction::kept_state(state.as_commands());
+    EXPECT_FALSE(interaction::commands_json(kept).contains("keys"));
+    state.keys.emplace_back();
+    EXPECT_TRUE(interaction::commands_json(interaction::kept_state(state.as_commands()))
+                    .contains("keys"));
+    EXPECT_TRUE(state.resume(kept, 1)); // a whole state without keys has none
+    EXPECT_TRUE(state.keys.empty());
 }
 
 TEST(ExplorerState, TakesAnOldStartStateWithOneIsovalueOnly) {

@@ -4,6 +4,8 @@
 #include "interaction/navigation/navigation.h"
 
 #include "interaction/command_fields.h"
+#include "interaction/navigation/key_frames.h"
+#include "interaction/navigation/key_frames.h"
 #include "tests/interaction/recording/random_commands.h"
 #include "tests/support/test_seed.h"
 
@@ -65,6 +67,25 @@ Commands one_change(interaction::Random& random) {
         },
         all, one);
     return one;
+}
+
+TEST(History, KeyFramesAreUndoneAndRedone) {
+    Explorer explorer;
+    for (const int keys : {1, 2}) {
+        Commands added;
+        added.keys =
+            interaction::with_key(explorer.state.keys, interaction::key_of(explorer.state, {}));
+        explorer.obey(added, 10 * keys);
+    }
+    const auto both = explorer.state.keys;
+    ASSERT_EQ(both.size(), 2u);
+    EXPECT_TRUE(explorer.undo(30));
+    EXPECT_EQ(explorer.state.keys.size(), 1u);
+    EXPECT_TRUE(explorer.undo(40));
+    EXPECT_TRUE(explorer.state.keys.empty());
+    EXPECT_TRUE(explorer.redo(50));
+    EXPECT_TRUE(explorer.redo(60));
+    EXPECT_EQ(explorer.state.keys, both);
 }
 
 TEST(History, AnySingleChangeIsUndoneAndRedone) {

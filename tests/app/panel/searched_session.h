@@ -26,6 +26,8 @@ struct Searched {
         asked.ruler.places.emplace_back(0.0);
         asked.clip.shown = true;
         asked.look.light = {30.0, 40.0};
+        asked.keys.resize(2);
+        asked.keys.back().time = 2;
     }
     PanelModel model() {
         PanelModel all{

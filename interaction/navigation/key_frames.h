@@ -1,0 +1,48 @@
+// Key frames of a film: adding and removing them, and showing one in a session.
+#pragma once
+
+#include "interaction/commands.h"
+#include "interaction/pose.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace isochron::interaction {
+
+/// Seconds from a film's begin to its end.
+double seconds_of(std::span<const KeyFrame> keys);
+
+/// A key of what is seen, with all settings that keys hold.
+KeyFrame key_of(const Settings& settings, const Pose& head);
+
+inline constexpr double kKeySeconds = 2.0; ///< [s] from the rest at a new key's predecessor to it
+
+/// The keys with a further one at their end; the same ones if there is no room for more.
+std::vector<KeyFrame> with_key(std::vector<KeyFrame> keys, KeyFrame key);
+/// The keys without one of them; the first key that is left comes at once.
+std::vector<KeyFrame> without_key(std::vector<KeyFrame> keys, std::size_t number);
+
+/// Commands that show a key: only what differs from what is seen. The data stand to the viewer's
+/// place and heading as they stood to the key's; time that plays pauses.
+Commands way_to_key(const KeyFrame& key, const Settings& now, const Pose& viewer);
+/// Number of the first key that is seen.
+std::optional<std::size_t> seen_key(const Settings& now, const Pose& viewer);
+
+/// Keys of one turn about the data's up axis, physical z, at one speed, while the other settings
+/// stay and time goes from one instant to another.
+/// @param pivot center of the data, physical space
+std::vector<KeyFrame> turn_keys(const Settings& settings, const glm::dvec3& pivot, Instant first,
+                                Instant last, double seconds);
+
+/// Sets all that a key holds, except for the head.
+void show_key(const KeyFrame& key, Settings& settings);
+/// The isosurfaces that a key shows, if it says something of them. @param before what is shown before
+std::optional<std::vector<Isosurface>> surfaces_of(const KeyFrame& key, const Settings& before);
+/// A whole state as files keep it: without an empty list of keys, which earlier versions do not know.
+Commands kept_state(Commands state);
+/// Commands for the settings that differ.
+Commands changes(const Settings& from, const Settings& to);
+
+} // namespace isochron::interaction

@@ -7,6 +7,7 @@
 #include "app/indexing/kept_index.h"
 #include "app/kept/user_memory.h"
 #include "app/loop/data_window.h"
+#include "app/text.h"
 #include "index/file/index_series.h"
 #include "index/system/user_folders.h"
 
@@ -52,11 +53,10 @@ std::optional<std::size_t> number_of(const std::vector<ArrayOffer>& offers,
 std::vector<ListedArray> listed(const std::vector<ArrayOffer>& offers) {
     std::vector<ListedArray> lines;
     for (const ArrayOffer& offer : offers)
-        lines.push_back({offer.name, offer.shape, offer.unit,
-                         offer.range
-                             ? fmt::format("{:.4g} to {:.4g}", (*offer.range)[0], (*offer.range)[1])
-                             : std::string(),
-                         offer.fault});
+        lines.push_back(
+            {offer.name, offer.shape, offer.unit,
+             offer.range ? range_text((*offer.range)[0], (*offer.range)[1]) : std::string(),
+             offer.fault});
     return lines;
 }
 

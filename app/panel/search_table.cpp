@@ -478,7 +478,7 @@ void add_surfaces(Lines& lines) {
                    .words = "remove the surface",
                    .commands = without_surface(model, model.asked.picked)});
     lines.control("histogram", "histogram of the values",
-                  fmt::format("{:.4g} to {}", model.stats.low, with_unit(model.stats.high, unit)),
+                  range_text(model.stats.low, model.stats.high, unit),
                   kSurfaces);
 }
 
@@ -519,7 +519,7 @@ void add_coloring(Lines& lines) {
         });
     const std::array<double, 2>& range = model.colors.range;
     lines.control("color_range", "range of the colors",
-                  now.range ? fmt::format("{:.4g} to {:.4g}", (*now.range)[0], (*now.range)[1])
+                  now.range ? range_text((*now.range)[0], (*now.range)[1])
                   : now.percentiles ? "percentiles"
                                     : "of all values",
                   kColor);

@@ -163,9 +163,15 @@ render::Placement Scene::placement_of(const Picture& picture) const {
     return render::Placement::of(info_.grid, matrix(picture.room_from_physical));
 }
 
+void Scene::speak_of(const ShownValues& values) {
+    info_.array = values.array;
+    info_.value_unit = values.unit;
+    info_.type = values.type;
+}
+
 std::size_t Scene::draw(const Picture& picture, std::span<const render::View> views,
                         const ScenePart& part) {
-    info_.value_unit = picture.value_unit;
+    speak_of(picture.values);
     const render::Placement placement = placement_of(picture);
     const render::Footprint footprint = cells_.footprint_for(picture);
     const bool is_whole = part.begins && part.ends && part.cells == render::DrawPart{};
@@ -423,7 +429,7 @@ void Scene::draw_orientation(const render::View& view, const Picture& picture) {
 }
 
 void Scene::draw_aids(const Picture& picture, const Aids& aids, const render::View& view) {
-    info_.value_unit = picture.value_unit;
+    speak_of(picture.values);
     gl_.Enable(GL_SCISSOR_TEST);
     render::set_viewport(gl_, view);
     gl_.DepthMask(GL_TRUE);

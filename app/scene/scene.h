@@ -96,6 +96,8 @@ class Scene {
 
   private:
     render::CellAppearance appearance_of(const Picture& picture);
+    /// Words tell of this array from now on.
+    void speak_of(const ShownValues& values);
     render::Placement placement_of(const Picture& picture) const;
     void draw_among_cells(std::span<const render::View> views, const Picture& picture,
                           const render::Placement& placement);

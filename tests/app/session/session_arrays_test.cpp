@@ -92,6 +92,24 @@ TEST_P(SessionArrays, APictureIsThatOfAnIndexWithThatArrayAlone) {
     EXPECT_TRUE(same(picture(alone, colored, 2), colors_here));
 }
 
+TEST_P(SessionArrays, WordsInAPictureAreOfTheArrayThatIsShown) {
+    Commands mark, legend;
+    mark.mark.emplace();
+    mark.mark->point.emplace();
+    mark.mark->point->position = {12, 15, 15};
+    mark.mark->point->value = 12.25;
+    legend.isosurfaces = {{.isovalue = 60}, {.isovalue = 80}};
+    for (const auto& [words, commands] : {std::pair("mark", mark), std::pair("legend", legend)}) {
+        SCOPED_TRACE(words);
+        Session alone(without_titles(), near_, *context_), both(without_titles(), both_, *context_);
+        const render::Image before = picture(alone, {}, 0), expected = picture(alone, commands, 1);
+        EXPECT_FALSE(same(before, expected));
+        picture(both, {}, 0);
+        picture(both, both.way_to_array(1), 1);
+        EXPECT_TRUE(same(picture(both, commands, 2), expected));
+    }
+}
+
 TEST_P(SessionArrays, AResumedSessionKnowsHowEachWasLeft) {
     Session session(small_config(), both_, *context_);
     Commands moved;

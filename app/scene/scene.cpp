@@ -185,7 +185,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     render::CellAppearance appearance = appearance_of(picture);
     const bool moved =
         picture.moved && is_whole && !again && moving_.draw_moved(kept_, picture, views);
-    const bool depth = moved || writes_depth(footprint, appearance);
+    const bool layers = is_whole && moves_in_layers(picture, footprint);
+    const bool depth = moved || (writes_depth(footprint, appearance) && !layers);
     if (!depth && part.begins)
         draw_among_cells(views, picture, placement);
     if (!moved && render::CellPass::needs_corners(cells_.drawn(), footprint, appearance))
@@ -197,8 +198,8 @@ std::size_t Scene::draw(const Picture& picture, std::span<const render::View> vi
     const bool anew = !again && !moved;
     if (anew && is_whole && picture.resolution > 0 && footprint == render::Footprint::quad)
         moving_.draw_in_few_pixels(cells, picture, views);
-    else if (anew && is_whole && moves_in_layers(picture, footprint))
-        moving_.draw_in_layers(cells, picture, views);
+    else if (anew && layers)
+        moving_.draw_in_layers(cells, picture, footprint, views);
     else if (anew)
         done = cell_pass_.draw(views, placement, cells_.drawn(), footprint, appearance, part.cells);
     if (!part.ends)

@@ -326,16 +326,47 @@ void Scene::draw_among_cells(std::span<const render::View> views, const Picture&
     }
 }
 
+/// What legend, scale bar with axes, and caption cover.
+std::vector<Covered> Scene::words_in_corners(std::span<const render::View> views,
+                                             const Picture& picture) const {
+    const OverlayColors overlay = overlay_of(picture);
+    const float share = picture.layout.text;
+    std::array<Covered, 3> corners;
+    for (const render::View& view : views) {
+        std::array<std::vector<render::ScreenQuad>, 3> quads;
+        if (picture.legend)
+            quads[0] = legend_quads({picture.isosurfaces, info_.value_unit, picture.scale, overlay},
+                                    text_pass_, view.size, share);
+        if (picture.orientation)
+            quads[1] =
+                orientation_in(view, picture.room_from_physical, info_, text_pass_, overlay, share)
+                    .quads;
+        if (!picture.caption.empty())
+            quads[2] = caption_quads(picture.caption, text_pass_, view.size, overlay, share);
+        for (std::size_t i = 0; i < quads.size(); ++i) {
+            std::optional<TextRectangle>& covered = corners[i].emplace_back();
+            for (const render::ScreenQuad& quad : quads[i]) {
+                const glm::vec2 at(quad.at);
+                const TextRectangle before = covered.value_or(TextRectangle{at + quad.low, at});
+                covered = {glm::min(before.low, at + quad.low),
+                           glm::max(before.high, at + quad.high)};
+            }
+        }
+    }
+    return {corners.begin(), corners.end()};
+}
+
 /// The edges of the box that no cell hides. The numbers are on its outline, where no cell is in front
-/// of them or behind.
+/// of them or behind; titles that were moved into the picture may lie over cells, and are read there.
 void Scene::draw_before_cells(std::span<const render::View> views, const Picture& picture,
                               const render::Placement& placement) {
     if (!picture.bounding_box)
         return;
     Axes axes = axes_for(info_, placement, picture.audience.viewers.front().head, views);
     set_colors(axes, overlay_of(picture));
-    const std::vector<render::Label> labels = labels_with_room(
-        axes.labels, text_pass_.atlas(), placement.room_from_index, views, picture.layout.text);
+    const std::vector<render::Label> labels =
+        labels_with_room(axes.labels, text_pass_.atlas(), placement.room_from_index, views,
+                         picture.layout.text, words_in_corners(views, picture));
     for (const render::View& view : views) {
         render::BoxLines box = box_in(view, picture, placement);
         std::vector<render::Line> lines = std::move(box.outline);
@@ -345,7 +376,9 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         std::vector<render::ScreenQuad> quads;
         for (const render::Label& label : labels)
             text_pass_.set(label, text_height(view.size, picture.layout.text), quads);
-        text_pass_.draw(view, placement.room_from_index, quads, render::TextPass::Depth::tested,
+        text_pass_.draw(view, placement.room_from_index, quads,
+                        views.size() == 1 ? render::TextPass::Depth::none
+                                          : render::TextPass::Depth::tested,
                         views.size() == 1);
     }
 }

@@ -128,8 +128,8 @@ std::optional<std::string> wait_for_index(Indexing& indexing, const stereo::Wind
     const ArrayChoice choice{
         .first = [&] { return number_of(offers(), memory.array_of(data)).value_or(0); },
         .choose = [&](std::size_t chosen) { choose(offers(), chosen); }};
-    const Waited waited = wait_for_data(windows, fs::path(options.data_name).filename().string(),
-                                        progress, page_options(config), choice);
+    const Waited waited = wait_for_data(windows, said_name(options.data_name), progress,
+                                        page_options(config), choice);
     canceled = waited == Waited::canceled;
     if (waited != Waited::ready)
         return std::nullopt;

@@ -231,8 +231,8 @@ constexpr OtherNames kOtherNames[] = {
      "playback speed, play speed, animation speed, slower, faster, time scale, slow motion, "
      "tempo, pace, duration"},
     {"rate", "fps, frames per second, steps per second, frame rate of playing, animation rate"},
-    {"faster", "speed up, playback speed, double speed"},
-    {"slower", "slow down, slow motion, playback speed, half speed"},
+    {"faster", "faster, speed up, playback speed, double speed"},
+    {"slower", "slower, slow down, slow motion, playback speed, half speed"},
     {"speed_unit", "real time, sequence, snap to time steps, play mode, animation mode"},
     {"every", "stride, skip frames, every nth, time stride, subsample time, frame step"},
     {"between_steps",

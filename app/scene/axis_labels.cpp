@@ -80,12 +80,12 @@ class Room {
                                  std::span<const AxisLabels> axes) const {
         std::optional<render::Label> best;
         std::ptrdiff_t fewest = 0;
-        for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f}) {
+        constexpr std::ptrdiff_t kOtherWords = 100; // worse than all numbers
+        const auto consider = [&](float farther, float higher) {
             render::Label moved = title;
-            moved.offset *= farther;
+            moved.offset = farther * moved.offset + glm::vec2(0.0f, higher);
             moved = moved_inside(moved);
             const Covered here = covered(moved);
-            constexpr std::ptrdiff_t kOtherWords = 100; // worse than all numbers
             std::ptrdiff_t on =
                 kOtherWords * std::ranges::count_if(
                                   taken_, [&](const Covered& taken) { return touch(here, taken); });
@@ -97,7 +97,12 @@ class Room {
                 best = moved;
                 fewest = on;
             }
-            if (fewest == 0)
+        };
+        for (const float higher : {0.0f, 2.0f, -2.0f, 5.0f, -5.0f}) { // heights of the text
+            for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f})
+                if (!best || fewest > 0)
+                    consider(farther, higher);
+            if (fewest < kOtherWords)
                 break;
         }
         return *best;

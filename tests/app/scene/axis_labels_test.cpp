@@ -122,7 +122,7 @@ TEST_F(AxisLabelsTest, NeverCoverWordsInACorner) {
     const glm::vec2 picture(kPicture), words(0.2f * picture.x, 0.5f * picture.y);
     std::mt19937 random(test_seed());
     std::uniform_real_distribution<float> share(-1.0f, 1.0f);
-    std::size_t hidden = 0, titles = 0;
+    std::size_t hidden = 0, titles = 0, titles_without = 0;
     constexpr int kRounds = 100;
     for (int i = 0; i < kRounds; ++i) {
         const glm::vec3 direction(share(random), share(random), share(random));
@@ -143,17 +143,19 @@ TEST_F(AxisLabelsTest, NeverCoverWordsInACorner) {
                     }
                 return count;
             };
-            hidden += over(shown(from));
+            const auto without = shown(from);
+            hidden += over(without);
             const auto labels = shown(from, {Covered(2, TextRectangle{low, low + words})});
             ASSERT_EQ(over(labels), 0u) << "round " << i;
-            for (const AxisLabels& axis : axes_.labels)
-                titles += std::ranges::any_of(labels, [&](const render::Label& label) {
-                    return label.text == axis.title.text;
-                });
+            for (const AxisLabels& axis : axes_.labels) {
+                titles += std::ranges::count(labels, axis.title.text, &render::Label::text);
+                titles_without +=
+                    std::ranges::count(without, axis.title.text, &render::Label::text);
+            }
         }
     }
     EXPECT_GT(hidden, 100u) << "there is something to see to";
-    EXPECT_GT(titles, 4u * kRounds * 3 * 9 / 10) << "nearly all titles have room";
+    EXPECT_GT(titles, titles_without * 17 / 20) << "most titles have room, of " << titles_without;
 }
 
 TEST_F(AxisLabelsTest, HaveTheirTitlesAndAllThatDoNotMeet) {

@@ -128,8 +128,14 @@ void over_picture(const PanelModel& model, PanelView& view, PanelPages& pages, C
     } else {
         view.free.low.x = chip.x + kApart;
     }
-    if (view.statistics)
-        keep_off(statistics_window(model, free, below, pages));
+    if (!view.statistics)
+        return;
+    // Below them there is room for messages and for what a gap says, where there is none beside.
+    constexpr float kForWords = 190.0f, kFewLines = 48.0f;
+    const bool beside = view.free.high.x - statistics_end(free) >= kLeast;
+    const float highest = free.high.y - below - (beside ? 0.0f : kForWords);
+    if (highest >= kFewLines)
+        keep_off(statistics_window(model, free, below, highest, pages));
 }
 
 } // namespace

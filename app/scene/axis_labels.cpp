@@ -100,7 +100,7 @@ class Room {
         };
         for (const float higher : {0.0f, 2.0f, -2.0f, 5.0f, -5.0f}) { // heights of the text
             for (const float farther : {1.0f, 1.3f, 1.7f, 2.2f, 2.8f, -1.0f, -2.0f, -4.0f})
-                if (!best || fewest > 0)
+                if (!best || fewest >= (farther > 0.0f && higher == 0.0f ? 1 : kOtherWords))
                     consider(farther, higher);
             if (fewest < kOtherWords)
                 break;

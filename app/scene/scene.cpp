@@ -357,7 +357,7 @@ std::vector<Covered> Scene::words_in_corners(std::span<const render::View> views
 }
 
 /// The edges of the box that no cell hides. The numbers are on its outline, where no cell is in front
-/// of them or behind; titles that were moved into the picture may lie over cells, and are read there.
+/// of them or behind.
 void Scene::draw_before_cells(std::span<const render::View> views, const Picture& picture,
                               const render::Placement& placement) {
     if (!picture.bounding_box)
@@ -376,9 +376,7 @@ void Scene::draw_before_cells(std::span<const render::View> views, const Picture
         std::vector<render::ScreenQuad> quads;
         for (const render::Label& label : labels)
             text_pass_.set(label, text_height(view.size, picture.layout.text), quads);
-        text_pass_.draw(view, placement.room_from_index, quads,
-                        views.size() == 1 ? render::TextPass::Depth::none
-                                          : render::TextPass::Depth::tested,
+        text_pass_.draw(view, placement.room_from_index, quads, render::TextPass::Depth::tested,
                         views.size() == 1);
     }
 }
